@@ -60,7 +60,8 @@ using NamedImages = std::vector<std::pair<fs::path, cv::Mat>>;
 // By their final names.
 NamedImages stage_images(const ComposedFrame& frame, const FrameOptions& options) {
   const std::string base = fmt::format("frame_{}", options.frame);
-  NamedImages images{{options.folder / (base + ".png"), bgr_of(frame.image)}};
+  NamedImages images{
+      {options.folder / (base + ".png"), frame.image.bit_depth > 8 ? bgr16_of(frame.image) : bgr_of(frame.image)}};
   for (std::size_t i = 0; i < frame.stages.size(); ++i) {
     images.emplace_back(options.folder / fmt::format("{}_{:02}_{}.png", base, i, frame.stages[i].name),
                         frame.stages[i].image);

@@ -116,6 +116,7 @@ VideoFormat video_format(const ExportSettings& output, const VideoInfo& footage,
           .threads = threads,
           .size_px = footage.size_px,
           .layout = footage.layout,
+          .bit_depth = footage.bit_depth,
           .color = footage.color,
           .frame_rate_num = footage.frame_rate_num,
           .frame_rate_den = footage.frame_rate_den,
@@ -129,6 +130,7 @@ VideoFormat mask_format(const VideoFormat& image, MasksChoice masks) {
   format.codec = masks == MasksChoice::png ? VideoCodec::png : VideoCodec::ffv1;
   format.container = Container::mkv;
   format.layout = PixelLayout::gray;
+  format.bit_depth = 8;
   format.color = {.range = ColorRange::full, .range_stated = true};
   return format;
 }

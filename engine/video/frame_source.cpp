@@ -195,7 +195,7 @@ Result<Frame> FrameSource::State::read(int n) {
   if (size != info.size_px)
     return fail(where, fmt::format("the image's size changes from {} to {}", image_size_text(info.size_px),
                                    image_size_text(size)));
-  Result<Frame> frame = libav::frame_of(image, info.layout, info.color);
+  Result<Frame> frame = libav::frame_of(image, {.layout = info.layout, .bit_depth = info.bit_depth}, info.color);
   if (!frame) return fail(where, frame.error().what);
   if (!(shown->orientation == libav::Orientation{})) frame = libav::oriented(*frame, shown->orientation);
   frame->quantisers = libav::oriented(shown->quantisers, stored_px, shown->orientation);

@@ -19,6 +19,7 @@ struct VideoInfo {
   std::filesystem::path path;
   cv::Size size_px;
   PixelLayout layout = PixelLayout::yuv420;
+  int bit_depth = 8;  // of the frames: 8 to 16, as the footage has
   ColorInfo color;
   std::vector<double> times_s;  // presentation time of each frame, in order, 0 for the first
   int frame_rate_num = 25;      // nominal rate; where the rate varies, times_s has the exact times
@@ -26,10 +27,10 @@ struct VideoInfo {
   int pixel_aspect_num = 1;  // sample aspect ratio
   int pixel_aspect_den = 1;
   bool variable_frame_rate = false;
-  std::string codec;         // "h264"
-  std::string pixel_format;  // as the decoder names it: "yuv420p10le"
-  std::string conversion;    // how other formats are converted to 8-bit planes; empty: samples are taken as they are
-  std::string container;     // "mov,mp4,..."
+  std::string codec;              // "h264"
+  std::string pixel_format;       // as the decoder names it: "yuv420p10le"
+  std::string conversion;         // how other formats are converted to planes; empty: samples are taken as they are
+  std::string container;          // "mov,mp4,..."
   long long declared_frames = 0;  // number of frames that the header states; 0: none
   std::vector<Warning> warnings;  // "header declares 444 frames, 68 are there"
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -17,9 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// One channel for gray, else BGR.
-cv::Mat stored_image(const Frame& frame) {
-  cv::Mat image = bgr_of(frame);
+// One channel for gray, else BGR, of 8 or 16 bits.
+cv::Mat stored_image(const Frame& frame, int bit_depth) {
+  cv::Mat image = bit_depth > 8 ? bgr16_of(frame) : bgr_of(frame);
   if (frame.layout == PixelLayout::gray) cv::extractChannel(image, image, 0);
   return image;
 }
@@ -50,10 +51,11 @@ const char* image_extension_of(VideoCodec codec) {
 
 Result<void> write_numbered_image(const fs::path& folder, const VideoFormat& format, const Frame& frame, int number) {
   const char* const extension = image_extension_of(format.codec);
+  const int depth = std::min({frame.bit_depth, format.max_bit_depth, max_bit_depth(format.codec)});
   const fs::path path = folder / fmt::format("frame_{:06}{}", number, extension);
   std::vector<uchar> bytes;
   try {
-    image_codecs::imencode(extension, stored_image(frame), bytes, parameters_of(format));
+    image_codecs::imencode(extension, stored_image(frame, depth), bytes, parameters_of(format));
   } catch (const cv::Exception& problem) {
     return fail(path.string(), fmt::format("cannot be written as an image ({}): {}", extension, problem.err),
                 ErrorKind::write_failed);

@@ -92,7 +92,7 @@ Result<void> VideoWriter::write_blank(double time_s, int number) {
   return guarded([&] {
     if (state_->file) return state_->file->write_blank(time_s);
     const VideoFormat& format = state_->format;
-    Frame blank = blank_frame(format.layout, format.size_px, format.color);
+    Frame blank = blank_frame(format.layout, format.size_px, format.color, format.bit_depth);
     if (state_->y4m) return state_->y4m->write(blank);
     return write_numbered_image(state_->path, format, blank, number);
   });
@@ -105,6 +105,54 @@ Result<void> VideoWriter::finish() {
     if (state_->y4m) return state_->y4m->finish();
     return state_->file ? state_->file->finish() : Result<void>();
   });
+}
+
+int max_bit_depth(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::ffv1:
+    case VideoCodec::png:
+    case VideoCodec::tiff:
+    case VideoCodec::raw:
+      return 16;
+    case VideoCodec::hevc:
+    case VideoCodec::av1:
+      return 12;
+    case VideoCodec::h264:
+      return 10;
+    case VideoCodec::mjpeg:
+    case VideoCodec::jpeg:
+      break;
+  }
+  return 8;
+}
+
+const char* name_of(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::ffv1:
+      return "ffv1";
+    case VideoCodec::h264:
+      return "h264";
+    case VideoCodec::hevc:
+      return "hevc";
+    case VideoCodec::av1:
+      return "av1";
+    case VideoCodec::mjpeg:
+      return "mjpeg";
+    case VideoCodec::png:
+      return "png";
+    case VideoCodec::tiff:
+      return "tiff";
+    case VideoCodec::jpeg:
+      return "jpeg";
+    case VideoCodec::raw:
+      return "raw";
+  }
+  return "";
+}
+
+int max_crf(VideoCodec codec) {
+  if (codec == VideoCodec::av1) return 63;
+  return codec == VideoCodec::h264 || codec == VideoCodec::hevc ? 51 : 0;
 }
 
 const char* extension_of(Container container) {

@@ -3,14 +3,46 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <utility>
+
+#include "video/bit_depth.h"
 
 namespace sigs {
 
 namespace {
 
-// The name of a layout, as FFmpeg writes and reads it.
+static_assert(std::endian::native == std::endian::little, "y4m has words with the low byte first");
+
+// The depth in which frames are written: y4m has 8, 9, 10, 12, 14 and 16 bits, of grey 8, 9, 10, 12 and 16.
+int stored_depth(const VideoFormat& format) {
+  const int wanted = std::min(format.bit_depth, format.max_bit_depth);
+  if (wanted == 11) return 12;
+  if (wanted == 13) return format.layout == PixelLayout::gray ? 16 : 14;
+  return wanted == 15 || (wanted == 14 && format.layout == PixelLayout::gray) ? 16 : wanted;
+}
+
+// The name of a layout of more than 8 bits: "C420p10", "Cmono10".
+std::string deep_layout_text(PixelLayout layout, int bit_depth) {
+  switch (layout) {
+    case PixelLayout::gray:
+      return fmt::format("Cmono{}", bit_depth);
+    case PixelLayout::yuv420:
+      return fmt::format("C420p{}", bit_depth);
+    case PixelLayout::yuv422:
+      return fmt::format("C422p{}", bit_depth);
+    case PixelLayout::yuv444:
+      return fmt::format("C444p{}", bit_depth);
+    case PixelLayout::rgb:
+      break;
+  }
+  return {};
+}
+
+// The name of a layout, as FFmpeg writes and reads it. Only 4:2:0 of 8 bits has chroma sites.
 std::string layout_text(const VideoFormat& format) {
+  if (const int depth = stored_depth(format); depth > 8) return deep_layout_text(format.layout, depth);
   switch (format.layout) {
     case PixelLayout::gray:
       return "Cmono";
@@ -47,15 +79,16 @@ Result<Y4mFile> Y4mFile::begin(OutputStream out, const VideoFormat& format) {
   const std::string layout = layout_text(format);
   if (layout.empty())
     return fail(out.name(), "y4m has no place for RGB images; use the container nut", ErrorKind::usage);
-  Y4mFile file(std::move(out));
+  Y4mFile file(std::move(out), stored_depth(format));
   if (const Result<void> begun = file.out_.write(first_line(format, layout)); !begun) return fail(begun.error());
   return file;
 }
 
 Result<void> Y4mFile::write(const Frame& frame) {
+  const Frame stored = with_bit_depth(frame, bit_depth_);
   bytes_ = "FRAME\n";
-  for (int i = 0; i < frame.plane_count(); ++i) {
-    const cv::Mat& plane = frame.planes[static_cast<std::size_t>(i)];
+  for (int i = 0; i < stored.plane_count(); ++i) {
+    const cv::Mat& plane = stored.planes[static_cast<std::size_t>(i)];
     for (int y = 0; y < plane.rows; ++y)
       bytes_.append(plane.ptr<char>(y), static_cast<std::size_t>(plane.cols) * plane.elemSize());
   }

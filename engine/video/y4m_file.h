@@ -10,8 +10,9 @@
 namespace sigs {
 
 // Uncompressed video as mjpegtools, FFmpeg and GStreamer exchange it (yuv4mpeg(5)): a line of text with size, rate and
-// layout, then for each frame "FRAME", a line break and its planes. Frames have no times: they come at the nominal
-// rate. Matrix, primaries and transfer have no place in it; range and chroma site have.
+// layout, then for each frame "FRAME", a line break and its planes, samples of more than 8 bits in words of 16. Frames
+// have no times: they come at the nominal rate. Matrix, primaries and transfer have no place in it; range and chroma
+// site have.
 class Y4mFile {
  public:
   // Writes the first line. Errors: usage (RGB, which it has no layout for), write_failed, interrupted.
@@ -22,9 +23,10 @@ class Y4mFile {
   [[nodiscard]] Result<void> finish() { return out_.close(); }
 
  private:
-  explicit Y4mFile(OutputStream out) : out_(std::move(out)) {}
+  Y4mFile(OutputStream out, int bit_depth) : out_(std::move(out)), bit_depth_(bit_depth) {}
 
   OutputStream out_;
+  int bit_depth_ = 8;  // that is written
   std::string bytes_;  // of one frame, reused
 };
 

@@ -133,6 +133,7 @@ VideoInfo sequence_info_of(const fs::path& path, const ImageSequence& sequence, 
   info.path = path;
   info.size_px = oriented(cv::Size(frame.width, frame.height), first.orientation);
   info.layout = conversion.layout;
+  info.bit_depth = conversion.bit_depth;
   info.color = reading.color;
   info.times_s = sequence.times_s;
   info.frame_rate_num = sequence.frame_rate_num;

@@ -205,6 +205,7 @@ VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxe
   info.path = path;
   info.size_px = oriented(cv::Size(first.width, first.height), orientation);
   info.layout = conversion.layout;
+  info.bit_depth = conversion.bit_depth;
   info.color = reading.color;
   info.times_s = order.times_s;
   const AVRational rate = frame_rate_of(demuxer);

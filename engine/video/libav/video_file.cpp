@@ -134,6 +134,9 @@ Result<void> VideoFile::begin() {
   AVStream* stream = avformat_new_stream(context, nullptr);
   if (stream == nullptr || avcodec_parameters_from_context(stream->codecpar, encoder_.get()) < 0)
     throw std::bad_alloc();
+  // Apple's players need the tag hvc1, which says that the codec's parameters are in the header alone.
+  if (format_.codec == VideoCodec::hevc && format_.container == Container::mp4)
+    stream->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
   stream->time_base = tick_;
   stream->avg_frame_rate = encoder_->framerate;
   stream->sample_aspect_ratio = encoder_->sample_aspect_ratio;
@@ -169,7 +172,7 @@ FramePtr VideoFile::av_frame_of(const Frame& frame) const {
 }
 
 Result<void> VideoFile::write(const Frame& frame) {
-  ENSURE(frame.layout == format_.layout && frame.size_px() == format_.size_px);
+  ENSURE(frame.layout == format_.layout && frame.bit_depth == format_.bit_depth && frame.size_px() == format_.size_px);
   const Result<int64_t> stamp = next_stamp(frame.time_s);
   if (!stamp) return fail(stamp.error());
   const FramePtr image = av_frame_of(frame);
@@ -180,7 +183,7 @@ Result<void> VideoFile::write(const Frame& frame) {
 Result<void> VideoFile::write_blank(double time_s) {
   prepare_blanks();
   if (!blank_.empty()) return put_known(blank_, time_s);
-  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
+  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color, format_.bit_depth);
   frame.time_s = time_s;
   return write(frame);
 }
@@ -188,7 +191,7 @@ Result<void> VideoFile::write_blank(double time_s) {
 // All images are keyframes in FFV1 as it is set up here, so that the same image always gives the same packet.
 void VideoFile::prepare_blanks() {
   if (std::exchange(blanks_are_prepared_, true) || format_.codec != VideoCodec::ffv1) return;
-  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
+  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color, format_.bit_depth);
   blank_ = packet_alone(frame);
 }
 
