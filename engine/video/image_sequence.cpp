@@ -105,7 +105,7 @@ void space_evenly(ImageSequence& sequence, double rate_hz) {
 }
 
 // The nominal rate is that of the middle interval, to a thousandth; one image has the default one.
-void set_times(ImageSequence& sequence, std::vector<double> times_s) {
+void set_stated_times(ImageSequence& sequence, std::vector<double> times_s) {
   sequence.times_s = std::move(times_s);
   std::vector<double> intervals_s;
   for (std::size_t n = 1; n < sequence.times_s.size(); ++n)
@@ -143,7 +143,7 @@ Result<ImageSequence> listed_sequence(const fs::path& path, const SequenceTiming
   if (!timing.times_file.empty()) {
     Result<std::vector<double>> times_s = read_image_times(timing.times_file, sequence.files);
     if (!times_s) return fail(times_s.error());
-    set_times(sequence, std::move(*times_s));
+    set_stated_times(sequence, std::move(*times_s));
     return sequence;
   }
   const bool is_known = timing.frame_rate_hz > 0 && std::isfinite(timing.frame_rate_hz);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Videos and labels through real pipes, read by other programs: ffmpeg, GStreamer, Python, head, and readers that are
-// slow or go away.
+// Videos and labels through real pipes, read by other programs: ffmpeg, head, and readers that are slow or go
+// away.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -21,7 +21,6 @@
 #include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
-#include "docs/markdown.h"
 #include "support/files.h"
 #include "support/test_data.h"
 
@@ -176,17 +175,6 @@ ls)");
   }
 }
 
-TEST_CASE("GStreamer reads Y4M from a pipe") {
-  if (!has_program("gst-inspect-1.0 --exists y4mdec")) return;
-  const TinyProject tiny;
-  const Run run = run_bash(tiny, R"(set -eo pipefail
-$SIGS export p.json --out file --container y4m >/dev/null 2>&1
-$SIGS export p.json --out - --container y4m 2>/dev/null | gst-launch-1.0 -q fdsrc ! y4mdec ! filesink location=frames.raw
-tail -n +2 file/tiny.y4m | LC_ALL=C sed 's/^FRAME$//' | wc -c; stat -c %s frames.raw)");
-  CHECK_MESSAGE(run.status == 0, run.err);
-  CHECK(fs::file_size(tiny.file("frames.raw")) == 10 * 64 * 48 * 3 / 2);
-}
-
 TEST_CASE("a sequence of images gives the frames that the same images in a video give") {
   if (!has_program("ffmpeg -version")) return;
   const TinyProject tiny;
@@ -218,6 +206,29 @@ TEST_CASE("an export does not replace the images that it reads") {
                                        " --set name=images --out . --codec png --masks none --labels none --force");
     CHECK_MESSAGE(run.status == 73, run.err);
     CHECK(has(run.err, "read by this export"));
+  }
+}
+
+TEST_CASE("folders of labels name and link TIFF and JPEG images by their own extensions") {
+  const TinyProject tiny;
+  for (const auto& [codec, extension] : {std::pair{"tiff", ".tiff"}, std::pair{"jpeg", ".jpg"}}) {
+    for (int run = 0; run < 2; ++run)  // the second replaces what the first has written
+      REQUIRE(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --force --masks none --codec " + codec +
+                       " --labels yolo,voc,mot,kitti,vot,coco,aot")
+                  .status == 0);
+    const fs::path image = tiny.file("out/tiny/frame_000004") += extension;
+    for (const char* const link :
+         {"tiny.yolo/images/tiny/frame_000004", "tiny.voc/JPEGImages/frame_000004", "tiny.mot/tiny/img1/000005",
+          "tiny.kitti/image_02/tiny/000004", "tiny.vot/tiny/color/00000005"})
+      CHECK_MESSAGE(fs::equivalent(image, tiny.file("out") / (std::string(link) + extension)), link);
+    for (const auto& [file, text] :
+         {std::pair{"tiny.mot/tiny/seqinfo.ini", std::string("imExt=") + extension},
+          std::pair{"tiny.vot/tiny/sequence", std::string("color/%08d") + extension},
+          std::pair{"tiny.coco.json", std::string("tiny/frame_000004") + extension},
+          std::pair{"tiny.aot.json", std::string("tiny/frame_000004") + extension},
+          std::pair{"tiny.voc/Annotations/frame_000004.xml", std::string("<filename>frame_000004") + extension}})
+      CHECK_MESSAGE(has(text_of(tiny.file("out") / file), text), file);
+    fs::remove_all(tiny.out());
   }
 }
 
@@ -327,24 +338,4 @@ TEST_CASE("what cannot be streamed is refused, and so is a terminal") {
   const Run terminal = run_bash(tiny, "script -qec \"$SIGS export p.json --out -\" /dev/null </dev/null; exit $?");
   CHECK(terminal.status == 64);
   CHECK_MESSAGE(has(terminal.out, "terminal"), terminal.out);
-}
-
-TEST_CASE("the tracker in the documentation reads every frame and its label") {
-  if (!has_program("{ python3 -c 'import numpy' || /usr/bin/python3 -c 'import numpy'; }")) return;
-  const TinyProject tiny;
-  std::string code;
-  std::istringstream page_lines(page("streams.md"));
-  for (std::string line; std::getline(page_lines, line);)
-    if (!code.empty() || line.starts_with("    import json, os")) {
-      if (!line.starts_with("    ")) break;
-      code += line.substr(4) + "\n";
-    }
-  REQUIRE(has(code, "json.loads"));
-  write_file(tiny.file("tracker.py"), code);
-  const Run run = run_bash(tiny,
-                           "PATH=$(dirname $SIGS):$PATH; for p in python3 /usr/bin/python3; do $p -c 'import numpy' "
-                           "2>/dev/null && exec $p tracker.py p.json 2>err.txt; done");
-  CHECK_MESSAGE(run.status == 0, text_of(tiny.file("err.txt")));
-  CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 10);
-  CHECK(has(run.out, "'pixels'"));
 }

@@ -45,13 +45,13 @@ int brightness_of(FrameSource& source, int n) {
   return frame->planes[0].at<uchar>(5, 5);
 }
 
-Error refused(const fs::path& path, const SequenceTiming& timing = {}) {
+Error open_error(const fs::path& path, const SequenceTiming& timing = {}) {
   const Result<FrameSource> source = FrameSource::open(path, nullptr, Quantisers::leave_out, timing);
   REQUIRE_FALSE(source);
   return source.error();
 }
 
-bool says(const Error& error, const std::string& text) {
+bool error_says(const Error& error, const std::string& text) {
   return error.text().find(text) != std::string::npos;
 }
 
@@ -98,9 +98,9 @@ TEST_CASE("a missing number is an error of a pattern and a warning of a folder")
   const TemporaryFolder folder;
   write_images(folder / "a", "f_%04d.png");
   fs::remove(folder / "a/f_0007.png");
-  const Error error = refused(folder / "a/f_%04d.png");
+  const Error error = open_error(folder / "a/f_%04d.png");
   CHECK(error.kind == ErrorKind::bad_data);
-  CHECK(says(error, "f_0007.png is missing"));
+  CHECK(error_says(error, "f_0007.png is missing"));
   const FrameSource source = opened(folder / "a");
   CHECK(source.info().frame_count() == kImages - 1);
   CHECK(warns(source.info(), "f_0007.png"));
@@ -114,16 +114,16 @@ TEST_CASE("a missing number is an error of a pattern and a warning of a folder")
 TEST_CASE("folders and patterns without images, and with images of two kinds, are refused") {
   const TemporaryFolder folder;
   fs::create_directory(folder / "empty");
-  CHECK(refused(folder / "empty").kind == ErrorKind::cannot_read);
-  CHECK(says(refused(folder / "empty"), "folder"));
-  CHECK(refused(folder / "empty/%06d.png").kind == ErrorKind::cannot_read);
-  CHECK(refused(folder / "nowhere/%06d.png").kind == ErrorKind::cannot_read);
+  CHECK(open_error(folder / "empty").kind == ErrorKind::cannot_read);
+  CHECK(error_says(open_error(folder / "empty"), "folder"));
+  CHECK(open_error(folder / "empty/%06d.png").kind == ErrorKind::cannot_read);
+  CHECK(open_error(folder / "nowhere/%06d.png").kind == ErrorKind::cannot_read);
   write_images(folder / "two", "%d.png");
   write_image(folder / "two/3.jpg", 10);
-  CHECK(says(refused(folder / "two"), "several kinds"));
+  CHECK(error_says(open_error(folder / "two"), "several kinds"));
   CHECK(opened(folder / "two/%d.png").info().frame_count() == kImages);
   write_file(folder / "two/0.mkv", "");
-  CHECK(says(refused(folder / "two/%d.mkv"), "not PNG, TIFF or JPEG"));
+  CHECK(error_says(open_error(folder / "two/%d.mkv"), "not PNG, TIFF or JPEG"));
 }
 
 TEST_CASE("an image of another size is named with both sizes when it is read") {
@@ -134,9 +134,41 @@ TEST_CASE("an image of another size is named with both sizes when it is read") {
   CHECK(source.read(3));
   const Result<Frame> frame = source.read(4);
   REQUIRE_FALSE(frame);
-  CHECK(says(frame.error(), "4.png"));
-  CHECK(says(frame.error(), "48x32"));
-  CHECK(says(frame.error(), "50x32"));
+  CHECK(error_says(frame.error(), "4.png"));
+  CHECK(error_says(frame.error(), "48x32"));
+  CHECK(error_says(frame.error(), "50x32"));
+}
+
+TEST_CASE("images of 16 bits keep their samples, as OpenCV reads them") {
+  for (const char* const name : {"0.png", "0.tiff"}) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "a");
+    cv::Mat image(32, 48, CV_16UC3);
+    for (int y = 0; y < image.rows; ++y)
+      for (int x = 0; x < image.cols; ++x)
+        image.at<cv::Vec3w>(y, x) = cv::Vec3w(static_cast<ushort>(1234 * x), static_cast<ushort>(2011 * y), 4097);
+    REQUIRE(cv::imwrite((folder / "a" / name).string(), image));
+    FrameSource source = opened(folder / "a");
+    CHECK(source.info().bit_depth == 16);
+    CHECK(source.info().layout == PixelLayout::rgb);
+    const Frame frame = source.read(0).value();
+    for (int i = 0; i < 3; ++i) {
+      cv::Mat plane;
+      cv::extractChannel(image, plane, 2 - i);
+      CHECK(cv::norm(frame.planes[static_cast<std::size_t>(i)], plane, cv::NORM_INF) == 0);
+    }
+  }
+}
+
+TEST_CASE("an image of another kind among the others is named") {
+  const TemporaryFolder folder;
+  write_images(folder / "a", "%d.png", 0, 3);
+  REQUIRE(cv::imwrite((folder / "a/2.png").string(), cv::Mat(kImageSize, CV_8UC1, cv::Scalar(9))));
+  FrameSource source = opened(folder / "a");
+  const Result<Frame> frame = source.read(2);
+  REQUIRE_FALSE(frame);
+  CHECK(frame.error().kind == ErrorKind::bad_data);
+  CHECK(error_says(frame.error(), "2.png"));
 }
 
 TEST_CASE("damaged images are substituted by the last intact one before them") {
@@ -166,8 +198,8 @@ TEST_CASE("a sequence whose images are all damaged says what is wrong with the f
   const TemporaryFolder folder;
   fs::create_directory(folder / "a");
   for (const char* const name : {"0.png", "1.png"}) write_file(folder / "a" / name, "no image");
-  CHECK(says(refused(folder / "a"), "0.png"));
-  CHECK(refused(folder / "a").kind == ErrorKind::bad_data);
+  CHECK(error_says(open_error(folder / "a"), "0.png"));
+  CHECK(open_error(folder / "a").kind == ErrorKind::bad_data);
 }
 
 TEST_CASE("a pipe among the images is an error, not a wait, and a link to an image is an image") {
@@ -181,7 +213,7 @@ TEST_CASE("a pipe among the images is an error, not a wait, and a link to an ima
   const Result<Frame> pipe = source.read(3);
   REQUIRE_FALSE(pipe);
   CHECK(pipe.error().kind == ErrorKind::cannot_read);
-  CHECK(says(pipe.error(), "pipe"));
+  CHECK(error_says(pipe.error(), "pipe"));
 }
 
 TEST_CASE("a hundred thousand files are listed without being opened") {
@@ -255,12 +287,12 @@ TEST_CASE("files of times that do not fit are refused with file and line") {
         std::pair{"# [ns]\n0.5\n1\n2\n", "nanoseconds"}}) {
     CAPTURE(text);
     write_file(folder / "times.txt", text);
-    const Error error = refused(folder / "a", {.times_file = folder / "times.txt"});
+    const Error error = open_error(folder / "a", {.times_file = folder / "times.txt"});
     CHECK(error.kind == ErrorKind::bad_data);
-    CHECK(says(error, "times.txt"));
-    CHECK_MESSAGE(says(error, message), error.text());
+    CHECK(error_says(error, "times.txt"));
+    CHECK_MESSAGE(error_says(error, message), error.text());
   }
-  CHECK(refused(folder / "a", {.times_file = folder / "none.txt"}).kind == ErrorKind::cannot_read);
+  CHECK(open_error(folder / "a", {.times_file = folder / "none.txt"}).kind == ErrorKind::cannot_read);
 }
 
 }  // namespace sigs::test

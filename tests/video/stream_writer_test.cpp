@@ -90,6 +90,31 @@ TEST_CASE("NUT and Y4M files hold every sample of every layout, as FFmpeg reads 
       }
 }
 
+TEST_CASE("samples of 10, 12 and 16 bits go through NUT and Y4M as they are") {
+  for (const auto& [codec, container] :
+       {std::pair{VideoCodec::ffv1, Container::nut}, std::pair{VideoCodec::raw, Container::nut},
+        std::pair{VideoCodec::raw, Container::y4m}})
+    for (const PixelLayout layout : kLayouts)
+      for (const int bit_depth : {10, 12, 16}) {
+        if (container == Container::y4m && layout == PixelLayout::rgb) continue;
+        CAPTURE(static_cast<int>(container));
+        CAPTURE(static_cast<int>(layout));
+        CAPTURE(bit_depth);
+        const TemporaryFolder folder;
+        VideoFormat format = streamed_format(codec, container, layout, {34, 22});
+        format.bit_depth = bit_depth;
+        Result<VideoWriter> writer = VideoWriter::open(folder / "a", format);
+        REQUIRE(writer);
+        for (int n = 0; n < 3; ++n) REQUIRE(writer->write(test_frame(layout, format.size_px, n, {}, bit_depth), n));
+        REQUIRE(writer->finish());
+        FrameSource again = opened(folder / "a");
+        REQUIRE(again.info().frame_count() == 3);
+        CHECK(again.info().bit_depth == bit_depth);
+        for (int n = 0; n < 3; ++n)
+          CHECK(samples_of(again.read(n).value()) == samples_of(test_frame(layout, format.size_px, n, {}, bit_depth)));
+      }
+}
+
 TEST_CASE("Y4M states range and chroma site, and the rate as a ratio") {
   for (const auto& [color, words] :
        {std::pair{color_info(ColorRange::full, ColorMatrix::bt601, ChromaSite::center), "C420jpeg XCOLORRANGE=FULL"},
