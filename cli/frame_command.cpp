@@ -34,8 +34,7 @@ struct FrameOptions {
 };
 
 Result<ComposedFrame> composed(const Project& project, const FrameOptions& options) {
-  Result<FrameSource> source =
-      FrameSource::open(resolved(project, project.footage.video), nullptr, quantisers_for(project));
+  Result<FrameSource> source = open_footage(project, nullptr, quantisers_for(project));
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   const int count = source->info().frame_count();
   if (options.frame < 0 || options.frame >= count)

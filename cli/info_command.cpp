@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/pose.h"
 #include "base/text.h"
@@ -149,7 +150,8 @@ struct InfoOptions {
 Result<void> info(const InfoOptions& options) {
   const std::filesystem::path& path = options.path;
   std::error_code code;
-  if (!std::filesystem::exists(path, code)) return fail(path.string(), "no such file", ErrorKind::cannot_read);
+  if (!std::filesystem::exists(path, code) && !is_number_pattern(path))
+    return fail(path.string(), "no such file", ErrorKind::cannot_read);
   const std::string extension = lower_extension(path);
   if (extension == ".obj") {
     const Result<Mesh> mesh = read_obj(path);

@@ -67,9 +67,10 @@ bool open_with_desktop(const fs::path& path) {
 }
 
 // In the order of the project's choices.
-constexpr std::array kCodecs{"ffv1 (lossless)",     "h264 (small)", "hevc (smaller, slower)",
-                             "av1 (smaller, slow)", "mjpeg",        "png (numbered images)"};
-constexpr std::array kContainers{"auto", "mkv", "mp4", "avi"};
+constexpr std::array kCodecs{
+    "ffv1 (lossless)",       "h264 (small)",           "hevc (smaller, slower)", "av1 (smaller, slow)", "mjpeg",
+    "png (numbered images)", "tiff (numbered images)", "jpeg (numbered images)", "raw (uncompressed)"};
+constexpr std::array kContainers{"auto", "mkv", "mp4", "avi", "nut", "y4m"};
 constexpr std::array kMasks{"none", "video", "png (numbered images)"};
 
 template <class Choice, std::size_t N>
@@ -174,11 +175,11 @@ void draw_video_choices(const ViewContext& context) {
       p.output.codec = codec;
       if (const int worst = max_crf(video_codec_of(codec)); worst > 0) p.output.crf = std::min(p.output.crf, worst);
     });
-  if (output.codec == CodecChoice::png) return;
+  if (writes_images(output.codec)) return;
   ImGui::SameLine();
   if (choose(context, "container", kContainers, output.container, scaled(90)))
     context.edits.change("container", [container = output.container](Project& p) { p.output.container = container; });
-  tooltip_for_item("Container; auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg");
+  tooltip_for_item("Container; auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for raw");
   const int worst = max_crf(video_codec_of(output.codec));
   if (worst == 0) return;
   ImGui::SetNextItemWidth(scaled(210));

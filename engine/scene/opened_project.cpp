@@ -80,8 +80,7 @@ Result<void> check_interrupt(const std::atomic<bool>* cancel) {
 
 Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel) {
   if (const Result<void> valid = check_valid(project); !valid) return fail(valid.error());
-  Result<FrameSource> source =
-      FrameSource::open(resolved(project, project.footage.video), cancel, quantisers_for(project));
+  Result<FrameSource> source = open_footage(project, cancel, quantisers_for(project));
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   SceneFiles files;
@@ -99,6 +98,16 @@ Quantisers quantisers_for(const Project& project) {
   const CodecMatchSettings& codec = project.appearance.codec;
   const bool direct = project.compositing.method == MethodChoice::direct;
   return direct && codec.match != CodecMatchChoice::none ? Quantisers::read : Quantisers::leave_out;
+}
+
+SequenceTiming timing_of(const Project& project) {
+  const FootageSettings& footage = project.footage;
+  return {.frame_rate_hz = footage.frame_rate_hz.value_or(0),
+          .times_file = footage.timestamps.empty() ? fs::path() : resolved(project, footage.timestamps)};
+}
+
+Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel, Quantisers quantisers) {
+  return FrameSource::open(resolved(project, project.footage.video), cancel, quantisers, timing_of(project));
 }
 
 FootageShape shape_of(const VideoInfo& video) {
@@ -127,6 +136,12 @@ VideoCodec video_codec_of(CodecChoice choice) {
       return VideoCodec::mjpeg;
     case CodecChoice::png:
       return VideoCodec::png;
+    case CodecChoice::tiff:
+      return VideoCodec::tiff;
+    case CodecChoice::jpeg:
+      return VideoCodec::jpeg;
+    case CodecChoice::raw:
+      return VideoCodec::raw;
   }
   return VideoCodec::ffv1;
 }
@@ -222,6 +237,9 @@ std::vector<fs::path> files_read_by(const Project& project) {
     const fs::path file = resolved(project, *std::get<std::string*>(field.value));
     if (file.empty()) continue;
     files.push_back(file);
+    if (field.key == "footage.video" && is_image_sequence(file))
+      if (const Result<std::vector<fs::path>> images = files_of_sequence(file))
+        files.insert(files.end(), images->begin(), images->end());
     if (!field.key.ends_with("model.file")) continue;
     if (const Result<std::vector<fs::path>> more = files_of_model(file))
       files.insert(files.end(), more->begin(), more->end());

@@ -48,6 +48,14 @@ struct OpenedProject {
 // Whether the frames of a project's footage need their quantisers: where the codec match is to be by the footage's own.
 [[nodiscard]] Quantisers quantisers_for(const Project& project);
 
+// The footage of a project: a video, or images with the times that the project states. Errors and arguments are those of
+// FrameSource::open(); they do not name the project.
+[[nodiscard]] Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel = nullptr,
+                                               Quantisers quantisers = Quantisers::leave_out);
+
+// The times that settings state of footage in images; the file of times is the project's.
+[[nodiscard]] SequenceTiming timing_of(const Project& project);
+
 // What a scene has to know of a video.
 [[nodiscard]] FootageShape shape_of(const VideoInfo& video);
 

@@ -33,7 +33,7 @@ TEST_CASE("standard output is refused as an output, and no folder named - is cre
   const TinyProject tiny;
   const std::string here = "cd '" + tiny.file("").string() + "' && ";
   const std::string sigs = (build_dir() / "sigs").string();
-  for (const char* command : {" export p.json", " frame p.json --frame 2", " mask clip.mkv"}) {
+  for (const char* command : {" export p.json --masks png", " frame p.json --frame 2", " mask clip.mkv"}) {
     CAPTURE(command);
     CHECK(std::system((here + sigs + command + " --out - 2>err.txt").c_str()) == 64 * 256);
     CHECK(has(read_text(tiny.file("err.txt")).value(), "standard output"));

@@ -76,7 +76,11 @@ const char* encoder_of(VideoCodec codec) {
       return "libaom-av1";
     case VideoCodec::mjpeg:
       return "mjpeg";
+    case VideoCodec::raw:
+      return "rawvideo";
     case VideoCodec::png:
+    case VideoCodec::tiff:
+    case VideoCodec::jpeg:
       break;
   }
   ENSURE(false);
@@ -108,6 +112,17 @@ Result<void> choose_format(Encoding& encoding, const AVCodec& encoder, int wante
               ErrorKind::unavailable);
 }
 
+// Planes as the footage has them, of the wanted depth or the next higher one that FFmpeg has; 8-bit RGB packed, which
+// more programs read than its planes.
+void choose_raw_format(Encoding& encoding, int wanted_depth) {
+  for (encoding.bit_depth = wanted_depth; encoding.bit_depth <= 16; ++encoding.bit_depth) {
+    const bool is_packed = encoding.layout == PixelLayout::rgb && encoding.bit_depth == 8;
+    encoding.pixel_format = is_packed ? AV_PIX_FMT_RGB24 : pixel_format_of(encoding.layout, encoding.bit_depth);
+    if (encoding.pixel_format != AV_PIX_FMT_NONE) return;
+  }
+  ENSURE(false);  // there is each layout of 16 bits
+}
+
 bool means_the_same(const ColorInfo& a, const ColorInfo& b, PixelLayout layout) {
   return a.range == b.range && a.matrix == b.matrix &&
          (a.chroma_site == b.chroma_site || layout == PixelLayout::yuv444);
@@ -125,12 +140,12 @@ Frame with_neutral_chroma(const Frame& gray, PixelLayout layout) {
 }  // namespace
 
 Result<Encoding> encoding_for(const VideoFormat& format) {
-  ENSURE(format.codec != VideoCodec::png);
+  ENSURE(format.codec != VideoCodec::png && format.codec != VideoCodec::tiff && format.codec != VideoCodec::jpeg);
   if (const Result<void> pair = check_pair(format); !pair) return fail(pair.error());
   Encoding encoding{.encoder = encoder_of(format.codec), .layout = format.layout, .color = format.color};
   if (format.codec == VideoCodec::mjpeg)
     make_jpeg(encoding);
-  else if (format.codec != VideoCodec::ffv1)
+  else if (format.codec != VideoCodec::ffv1 && format.codec != VideoCodec::raw)
     make_playable(encoding);
   if (const Result<void> size = check_size(format, encoding); !size) return fail(size.error());
   const AVCodec* const encoder = avcodec_find_encoder_by_name(encoding.encoder);
@@ -138,6 +153,8 @@ Result<Encoding> encoding_for(const VideoFormat& format) {
     return fail("", fmt::format("this FFmpeg has no encoder {}", encoding.encoder), ErrorKind::unavailable);
   if (format.codec == VideoCodec::mjpeg) {
     encoding.pixel_format = jpeg_format(encoding.layout);
+  } else if (format.codec == VideoCodec::raw) {
+    choose_raw_format(encoding, std::min(format.bit_depth, format.max_bit_depth));
   } else {
     const int depth = std::min(format.bit_depth, format.max_bit_depth);
     if (const Result<void> chosen = choose_format(encoding, *encoder, depth); !chosen) return fail(chosen.error());
