@@ -150,8 +150,8 @@ namespace {
 
 std::string codecs_of_depth(int bit_depth) {
   std::vector<std::string_view> names;
-  for (const VideoCodec codec :
-       {VideoCodec::ffv1, VideoCodec::h264, VideoCodec::hevc, VideoCodec::av1, VideoCodec::png})
+  for (const VideoCodec codec : {VideoCodec::ffv1, VideoCodec::h264, VideoCodec::hevc, VideoCodec::av1, VideoCodec::png,
+                                 VideoCodec::tiff, VideoCodec::raw})
     if (max_bit_depth(codec) >= bit_depth) names.emplace_back(name_of(codec));
   return listed(names);
 }
