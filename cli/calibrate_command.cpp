@@ -15,7 +15,8 @@ constexpr const char* kCalibrateFooter =
     "Examples:\n"
     "  sigs calibrate board.mp4 --board chessboard --corners 9x6 --square-m 0.025 --out camera.xml\n"
     "  sigs calibrate board.mp4 --board charuco --corners 10x7 --square-m 0.03 --marker-m 0.022 \\\n"
-    "    --dictionary DICT_5X5_100 --out camera.xml --plot residuals.png";
+    "    --dictionary DICT_5X5_100 --out camera.xml --plot residuals.png\n"
+    "  sigs calibrate flight.mp4 --out rough.xml --json rough.json";
 
 // What the board is, and which lens is fitted to it.
 void add_board_options(CLI::App& command, CalibrateOptions& options) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,11 @@ struct CalibrateOptions {
   std::string dictionary;                     // empty: not given
   std::string model = "auto";
   std::filesystem::path out;
-  std::filesystem::path plot;  // empty: none
-  std::filesystem::path json;  // likewise
+  std::filesystem::path plot;     // empty: none
+  std::filesystem::path json;     // likewise
+  std::filesystem::path log;      // without a board: with angular rates; empty: the video's own
+  std::optional<double> fov_deg;  // without a board: horizontal field of view that the user knows
+  int max_frames = 1800;          // without a board: that are looked at
   bool force = false;
   std::string progress = "auto";
 };
