@@ -9,6 +9,7 @@ namespace {
 
 constexpr const char* kProgramFooter =
     "Examples:\n"
+    "  sigs init flight.mp4\n"
     "  sigs export projects/crossing/crossing.json --out out\n"
     "  sigs export projects/head-on/head-on.json --out out --codec h264 --frames 0-99\n"
     "  sigs frame projects/crossing/crossing.json --frame 100 --stages --out out\n"
@@ -40,10 +41,10 @@ Program make_program() {
   program.app->require_subcommand(1);
   program.app->footer(kProgramFooter);
   for (const auto add :
-       {add_export_command, add_frame_command, add_mask_command, add_occluder_command, add_dataset_command,
-        add_evaluate_command, add_check_command, add_info_command, add_telemetry_command, add_ego_motion_command,
-        add_appearance_command, add_path_command, add_calibrate_command, add_compare_command, add_encounter_command,
-        add_encounter_model_command}) {
+       {add_init_command, add_export_command, add_frame_command, add_mask_command, add_occluder_command,
+        add_dataset_command, add_evaluate_command, add_check_command, add_info_command, add_telemetry_command,
+        add_ego_motion_command, add_appearance_command, add_path_command, add_calibrate_command, add_compare_command,
+        add_encounter_command, add_encounter_model_command}) {
     Command run = add(*program.app);
     program.commands.push_back({program.app->get_subcommands({}).back(), std::move(run)});
   }
