@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/resources.h"
 #include "editor/app/shortcuts.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
@@ -105,7 +106,7 @@ App::App(Window& window, Settings settings, ProbeWriter probe)
       appearance_(edits_, [] { Window::wake(); }),
       scoring_([] { Window::wake(); }),
       shell_(document_, settings_,
-             {.samples = SIGS_PROJECTS_DIR,
+             {.samples = resource_file("projects").value_or(std::filesystem::path()),
               .recovery_folder = recovery_folder(),
               .version = SIGS_VERSION,
               .help = help_lines(),
