@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "project/project.h"
+#include "scene/visibility.h"
+
+namespace sigs {
+
+// From a clip to a project that opens, checks and exports: `sigs init`, and the editor's "New project".
+//
+// What is not given is taken from the footage where the file tells it (field of view, flight log), else guessed, and
+// every guess is listed. The camera is a calibration beside the project; one intruder flies in view during most of the
+// frames used, 20 to 60 px wide at its closest; the light is found in a few frames.
+
+struct FirstProjectOptions {
+  std::filesystem::path video;
+  std::filesystem::path calibration;         // empty: none is given
+  std::optional<double> horizontal_fov_deg;  // of the footage, 1 to 359; not together with a calibration
+  std::filesystem::path model;               // OBJ; empty: the sample light aircraft, copied beside the project
+  std::filesystem::path out;                 // the project file; empty: NAME/NAME.json in the current folder
+  std::string name;                          // empty: the project file's or else the video's name without extension
+  bool overwrite = false;                    // whether files of these names are replaced
+};
+
+struct FirstProjectControl {
+  // done of total steps, and what is done next: "reading the video"; called on the calling thread. May be empty.
+  std::function<void(int done, int total, const std::string& step)> progress;
+  const std::atomic<bool>* cancel = nullptr;  // set to true: ends soon with the error `interrupted`; may be null
+};
+
+// One thing that was decided for the user.
+struct FirstProjectNote {
+  std::string field;      // of the project: "footage.calibration", "intruders[0].model.forward"
+  std::string text;       // what, why, and where it is a guess, what to do about it; one line
+  bool is_guess = false;  // false: the file states it, or it was measured
+};
+
+// A file that is made beside the project file: a text, or a copy of another file.
+struct FirstProjectFile {
+  std::filesystem::path path;  // absolute
+  std::string content;
+  std::filesystem::path copy_of;  // empty: `content` is written
+};
+
+struct FirstProject {
+  Project project;                      // `file` is the absolute path that it has or will have
+  std::vector<FirstProjectNote> notes;  // in the order of the project's fields
+  std::vector<FirstProjectFile> files;  // calibration, model, text of the notes
+  Visibility visibility;                // of the intruder, estimated as `sigs check` does
+  std::vector<Warning> warnings;        // of the files that were read
+};
+
+// Plans the project; nothing is written. Reads the video's index, its log and at most 9 of its frames.
+// Errors: usage (options that contradict each other), cannot_read, bad_data (a calibration for another shape of
+// images, which names both; a model without a size), interrupted.
+[[nodiscard]] Result<FirstProject> planned_first_project(const FirstProjectOptions& options,
+                                                         const FirstProjectControl& control = {});
+
+// Writes the project file and its other files, all of them or none, making folders where there are none. Paths in the
+// project are relative to its folder, so it can move together with the video. Files of the sample model that are there
+// already with the same content are left alone. Errors: cannot_create (a file is there already and options.overwrite
+// is false), write_failed.
+[[nodiscard]] Result<void> write_first_project(const FirstProject& planned, bool overwrite);
+
+// Both, one after the other.
+[[nodiscard]] Result<FirstProject> make_first_project(const FirstProjectOptions& options,
+                                                      const FirstProjectControl& control = {});
+
+}  // namespace sigs
