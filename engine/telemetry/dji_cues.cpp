@@ -173,6 +173,17 @@ void read_attitudes(std::string_view text, DjiValues& values) {
   values.airframe_roll_pitch_yaw_deg = pry("F.PRY");
 }
 
+// "fnum : 280, focal_len : 240" is 2.8 and 24 mm, "fnum: 1.7, focal_len: 24.00" as it stands; "dzoom_ratio: 10000"
+// is 1.
+void read_focal_length(std::string_view text, DjiValues& values) {
+  const std::optional<double> focal_length = number_of(text, "focal_len");
+  if (!focal_length || *focal_length <= 0) return;
+  const bool is_scaled = number_of(text, "fnum").value_or(0) >= 100;
+  double zoom = number_of(text, "dzoom_ratio").value_or(1);
+  if (zoom >= 1000) zoom /= 10000;
+  values.focal_length_35mm_mm = *focal_length / (is_scaled ? 10 : 1) * (zoom >= 1 ? zoom : 1);
+}
+
 // "2017.8.5 14:11:51", "2022-08-07 13:40:40,774,808" (milliseconds, microseconds), "2026-05-27 13:10:00.015".
 std::optional<double> taken_date(std::string_view text) {
   const auto number = [&](std::size_t least, std::size_t most) { return taken_digits(text, least, most); };
@@ -260,6 +271,7 @@ DjiValues dji_values(std::string_view text) {
   read_place(text, values);
   read_heights(text, values);
   read_exposure(text, values);
+  read_focal_length(text, values);
   read_attitudes(text, values);
   values.local_time_s = date_in(text);
   return values;

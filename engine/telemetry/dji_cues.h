@@ -43,7 +43,8 @@ struct DjiValues {
   std::optional<double> exposure_s;                                // shutter, Shutter, TV, SS
   std::optional<std::array<double, 3>> gimbal_roll_pitch_yaw_deg;  // gb_roll.., G.PRY
   std::optional<std::array<double, 3>> airframe_roll_pitch_yaw_deg;  // F.PRY
-  std::optional<double> local_time_s;                                // the date, counted as if it were UTC
+  std::optional<double> focal_length_35mm_mm;  // focal_len, with the digital zoom: for a sensor 36 mm wide
+  std::optional<double> local_time_s;          // the date, counted as if it were UTC
 };
 
 [[nodiscard]] DjiValues dji_values(std::string_view text);

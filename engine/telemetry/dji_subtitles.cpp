@@ -41,6 +41,17 @@ const HeightKind* height_kind(const std::vector<DjiValues>& all) {
   return nullptr;
 }
 
+// The first focal length that the subtitles state. Focal lengths "as of 35 mm cameras" are for a sensor 36 mm wide.
+std::optional<LoggedLens> lens_in(const std::vector<DjiValues>& all) {
+  constexpr double kHalfSensor_mm = 18;
+  for (const DjiValues& values : all)
+    if (values.focal_length_35mm_mm)
+      return LoggedLens{
+          .source = "focal_len, " + number_text(*values.focal_length_35mm_mm, 1) + " mm before a sensor 36 mm wide",
+          .horizontal_fov_rad = 2 * std::atan(kHalfSensor_mm / *values.focal_length_35mm_mm)};
+  return std::nullopt;
+}
+
 glm::dquat attitude_of_deg(const std::array<double, 3>& roll_pitch_yaw_deg) {
   return rotation_of({.roll_rad = rad_of_deg(roll_pitch_yaw_deg[0]),
                       .pitch_rad = rad_of_deg(roll_pitch_yaw_deg[1]),
@@ -62,6 +73,7 @@ class DjiReading {
 
   Track track(const std::filesystem::path& file) {
     Track track{.file = file, .format = "DJI subtitles", .on_footage_time = true};
+    track.lens = lens_in(all_);
     const HeightKind* const height = height_kind(all_);
     for (std::size_t i = 0; i < all_.size(); ++i) take(i, height);
     finish(track.position, places_, track);

@@ -135,6 +135,9 @@ Result<Track> klv_track(const std::vector<TimedKlvPacket>& packets, const std::f
   const bool on_footage_time = !packets.empty() && std::all_of(packets.begin(), packets.end(),
                                                                [](const auto& timed) { return timed.footage_s; });
   Track track{.file = file, .format = "MISB ST 0601", .on_footage_time = on_footage_time};
+  for (const TimedKlvPacket& timed : packets)
+    if (const std::optional<double>& fov_deg = timed.packet.horizontal_fov_deg; !track.lens && fov_deg && *fov_deg > 0)
+      track.lens = LoggedLens{.source = "tag 16", .horizontal_fov_rad = rad_of_deg(*fov_deg)};
   const bool by_ellipsoid = has_ellipsoid_heights(packets);
   add_utc(track, packets, on_footage_time);
   const double zero_s = on_footage_time ? 0 : track.utc_at_zero_s.value_or(0);

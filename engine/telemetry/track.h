@@ -26,6 +26,15 @@ struct Channel {
   [[nodiscard]] bool empty() const { return values.empty(); }
 };
 
+// The field of view that a log states of the camera: one of the two angles. It is the maker's figure, rounded, of the
+// whole image.
+struct LoggedLens {
+  std::string source;                             // "focal_len, 24 mm before a sensor 36 mm wide"
+  std::optional<double> horizontal_fov_rad = {};  // across the image
+  std::optional<double> diagonal_fov_rad = {};    // from corner to corner
+  bool is_fisheye = false;                        // the image is not that of a pinhole: straight lines are curved
+};
+
 // A flight as a log tells it, in neutral units and axes, whatever the format. NED: north, east, down, tangent to the
 // ellipsoid at the place. Camera and airframe axes: X forward (along the optical axis, out of the nose), Y right, Z
 // down (docs/frames-and-units.md).
@@ -57,6 +66,7 @@ struct Track {
   Channel<glm::dvec3> airframe_force_mps2 = {};
   Channel<glm::dvec3> camera_gravity = {};  // unit vector downwards in camera axes (GPMF GRAV)
   Channel<double> exposure_s = {};
+  std::optional<LoggedLens> lens = {};   // at its first sample
   std::optional<double> readout_s = {};  // of the rolling shutter, first to last row
 
   // What is wrong or doubtful, each with its channel and time: GPS without fix, places at 0/0, jumps of the clock,
