@@ -137,7 +137,7 @@ LabelSequence label_sequence(const Project& project, const VideoInfo& footage, c
                          .categories = categories_of(project),
                          .video = has_images ? std::string() : output,
                          .channels = footage.layout == PixelLayout::gray ? 1 : 3,
-                         .image_extension = has_images ? image_extension_of(codec_of(project.output.codec)) : ".png",
+                         .image_extension = has_images ? image_extension_of(video_codec_of(project.output.codec)) : ".png",
                          .images = project.name,
                          .own_body = scene.own_body,
                          .camera = scene.camera,
