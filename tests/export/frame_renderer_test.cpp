@@ -13,12 +13,12 @@
 namespace sigs::test {
 namespace {
 
-constexpr int kClipFrames = 6;
-const cv::Size kClipSize(160, 120);
+constexpr int kFlightFrames = 6;
+const cv::Size kFlightSize(160, 120);
 
 // Two aircraft that fly through a clip of six frames.
 void prepare_flight(Scenario& scenario) {
-  write_footage(scenario.path("footage.mkv"), kClipSize, kClipFrames, PixelLayout::yuv420);
+  write_footage(scenario.path("footage.mkv"), kFlightSize, kFlightFrames, PixelLayout::yuv420);
   write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
   scenario.project.camera.speed_mps = 20;
   scenario.add("aircraft.obj", {}).trajectory.waypoints = {{.frame = 0, .position_m = {60, -6, -148}},
@@ -44,10 +44,10 @@ std::vector<ComposedFrame> streamed(const Project& project, int jobs) {
 }  // namespace
 
 TEST_CASE("frames rendered one by one in any order are those of the stream") {
-  Scenario scenario(kClipSize, kClipFrames);
+  Scenario scenario(kFlightSize, kFlightFrames);
   prepare_flight(scenario);
   const std::vector<ComposedFrame> all = streamed(scenario.project, 2);
-  REQUIRE(all.size() == kClipFrames);
+  REQUIRE(all.size() == kFlightFrames);
   FrameRenderer renderer;
   for (const int frame : {4, 0, 5, 4, 1}) {
     const ComposedFrame one = rendered(renderer, scenario.project, frame);
@@ -60,7 +60,7 @@ TEST_CASE("frames rendered one by one in any order are those of the stream") {
 }
 
 TEST_CASE("a stream that is closed early ends its threads, and one can be started again") {
-  Scenario scenario(kClipSize, kClipFrames);
+  Scenario scenario(kFlightSize, kFlightFrames);
   prepare_flight(scenario);
   FrameStream stream = FrameStream::open(scenario.project).value();
   for (int pass = 0; pass < 2; ++pass) {
@@ -68,11 +68,11 @@ TEST_CASE("a stream that is closed early ends its threads, and one can be starte
     CHECK(stream.next().value()->truth.index == 0);
     CHECK(stream.next().value()->truth.index == 1);
   }
-  CHECK(stream.range().last == kClipFrames - 1);
+  CHECK(stream.range().last == kFlightFrames - 1);
 }
 
 TEST_CASE("a trajectory that changes from frame to frame uploads no mesh again") {
-  Scenario scenario(kClipSize, kClipFrames);
+  Scenario scenario(kFlightSize, kFlightFrames);
   prepare_flight(scenario);
   FrameRenderer renderer;
   CHECK(rendered(renderer, scenario.project, 2).op_counts.bytes_uploaded > 0);
@@ -87,7 +87,7 @@ TEST_CASE("a trajectory that changes from frame to frame uploads no mesh again")
 }
 
 TEST_CASE("an edited project is rendered as if it had been opened anew") {
-  Scenario scenario(kClipSize, kClipFrames);
+  Scenario scenario(kFlightSize, kFlightFrames);
   prepare_flight(scenario);
   FrameRenderer renderer;
   static_cast<void>(rendered(renderer, scenario.project, 3));
@@ -105,7 +105,7 @@ TEST_CASE("an edited project is rendered as if it had been opened anew") {
 }
 
 TEST_CASE("poses hold for their call alone") {
-  Scenario scenario(kClipSize, kClipFrames);
+  Scenario scenario(kFlightSize, kFlightFrames);
   prepare_flight(scenario);
   FrameRenderer renderer;
   const ComposedFrame before = rendered(renderer, scenario.project, 3);
@@ -115,18 +115,18 @@ TEST_CASE("poses hold for their call alone") {
 }
 
 TEST_CASE("an error leaves a renderer that goes on") {
-  Scenario scenario(kClipSize, kClipFrames);
+  Scenario scenario(kFlightSize, kFlightFrames);
   prepare_flight(scenario);
   FrameRenderer renderer;
   const ComposedFrame before = rendered(renderer, scenario.project, 3);
-  write_footage(scenario.path("short.mkv"), kClipSize, 2, PixelLayout::yuv420);
+  write_footage(scenario.path("short.mkv"), kFlightSize, 2, PixelLayout::yuv420);
   Project wrong = scenario.project;
   wrong.footage.video = "short.mkv";
   wrong.intruders[0].model.file = "none.obj";
   CHECK(renderer.render(wrong, 0).error().kind == ErrorKind::cannot_read);
   wrong.footage.video = "none.mkv";
   CHECK(renderer.render(wrong, 0).error().kind == ErrorKind::cannot_read);
-  for (const int frame : {-1, kClipFrames}) {
+  for (const int frame : {-1, kFlightFrames}) {
     const Result<ComposedFrame> none = renderer.render(scenario.project, frame);
     REQUIRE(!none);
     CHECK(none.error().kind == ErrorKind::usage);
