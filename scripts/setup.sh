@@ -11,13 +11,15 @@ sigs_packages_programs=(
   libopencv-dev libopencv-contrib-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libglm-dev libtinyobjloader-dev libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev libfmt-dev libeigen3-dev libgeographiclib-dev
+  pybind11-dev python3-dev python3-numpy
   libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
 )
 # doctest; Embree for the reference renderer; FFmpeg's, GeographicLib's and libxml2's programs as independent checks; Xvfb and xdotool for the
-# window; gnuplot for plots of reports; Slurm for a dataset made by an array job.
+# window; gnuplot for plots of reports; Slurm for a dataset made by an array job; Python's tools for the wheel and types.
 sigs_packages_tests=(
   doctest-dev libembree-dev ffmpeg geographiclib-tools libxml2-utils xvfb xdotool gnuplot-nox
   slurmctld slurmd slurm-client munge
+  python3-build python3-venv python3-pip mypy
 )
 
 sigs_as_root() {

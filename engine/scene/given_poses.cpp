@@ -15,15 +15,15 @@ namespace {
 constexpr double kFarthestGiven_m = 1e8;  // as for positions of projects
 constexpr double kFastestGiven_mps = 1e6;
 
-bool is_within(const glm::dvec3& v, double limit) {  // false for NaN
+bool lies_within(const glm::dvec3& v, double limit) {  // false for NaN
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
 
 Result<void> check_given(const GivenPose& pose, const std::string& body) {
   const Attitude& attitude = pose.attitude;
-  if (!is_within(pose.position_m, kFarthestGiven_m))
+  if (!lies_within(pose.position_m, kFarthestGiven_m))
     return fail(body, "position_m must be three numbers, each within 1e8 m of the world's origin", ErrorKind::usage);
-  if (!is_within(pose.velocity_mps, kFastestGiven_mps))
+  if (!lies_within(pose.velocity_mps, kFastestGiven_mps))
     return fail(body, "velocity_mps must be three numbers, each within 1e6 m/s", ErrorKind::usage);
   if (!std::isfinite(attitude.roll_rad) || !std::isfinite(attitude.pitch_rad) || !std::isfinite(attitude.yaw_rad))
     return fail(body, "roll, pitch and yaw must be finite numbers", ErrorKind::usage);

@@ -159,7 +159,8 @@ class Intruder:
     def waypoints(self) -> Waypoints:
         """Frames and positions of its waypoints: copies; assign to change them.
 
-        Assign Waypoints, or (frames, positions_m); frames may be None, and NaN in it: spread evenly.
+        Assign Waypoints(frames, positions_m), or a tuple of both; where frames is None, or NaN in it, the frame is
+        chosen by even spacing.
         """
         return Waypoints(*self._project._inside.waypoints(self._index))
 

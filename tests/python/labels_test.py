@@ -2,7 +2,11 @@
 """Label files read back: against the file itself, against another format, and broken ones."""
 
 import math
+import pathlib
+import shutil
+import tempfile
 import unittest
+import warnings
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -11,19 +15,19 @@ import support
 import sigs
 
 
-class ReadLabels(support.InFolder):
+class ReadLabels(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        super().setUpClass()
-        cls.project = sigs.open(support.SOURCE / "projects/two-intruders/two-intruders.json")
-        cls.project["export.labels"] = ["xml", "coco"]
-        cls.project["export.encounter"] = ["dwc-en-route", "nmac"]
-        cls.project["name"] = "two"
-
-    def setUp(self):
-        super().setUp()
-        sigs.export(self.project, self.folder, frames=range(40, 52))
-        self.labels = sigs.read_labels(self.folder / "two.xml")
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="sigs_python_"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+        project = sigs.open(support.SOURCE / "projects/two-intruders/two-intruders.json")
+        project["export.labels"] = ["xml", "coco"]
+        project["export.encounter"] = ["dwc-en-route", "nmac"]
+        project["name"] = "two"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", sigs.ProjectWarning)  # labels that name images
+            sigs.export(project, cls.folder, frames=range(40, 52))
+        cls.labels = sigs.read_labels(cls.folder / "two.xml")
 
     def test_every_number_of_the_file_is_there(self):
         root = ElementTree.parse(self.folder / "two.xml").getroot()

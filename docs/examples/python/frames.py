@@ -14,7 +14,7 @@ def main(path: str) -> None:
 
     airliner = project.intruders[0]
     frames, positions_m = airliner.waypoints
-    airliner.waypoints = (frames, positions_m + [0, 20, 0])  # 20 m to the right
+    airliner.waypoints = sigs.Waypoints(frames, positions_m + [0, 20, 0])  # 20 m to the right
 
     for frame in project.frames(range(90, 100)):
         intruder = frame.truth.intruder(airliner.name)
