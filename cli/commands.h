@@ -25,6 +25,7 @@ using Command = std::function<Result<void>()>;
 [[nodiscard]] Command add_export_command(CLI::App& program);           // sigs export
 [[nodiscard]] Command add_frame_command(CLI::App& program);            // sigs frame
 [[nodiscard]] Command add_info_command(CLI::App& program);             // sigs info
+[[nodiscard]] Command add_init_command(CLI::App& program);             // sigs init
 [[nodiscard]] Command add_mask_command(CLI::App& program);             // sigs mask
 [[nodiscard]] Command add_occluder_command(CLI::App& program);         // sigs occluder
 [[nodiscard]] Command add_path_command(CLI::App& program);             // sigs path

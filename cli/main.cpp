@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* kProgramFooter =
     "Examples:\n"
+    "  sigs init flight.mp4\n"
     "  sigs export projects/crossing/crossing.json --out out\n"
     "  sigs export projects/head-on/head-on.json --out out --codec h264 --frames 0-99\n"
     "  sigs frame projects/crossing/crossing.json --frame 100 --stages --out out\n"
@@ -51,19 +52,20 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kProgramFooter);
   std::vector<AddedCommand> commands;
-  for (const auto add : {add_export_command, add_frame_command, add_mask_command, add_occluder_command,
-                         add_dataset_command, add_evaluate_command, add_check_command, add_info_command,
-                         add_telemetry_command, add_ego_motion_command, add_appearance_command, add_path_command,
-                         add_compare_command, add_encounter_command, add_encounter_model_command}) {
+  for (const auto add : {add_init_command, add_export_command, add_frame_command, add_mask_command,
+                         add_occluder_command, add_dataset_command, add_evaluate_command, add_check_command,
+                         add_info_command, add_telemetry_command, add_ego_motion_command, add_appearance_command,
+                         add_path_command, add_compare_command, add_encounter_command, add_encounter_model_command}) {
     Command run = add(program);
     commands.push_back({program.get_subcommands({}).back(), std::move(run)});
   }
   const auto is_asked_for = [&](const AddedCommand& command) { return command.app->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && std::none_of(commands.begin(), commands.end(), is_asked_for)) {
-    print_error({argv[1],
-                 "no such command; there are export, frame, mask, occluder, dataset, evaluate, check, info, telemetry, "
-                 "ego-motion, appearance, path, compare, encounter and encounter-model",
-                 sigs::ErrorKind::usage});
+    print_error(
+        {argv[1],
+         "no such command; there are init, export, frame, mask, occluder, dataset, evaluate, check, info, telemetry, "
+         "ego-motion, appearance, path, compare, encounter and encounter-model",
+         sigs::ErrorKind::usage});
     return static_cast<int>(sigs::ErrorKind::usage);
   }
   if (argc > 2 && argv[1] == std::string_view("evaluate") && is_no_evaluation(argv[2])) {
