@@ -72,6 +72,10 @@ void NewProjectFlow::look(const ViewContext& context) {
   survey_ = context.shown.surveys.empty() ? nullptr : context.shown.surveys.front();
 }
 
+void NewProjectFlow::begin_making(const FirstProjectOptions& options) {
+  if (job_.start(options)) dialog_.tell_end();
+}
+
 void NewProjectFlow::take_made() {
   const FirstProjectState state = job_.state();
   if (state.phase != JobPhase::done || state.value == made_) return;
@@ -122,7 +126,7 @@ void NewProjectFlow::update() {
   const NewProjectChoice choice = std::exchange(choice_, {});
   if (choice.empty) session_.handle(NewProject{});
   if (choice.cancel) job_.cancel();
-  if (choice.create) session_.replace_then([this, options = *choice.create] { (void)job_.start(options); });
+  if (choice.create) session_.replace_then([this, options = *choice.create] { begin_making(options); });
   take_made();
   follow_made();
   guesses_.follow(document_);

@@ -51,6 +51,7 @@ class NewProjectFlow {
   [[nodiscard]] const std::vector<Problem>& guesses() const { return guesses_.left(); }
 
  private:
+  void begin_making(const FirstProjectOptions& options);
   // Opens the project that the job has made, once.
   void take_made();
   // From the project that is made to the one that is shown.

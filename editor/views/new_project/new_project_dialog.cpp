@@ -274,7 +274,7 @@ void NewProjectDialog::draw_rows(const ViewContext& context, const FirstProjectS
     draw_file(context);
     ImGui::EndTable();
   }
-  if (std::exchange(was_making_, false)) {
+  if (std::exchange(tells_end_, false)) {
     if (making.phase == JobPhase::failed) note_ = making.error.text();
     if (making.phase == JobPhase::cancelled) note_ = "Cancelled; nothing was written.";
   }
@@ -321,7 +321,6 @@ void NewProjectDialog::draw_buttons(const ViewContext& context, NewProjectChoice
 
 void NewProjectDialog::draw_progress(const ViewContext& context, const FirstProjectState& state,
                                      const std::string& step, NewProjectChoice& choice) {
-  was_making_ = true;
   ImGui::TextUnformatted(elided("Making " + state.request.out.string(), ImGui::GetContentRegionAvail().x).c_str());
   ImGui::Dummy({0, scaled(2)});
   const double share = state.total > 0 ? double(state.done) / state.total : 0;

@@ -38,6 +38,9 @@ class NewProjectDialog {
   void close() { open_ = false; }
   [[nodiscard]] bool is_open() const { return open_; }
 
+  // What was wanted is being made: how it ends is told, however soon that is.
+  void tell_end() { tells_end_ = true; }
+
   // A file that was dropped onto the window while it is open.
   void take_dropped(const std::filesystem::path& file);
 
@@ -85,8 +88,8 @@ class NewProjectDialog {
   bool focus_video_ = false;
   // A list is open: Enter is meant for it.
   bool has_list_open_ = false;
-  // A project was being made in the update before.
-  bool was_making_ = false;
+  // How the making ends has to be told.
+  bool tells_end_ = false;
 };
 
 }  // namespace sigs::editor

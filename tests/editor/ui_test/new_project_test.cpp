@@ -165,6 +165,7 @@ TEST_CASE("a new project asks for the unsaved work of the one before, and its le
   editor.start({before.string()});
   editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
   editor.wait_for_image();
+  ui_test.scrub_to(75);
   editor.key("Return");  // a waypoint
   editor.wait_for("the change", [](const Json& now) { return is_unsaved(now); });
   begin(ui_test, video);
