@@ -107,6 +107,7 @@ App::App(Window& window, Settings settings, ProbeWriter probe)
       scoring_([] { Window::wake(); }),
       shell_(document_, settings_,
              {.samples = resource_file("projects").value_or(std::filesystem::path()),
+              .models = resource_file("assets/models").value_or(std::filesystem::path()),
               .recovery_folder = recovery_folder(),
               .version = SIGS_VERSION,
               .help = help_lines(),
@@ -189,7 +190,8 @@ void App::draw(const PreviewOutput& shown) {
                             .speed = playback_.speed(),
                             .scored = scored_.get(),
                             .ego_motion = &ego_motion_.state(),
-                            .appearance = &appearance_.state()};
+                            .appearance = &appearance_.state(),
+                            .guesses = &shell_.guesses()};
   ask_scores(context);
   shell_.draw_menu(context);
   const ImGuiViewport& screen = *ImGui::GetMainViewport();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "editor/app/layout.h"
+#include "editor/document/dropped_file.h"
 #include "editor/views/menu_bar.h"
 #include "editor/views/viewport/readout.h"
 #include "editor/widgets/texts.h"
@@ -56,6 +57,7 @@ AppShell::AppShell(Document& document, Settings& settings, Setup setup)
                 .is_exporting = [this] { return export_.is_running(); },
                 .mask = setup_.mask,
                 .is_asking_for_file = [this] { return browser_.is_open(); }}),
+      new_project_(document, settings, session_, {.models = setup_.models, .wake = setup_.wake}),
       start_page_(setup_.samples, setup_.wake) {
   const fs::path usual = settings.recent.empty() ? setup_.samples : settings.recent.front().parent_path();
   browser_.set_folder(settings.last_folder.empty() ? usual : settings.last_folder);
@@ -88,6 +90,8 @@ bool AppShell::handle(const Request& request) {
     toasts_.show(*message, now_s_);
   } else if (std::holds_alternative<ClearMessages>(request)) {
     toasts_.clear();
+  } else if (const auto* wanted_project = std::get_if<ShowNewProject>(&request)) {
+    new_project_.open(wanted_project->video);
   } else if (std::holds_alternative<ShowExport>(request)) {
     if (has_project()) export_view_.open(document_);
   } else if (std::holds_alternative<ShowMissingFiles>(request)) {
@@ -106,6 +110,16 @@ bool AppShell::handle(const Request& request) {
 
 void AppShell::handle_own_requests() {
   for (const Request& request : session_.take_requests()) handle(request);
+  for (const Request& request : new_project_.take_requests()) handle(request);
+}
+
+void AppShell::handle_dropped(const fs::path& path, Edits& edits) {
+  if (new_project_.is_open())
+    new_project_.take_dropped(path);
+  else if (!has_project() && classified_drop(path).kind == DroppedKind::video)
+    new_project_.open(path);
+  else
+    session_.handle_dropped(path, edits);
 }
 
 // Who went on with other things meanwhile is not interrupted.
@@ -121,6 +135,7 @@ void AppShell::update(double now_s) {
   now_s_ = now_s;
   for (const auto& step : std::exchange(answered_, {})) step();
   session_.update(now_s);
+  new_project_.update();
   handle_own_requests();
   ask_for_files();
   if (std::exchange(project_file_, document_.project().file) != document_.project().file) export_view_.forget_folder();
@@ -148,6 +163,8 @@ void AppShell::draw_dialog(const ViewContext& context) {
     const std::optional<fs::path> path = browser_.draw(context.ui_probe);
     settings_.last_folder = browser_.folder();
     if (path && chosen_) answered_.emplace_back([chosen = std::exchange(chosen_, nullptr), path] { chosen(*path); });
+  } else if (new_project_.is_open()) {
+    new_project_.draw(context);
   } else if (relink_.is_open()) {
     relink_.draw(context);
   } else if (export_view_.is_open()) {
@@ -162,6 +179,7 @@ void AppShell::draw_dialog(const ViewContext& context) {
 }
 
 void AppShell::draw_over_all(const ViewContext& context) {
+  new_project_.look(context);
   draw_dialog(context);
   const ImGuiViewport& screen = *ImGui::GetMainViewport();
   const float inspector = has_project() && settings_.show_inspector ? scaled(settings_.inspector_width) : 0;

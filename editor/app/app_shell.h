@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "editor/app/new_project_flow.h"
 #include "editor/app/project_session.h"
 #include "editor/preview/background_job.h"
 #include "editor/views/context.h"
@@ -25,6 +26,8 @@ class AppShell {
   struct Setup {
     // Folder of the sample projects; it need not be there.
     std::filesystem::path samples;
+    // Folder of the sample models; likewise.
+    std::filesystem::path models;
     // Where unsaved work is kept for the case of a crash.
     std::filesystem::path recovery_folder;
     // Of the program, for the About dialog.
@@ -49,14 +52,17 @@ class AppShell {
   // Handles a request that a view queued while it was drawn. False: the request concerns somebody else, and nothing
   // happened.
   bool handle(const Request& request);
-  // Opens a file that was dropped onto the window, or puts it into the project.
-  void handle_dropped(const std::filesystem::path& path, Edits& edits) { session_.handle_dropped(path, edits); }
+  // Opens a file that was dropped onto the window, or puts it into the project or the dialog "New project". A video that
+  // is dropped onto the start page begins that dialog.
+  void handle_dropped(const std::filesystem::path& path, Edits& edits);
   // To be called once per update, after the document has applied its edits: carries out the answers given while
   // drawing. May replace the document by another one, whose revisions then begin at another first_number().
   void update(double now_s);
 
   // The unsaved mask of a project that was recovered; given once, none afterwards.
   [[nodiscard]] std::optional<RecoveredMask> take_recovered_mask() { return session_.take_recovered_mask(); }
+  // What was guessed of the project that is open when it was made.
+  [[nodiscard]] const std::vector<Problem>& guesses() const { return new_project_.guesses(); }
   [[nodiscard]] bool has_project() const { return session_.has_project(); }
   [[nodiscard]] bool is_exporting() const { return export_.is_running(); }
   // The program is to end.
@@ -77,6 +83,7 @@ class AppShell {
   Setup setup_;
   ExportJob export_;
   ProjectSession session_;
+  NewProjectFlow new_project_;
   StartPage start_page_;
   Toasts toasts_;
   FileBrowser browser_;

@@ -182,6 +182,11 @@ void ProjectSession::quit() {
       {{}, leave, {}});
 }
 
+void ProjectSession::replace_then(std::function<void()> next) {
+  if (waits([this, next] { replace_then(next); })) return;
+  leave_then(std::move(next));
+}
+
 void ProjectSession::open(const fs::path& path) {
   loader_.start(path);
 }

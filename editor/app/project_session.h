@@ -53,6 +53,13 @@ class ProjectSession {
   // asked to be loaded; all else is put into the project by an edit, into an empty project where none is open.
   void handle_dropped(const std::filesystem::path& path, Edits& edits);
 
+  // Asks for unsaved work, as before another project is opened. next: called at once, or after the answer; not at all
+  // where the person keeps the present project.
+  void replace_then(std::function<void()> next);
+  // Opens a project in place of the present one, whose unsaved work was agreed to be given up in replace_then(); what
+  // came after that is asked for.
+  void open_agreed(const std::filesystem::path& path) { open(path); }
+
   // Opens an abandoned project in place of the present one, once that may go.
   void recover(const AbandonedProject& abandoned);
   // Asks whether its files may be removed for good.

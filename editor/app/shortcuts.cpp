@@ -31,7 +31,7 @@ constexpr std::array<Shortcut, 36> kShortcuts{{
     {"Waypoints", "Esc", "select nothing"},
     {"Project", "Ctrl + Z", "undo"},
     {"Project", "Ctrl + Shift + Z, Ctrl + Y", "redo"},
-    {"Project", "Ctrl + N", "new"},
+    {"Project", "Ctrl + N", "new, of a video"},
     {"Project", "Ctrl + O", "open"},
     {"Project", "Ctrl + S", "save"},
     {"Project", "Ctrl + Shift + S", "save as"},
@@ -99,7 +99,7 @@ void handle_waypoint_keys(const ViewContext& context) {
 
 // With Ctrl held.
 void handle_program_keys(const ViewContext& context, bool shift) {
-  if (pressed(Key::n)) context.edits.ask(NewProject{});
+  if (pressed(Key::n)) context.edits.ask(ShowNewProject{});
   if (pressed(Key::o)) context.edits.ask(OpenProject{});
   if (pressed(Key::q)) context.edits.ask(Quit{});
   if (pressed(Key::s)) shift ? context.edits.ask(SaveProjectAs{}) : context.edits.ask(SaveProject{});

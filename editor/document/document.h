@@ -70,7 +70,12 @@ using Edit = std::variant<ChangeProject, EndGesture, CancelGesture, Undo, Redo, 
 struct OpenProject {
   std::filesystem::path path;
 };
+// An empty project.
 struct NewProject {};
+// The dialog that makes a project of a video.
+struct ShowNewProject {
+  std::filesystem::path video;  // to begin with; "": none
+};
 // Asks for a name where there is none.
 struct SaveProject {};
 struct SaveProjectAs {
@@ -142,7 +147,7 @@ struct ShowMessage {
 
 // What the program does, and the document does not know of: App and what it owns handle them.
 using Request =
-    std::variant<OpenProject, NewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play, TogglePlay,
+    std::variant<OpenProject, NewProject, ShowNewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play, TogglePlay,
                  SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp, ShowSettings, ShowAbout, ShowMissingFiles,
                  ToggleFullScreen, EstimateCameraMotion, StopCameraMotion, MatchFootage, StopMatchingFootage,
                  LoadResults, RemoveResults, ShowResults, ClearMessages, ShowMessage>;

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "editor/document/document.h"
 #include "editor/document/settings.h"
@@ -61,6 +62,8 @@ struct ViewContext {
   const EgoMotionState* ego_motion = nullptr;
   // Of how the footage looks, likewise.
   const AppearanceState* appearance = nullptr;
+  // What was guessed of this project when it was made, by setting. Null: nothing.
+  const std::vector<Problem>* guesses = nullptr;
 
   [[nodiscard]] const Project& project() const { return document.project(); }
 };

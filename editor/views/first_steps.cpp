@@ -184,6 +184,19 @@ void draw_step(const ViewContext& context, const FirstStep& step, int number, bo
   ImGui::PopID();
 }
 
+// Files can be dropped; and all of them can be had at once.
+void draw_other_ways(const ViewContext& context) {
+  constexpr const char* kFromVideo = "From a video...";
+  const float button = dialog_button_width(kFromVideo);
+  ImGui::AlignTextToFramePadding();
+  const float room = ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x;
+  ImGui::TextDisabled("%s", elided("Drop the files onto this window, or have all made:", room).c_str());
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - button);
+  if (ImGui::Button(kFromVideo, {button, ImGui::GetFrameHeight()})) context.edits.ask(ShowNewProject{});
+  context.ui_probe.note_item("first steps/new");
+  tooltip_for_item("Another project, with lens, light and flight guessed (Ctrl+N)");
+}
+
 }  // namespace
 
 void FirstSteps::draw(const ViewContext& context, const ScreenRect& room) {
@@ -199,7 +212,7 @@ void FirstSteps::draw(const ViewContext& context, const ScreenRect& room) {
   const float line = ImGui::GetFrameHeight();
   const auto rows = static_cast<float>(is_last ? 1 : steps.size());
   const float gaps = (rows + 1) * ImGui::GetStyle().ItemSpacing.y;
-  const float below = is_last ? 0 : ImGui::GetTextLineHeight();
+  const float below = is_last ? 0 : ImGui::GetFrameHeight();
   const ImVec2 size{std::min(scaled(480), static_cast<float>(room.size().x) - scaled(16)),
                     std::ceil(scaled(28) + line + rows * 1.5F * line + gaps + below)};
   if (size.x < scaled(220) || size.y > static_cast<float>(room.size().y)) return;
@@ -220,8 +233,7 @@ void FirstSteps::draw(const ViewContext& context, const ScreenRect& room) {
   context.ui_probe.note_item("first steps/close");
   for (std::size_t i = is_last ? kFiles : 0; i < steps.size(); ++i)
     draw_step(context, steps[i], static_cast<int>(i) + 1, &steps[i] == &*next);
-  if (!is_last)
-    ImGui::TextDisabled("%s", elided("Or drop the files onto this window.", ImGui::GetContentRegionAvail().x).c_str());
+  if (!is_last) draw_other_ways(context);
   ImGui::EndChild();
   ImGui::PopStyleVar(2);
   ImGui::PopStyleColor();

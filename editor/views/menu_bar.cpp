@@ -48,7 +48,7 @@ void draw_recent(const ViewContext& context) {
 void draw_file_menu(const ViewContext& context, bool has_project) {
   if (!begin_menu(context, "File")) return;
   Edits& edits = context.edits;
-  if (item(context, "New", "Ctrl+N")) edits.ask(NewProject{});
+  if (item(context, "New...", "Ctrl+N")) edits.ask(ShowNewProject{});
   if (item(context, "Open...", "Ctrl+O")) edits.ask(OpenProject{});
   draw_recent(context);
   ImGui::Separator();

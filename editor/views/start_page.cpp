@@ -111,9 +111,9 @@ void StartPage::draw_head(const ViewContext& context, const StartPageContent& co
   ImGui::TextWrapped("Puts simulated aircraft into real UAV footage, with exact ground truth.");
   ImGui::PopStyleColor();
   ImGui::Dummy({0, scaled(6)});
-  if (dialog_button("New project", true)) context.edits.ask(NewProject{});
+  if (dialog_button("New project", true)) context.edits.ask(ShowNewProject{});
   context.ui_probe.note_item("start/new");
-  tooltip_for_item("Begin with an empty project (Ctrl+N)");
+  tooltip_for_item("Make a project of a video (Ctrl+N); or drop the video onto this window");
   ImGui::SameLine();
   if (dialog_button("Open...")) context.edits.ask(OpenProject{});
   context.ui_probe.note_item("start/open");

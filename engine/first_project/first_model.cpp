@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "base/paths.h"
 #include "base/resources.h"
 #include "base/text.h"
 #include "mesh/model_shape.h"
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kSample = "assets/models/light-aircraft/light-aircraft.obj";
+constexpr const char* kSamples = "assets/models";
 constexpr double kMinMetres = 1;  // lengths that are taken to be in metres
 constexpr double kMaxMetres = 90;
 constexpr double kUsual_m = 10;  // length of a light aircraft
@@ -79,6 +81,7 @@ std::string category_of(const fs::path& file) {
   if (has("glider") || has("sailplane")) return "glider";
   if (has("balloon")) return "balloon";
   if (has("bird")) return "bird";
+  if (has("insect")) return "insect";
   return "airplane";
 }
 
@@ -110,15 +113,22 @@ Result<FirstModel> users_model(const fs::path& file, SceneFiles& files) {
   return first;
 }
 
-Result<FirstModel> sample_model(SceneFiles& files) {
-  const Result<fs::path> file = resource_file(kSample);
+bool is_sample_model(const fs::path& file) {
+  const Result<fs::path> samples = resource_file(kSamples);
+  return samples && is_at_or_below(canonical_path(file), canonical_path(*samples));
+}
+
+Result<FirstModel> sample_model(const fs::path& chosen, SceneFiles& files) {
+  const Result<fs::path> file = chosen.empty() ? resource_file(kSample) : Result<fs::path>(chosen);
   if (!file) return fail(file.error());
   Result<std::shared_ptr<const Model>> model = files.model(*file, ModelAxes{});
   if (!model) return fail(model.error());
-  FirstModel first{.file = *file, .model = *std::move(model)};
+  FirstModel first{.file = *file, .model = *std::move(model), .category = category_of(*file)};
+  const std::string name = chosen.empty() ? "light aircraft" : file->stem().string();
   first.notes.push_back({.field = "intruders[0].model.file",
-                         .text = "the sample light aircraft, copied beside the project; --model takes another one",
-                         .is_guess = true});
+                         .text = fmt::format("the sample {}, copied beside the project{}", name,
+                                             chosen.empty() ? "; --model takes another one" : ""),
+                         .is_guess = chosen.empty()});
   return first;
 }
 

@@ -25,8 +25,11 @@ struct FirstModel {
 // Errors: those of read_obj().
 [[nodiscard]] Result<FirstModel> users_model(const std::filesystem::path& file, SceneFiles& files);
 
-// The sample light aircraft, in metres, nose +x, up +z. Error cannot_read where it is not there.
-[[nodiscard]] Result<FirstModel> sample_model(SceneFiles& files);
+// Whether the file is a model that comes with the program: those are in metres, nose +x, up +z.
+[[nodiscard]] bool is_sample_model(const std::filesystem::path& file);
+
+// A model that comes with the program; without a name the light aircraft. Error cannot_read where it is not there.
+[[nodiscard]] Result<FirstModel> sample_model(const std::filesystem::path& file, SceneFiles& files);
 
 // The sample's files as copies in a folder beside the project.
 [[nodiscard]] Result<std::vector<FirstProjectFile>> copied_model(const std::filesystem::path& file,

@@ -29,7 +29,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLongestSpan_s = 60;  // an encounter lasts about that long
-constexpr const char* kModelFolder = "light-aircraft";
 
 // A path as the project names it: relative to its folder, so that both can be moved together.
 std::string relative_to(const fs::path& file, const fs::path& project_file) {
@@ -192,7 +191,7 @@ class Planning {
   Result<void> set_intruder() {
     step("placing the intruder");
     SceneFiles files;
-    Result<FirstModel> model = options_.model.empty() ? sample_model(files) : users_model(options_.model, files);
+    Result<FirstModel> model = is_sample() ? sample_model(options_.model, files) : users_model(options_.model, files);
     if (!model) return fail(model.error());
     if (const Result<void> placed = set_model_file(*model); !placed) return placed;
     FirstFlight flight = first_flight(scene(), model->model);
@@ -210,15 +209,18 @@ class Planning {
     return {};
   }
 
+  [[nodiscard]] bool is_sample() const { return options_.model.empty() || is_sample_model(options_.model); }
+
   // The sample is copied, so that the project does not depend on where SIGS is installed.
   Result<void> set_model_file(FirstModel& model) {
-    if (!options_.model.empty()) {
+    if (!is_sample()) {
       model.settings.file = relative_to(options_.model, project().file);
       return {};
     }
-    model.settings.file = (fs::path(kModelFolder) / model.file.filename()).generic_string();
+    const fs::path folder = model.file.stem();
+    model.settings.file = (folder / model.file.filename()).generic_string();
     const Result<std::vector<FirstProjectFile>> copies =
-        copied_model(model.file, project().file.parent_path() / kModelFolder);
+        copied_model(model.file, project().file.parent_path() / folder);
     if (!copies) return fail(copies.error());
     first_.files.insert(first_.files.end(), copies->begin(), copies->end());
     return {};

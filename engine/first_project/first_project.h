@@ -24,10 +24,10 @@ struct FirstProjectOptions {
   std::filesystem::path video;
   std::filesystem::path calibration;         // empty: none is given
   std::optional<double> horizontal_fov_deg;  // of the footage, 1 to 359; not together with a calibration
-  std::filesystem::path model;               // OBJ; empty: the sample light aircraft, copied beside the project
-  std::filesystem::path out;                 // the project file; empty: NAME/NAME.json in the current folder
-  std::string name;                          // empty: the project file's or else the video's name without extension
-  bool overwrite = false;                    // whether files of these names are replaced
+  std::filesystem::path model;  // OBJ; empty: the sample light aircraft; samples are copied beside the project
+  std::filesystem::path out;    // the project file; empty: NAME/NAME.json in the current folder
+  std::string name;             // empty: the project file's or else the video's name without extension
+  bool overwrite = false;       // whether files of these names are replaced
 };
 
 struct FirstProjectControl {

@@ -180,6 +180,7 @@ void FieldRows::row(std::string_view key, const RowOptions& look) {
   if (is_left) context_.edits.end_gesture();
   draw_side_buttons(*field, top_y);
   problem_lines(key);
+  guess_lines(key);
   ImGui::PopID();
 }
 
@@ -203,6 +204,20 @@ void FieldRows::problem_lines(std::string_view key) {
     ImGui::TextUnformatted(
         shortened(capitalised(found->second.what) + (what_to_do.empty() ? "" : ". " + what_to_do), 400).c_str());
     ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+  }
+}
+
+void FieldRows::guess_lines(std::string_view key) const {
+  if (context_.guesses == nullptr) return;
+  for (const Problem& guess : *context_.guesses) {
+    if (guess.field != key) continue;
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
+    ImGui::PushFont(font(Font::small));
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(shortened("Guessed: " + guess.what, 400).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopFont();
     ImGui::PopStyleColor();
   }
 }

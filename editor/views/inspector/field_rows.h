@@ -43,6 +43,8 @@ class FieldRows {
   void rows(std::string_view prefix, const std::function<RowOptions(const Field&)>& look_of = {});
   // What is wrong with a key, with advice; nothing where nothing is.
   void problem_lines(std::string_view key);
+  // That a key was guessed, and how (ViewContext::guesses); nothing where it was not.
+  void guess_lines(std::string_view key) const;
 
   // Draws a label and leaves the cursor where its controls go; returns the width that they have, in screen pixels.
   // below: the controls go into the next line and have all of its width.

@@ -33,14 +33,15 @@ std::optional<std::size_t> index_in(std::string_view key, std::string_view name)
 }
 
 std::optional<std::string> draw_list(const ViewContext& context, const ProblemsByField& problems,
-                                     const std::string& name, ImU32 shade) {
+                                     const std::string& name, ImU32 shade, bool opens_first = false) {
   if (problems.empty()) return std::nullopt;
   const std::size_t count = problems.size();
   const std::string title = count_text(static_cast<std::int64_t>(count), name);
   std::optional<std::string> clicked;
   ImGui::PushStyleColor(ImGuiCol_Text, shade);
   const std::string id = name + "s";
-  const bool is_open = ImGui::TreeNodeEx(id.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth, "%s", title.c_str());
+  const ImGuiTreeNodeFlags first = opens_first ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
+  const bool is_open = ImGui::TreeNodeEx(id.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth | first, "%s", title.c_str());
   context.ui_probe.note_item("inspector/" + id);
   ImGui::PopStyleColor();
   if (!is_open) return std::nullopt;
@@ -166,7 +167,11 @@ int ProblemList::count_in(const std::string& block) const {
 std::optional<std::string> ProblemList::draw(const ViewContext& context) const {
   const std::optional<std::string> problem = draw_list(context, by_field_, "problem", color::kBad);
   const std::optional<std::string> warning = draw_list(context, warnings_, "warning", color::kPartly);
-  return problem ? problem : warning;
+  ProblemsByField guesses;
+  if (context.guesses != nullptr)
+    for (const Problem& guess : *context.guesses) guesses.emplace(guess.field, guess);
+  const std::optional<std::string> guess = draw_list(context, guesses, "guessed setting", color::kAccent, true);
+  return problem ? problem : warning ? warning : guess;
 }
 
 }  // namespace sigs::editor

@@ -30,7 +30,8 @@ class ProblemList {
   // Number of problems, warnings not counted, in a block.
   [[nodiscard]] int count_in(const std::string& block) const;
 
-  // "2 problems" and "3 warnings", to be opened as lists; the key of the one that was clicked.
+  // "2 problems", "3 warnings" and "4 guessed settings", to be opened as lists; the key of the one that was clicked. The
+  // last is open at first.
   [[nodiscard]] std::optional<std::string> draw(const ViewContext& context) const;
 
  private:

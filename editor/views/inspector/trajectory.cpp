@@ -57,6 +57,8 @@ void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   ImGui::Spacing();
   note("Waypoints");
   draw_problems(rows, key);
+  rows.guess_lines(key.substr(0, key.size() - 1));
+  rows.guess_lines(key + "waypoints");
   waypoints_.draw(context, rows.problems(), *intruder);
   ImGui::Spacing();
   note("Flight");

@@ -51,6 +51,29 @@ TEST_CASE("requests made while a question is open are asked for after it") {
   CHECK(read_project(d.folder / "a.json")->project.name == "mine");
 }
 
+TEST_CASE("a project is only made after unsaved work was saved or given up, and then opens without another question") {
+  for (const int answer : {0, 1, 2}) {
+    CAPTURE(answer);
+    SessionFixture d;
+    const fs::path made = d.written("made.json", "made");
+    d.open(d.written("a.json", "a"));
+    d.edit("mine");
+    int begun = 0;
+    d.session.replace_then([&] { ++begun; });
+    REQUIRE(d.session.question());
+    CHECK(begun == 0);
+    d.session.answer(answer);
+    CHECK(begun == (answer == 2 ? 0 : 1));
+    CHECK(d.document.project().name == "mine");  // until the project is there
+    CHECK(read_project(d.folder / "a.json")->project.name == (answer == 0 ? "mine" : "a"));
+    if (answer == 2) continue;
+    d.session.open_agreed(made);
+    d.wait();
+    CHECK_FALSE(d.session.question());
+    CHECK(d.document.project().name == "made");
+  }
+}
+
 TEST_CASE("a name that is asked for saves the project that it was asked for, and no other") {
   SessionFixture d;
   d.session.handle(NewProject{});

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "editor/app/project_session.h"
+#include "editor/document/document.h"
+#include "editor/document/guesses.h"
+#include "editor/document/settings.h"
+#include "editor/preview/first_project_job.h"
+#include "editor/views/new_project/new_project_dialog.h"
+
+namespace sigs::editor {
+
+// The way from the dialog "New project" to a project that is open: asks for unsaved work, makes the project in the
+// background, opens it, and goes to a frame in which the intruder is in view. For the window's thread.
+class NewProjectFlow {
+ public:
+  struct Setup {
+    // Folder of the sample models; it need not be there.
+    std::filesystem::path models;
+    // May be called from any thread: something is to be drawn.
+    std::function<void()> wake;
+  };
+  // Document, settings and session must outlive it.
+  NewProjectFlow(Document& document, Settings& settings, ProjectSession& session, Setup setup);
+
+  // Shows the dialog. video: to begin with; "": none.
+  void open(const std::filesystem::path& video);
+  [[nodiscard]] bool is_open() const { return dialog_.is_open(); }
+  // A file that was dropped onto the window while the dialog is open.
+  void take_dropped(const std::filesystem::path& file) { dialog_.take_dropped(file); }
+  // Once per update while it is open.
+  void draw(const ViewContext& context);
+
+  // Once per update, after that of the session: carries out what was wanted while drawing, opens a project that is
+  // made, and shows it once its footage is open.
+  void update();
+
+  // Once per update: what is known of the intruder by what is shown.
+  void look(const ViewContext& context);
+
+  // Messages since the last call.
+  [[nodiscard]] std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
+  // What was guessed of the project that is open.
+  [[nodiscard]] const std::vector<Problem>& guesses() const { return guesses_.left(); }
+
+ private:
+  void begin_making(const FirstProjectOptions& options);
+  // Opens the project that the job has made, once.
+  void take_made();
+  // From the project that is made to the one that is shown.
+  void follow_made();
+  // The project is open: tells what was guessed.
+  void begin_project();
+  // Its footage is open: goes to the middle, and from there to the intruder unless it is in view. True: there is
+  // nothing left to do.
+  [[nodiscard]] bool goes_to_intruder();
+
+  Document& document_;
+  Settings& settings_;
+  ProjectSession& session_;
+  NewProjectDialog dialog_;
+  FirstProjectJob job_;
+  Guesses guesses_;
+  std::vector<Request> requests_;
+  // Wanted while drawing, done in update().
+  NewProjectChoice choice_;
+  // Made, and given to the session.
+  std::shared_ptr<const FirstProject> made_;
+  // The same, until its intruder is shown. Null: nothing is awaited.
+  std::shared_ptr<const FirstProject> awaited_;
+  // Of the document that holds it; 0: it is not open yet.
+  std::uint64_t document_number_ = 0;
+  // The frame that was gone to first; none: not yet.
+  std::optional<int> first_shown_;
+  // Of the intruder; null: not there yet.
+  std::shared_ptr<const Survey> survey_;
+};
+
+}  // namespace sigs::editor

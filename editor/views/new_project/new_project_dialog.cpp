@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/new_project/new_project_dialog.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
+#include "editor/document/field_edits.h"
+#include "editor/views/export_parts.h"
+#include "editor/widgets/dialog.h"
+#include "editor/widgets/icons.h"
+#include "editor/widgets/keys.h"
+#include "editor/widgets/texts.h"
+#include "editor/widgets/theme.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kOwnModel = "OBJ file...";
+
+void small_text(const std::string& text, ImU32 shade) {
+  ImGui::PushFont(font(Font::small));
+  ImGui::PushStyleColor(ImGuiCol_Text, shade);
+  ImGui::TextWrapped("%s", shortened(text).c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+// Some room above the next setting.
+void begin_group() {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::Dummy({0, scaled(2)});
+}
+
+std::string facts_text(const VideoFacts& facts) {
+  return fmt::format("{} pixels, {}, {}, {} frames/s", image_size_text(facts.size_px, " x "),
+                     count_text(facts.frames, "frame"), clock_text(facts.duration_s), number_text(facts.rate_hz));
+}
+
+AskForFile question_for(const char* title, std::string_view field, const std::string& start) {
+  return {.title = title, .extensions = extensions_for(field), .start = typed_path(start)};
+}
+
+}  // namespace
+
+NewProjectDialog::NewProjectDialog(std::vector<SampleModel> samples, std::function<void()> wake)
+    : samples_(std::move(samples)), facts_(std::move(wake)) {}
+
+void NewProjectDialog::open(const fs::path& video, fs::path elsewhere) {
+  elsewhere_ = std::move(elsewhere);
+  form_ = {};
+  if (samples_.empty()) form_.sample.reset();
+  set_video(form_, video.string(), elsewhere_);
+  changed();
+  open_ = true;
+  focus_video_ = true;
+}
+
+void NewProjectDialog::changed() {
+  problem_.reset();
+  note_.clear();
+  asked_about_.clear();
+}
+
+void NewProjectDialog::take_dropped(const fs::path& file) {
+  changed();
+  note_ = editor::take_dropped(form_, file, elsewhere_);
+}
+
+bool NewProjectDialog::draw_path(const ViewContext& context, const char* name, std::string& text, AskForFile wanted) {
+  ImGui::PushID(name);
+  const float browse = dialog_button_width("Browse...");
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - browse - ImGui::GetStyle().ItemSpacing.x);
+  const bool is_typed = text_input("##path", text);
+  context.ui_probe.note_item(fmt::format("new project/{}", name));
+  ImGui::SameLine();
+  if (ImGui::Button("Browse...", {browse, ImGui::GetFrameHeight()})) context.edits.ask(std::move(wanted));
+  context.ui_probe.note_item(fmt::format("new project/{} browse", name));
+  ImGui::PopID();
+  return is_typed;
+}
+
+void NewProjectDialog::draw_problem(const ViewContext& context, FormRow row) const {
+  if (!problem_ || problem_->row != row) return;
+  small_text(capitalised(problem_->what), color::kBad);
+  context.ui_probe.note_item("new project/problem");
+}
+
+void NewProjectDialog::look_at_video() {
+  const fs::path video = typed_path(form_.video);
+  const VideoFactsState state = facts_.state();
+  std::error_code code;
+  if (video.empty() || !fs::is_regular_file(video, code)) return;
+  if (state.phase != JobPhase::none && state.request == video) return;
+  if (state.is_running())
+    facts_.forget();
+  else
+    (void)facts_.start(video);
+}
+
+void NewProjectDialog::draw_video_facts(const ViewContext& context) {
+  const VideoFactsState state = facts_.state();
+  if (form_.video.empty()) {
+    small_text("Or drop a video onto this window.", color::kQuiet);
+  } else if (state.phase == JobPhase::none || state.request != typed_path(form_.video)) {
+    small_text("", color::kQuiet);
+  } else if (state.is_running()) {
+    small_text("Reading...", color::kQuiet);
+  } else if (state.phase == JobPhase::done) {
+    small_text(facts_text(*state.value), color::kQuiet);
+    context.ui_probe.note_item("new project/facts");
+  } else if (state.phase == JobPhase::failed) {
+    small_text(state.error.text(), color::kBad);
+  }
+}
+
+void NewProjectDialog::draw_video(const ViewContext& context) {
+  begin_setting("Video", "Of a real flight, as the camera made it");
+  if (std::exchange(focus_video_, false) && form_.video.empty()) ImGui::SetKeyboardFocusHere();
+  AskForFile wanted = question_for("Choose the video", "footage.video", form_.video);
+  wanted.chosen = [this](const fs::path& path) {
+    set_video(form_, path.string(), elsewhere_);
+    changed();
+  };
+  if (draw_path(context, "video", form_.video, std::move(wanted))) {
+    set_video(form_, form_.video, elsewhere_);
+    changed();
+  }
+  look_at_video();
+  if (problem_ && problem_->row == FormRow::video)
+    draw_problem(context, FormRow::video);
+  else
+    draw_video_facts(context);
+}
+
+void NewProjectDialog::draw_field_of_view(const ViewContext& context) {
+  if (ImGui::RadioButton("Field of view", form_.lens == LensChoice::field_of_view)) {
+    form_.lens = LensChoice::field_of_view;
+    changed();
+  }
+  context.ui_probe.note_item("new project/field of view");
+  tooltip_for_item(
+      "Horizontal, of the whole image; from the camera's data sheet. The lens is taken as free of "
+      "distortion");
+  ImGui::SameLine(scaled(150));
+  ImGui::SetNextItemWidth(scaled(90));
+  if (text_input("##fov", form_.fov_deg, "e.g. 70")) {
+    form_.lens = LensChoice::field_of_view;
+    changed();
+  }
+  context.ui_probe.note_item("new project/degrees");
+  ImGui::SameLine();
+  ImGui::TextDisabled("degrees, left to right");
+}
+
+void NewProjectDialog::draw_calibration(const ViewContext& context) {
+  const auto choose = [this] {
+    form_.lens = LensChoice::calibration;
+    changed();
+  };
+  if (ImGui::RadioButton("Calibration", form_.lens == LensChoice::calibration)) choose();
+  context.ui_probe.note_item("new project/calibrated");
+  tooltip_for_item("A file of OpenCV, ROS or Gyroflow for this camera");
+  ImGui::SameLine(scaled(150));
+  AskForFile wanted = question_for("Choose the calibration", "footage.calibration",
+                                   form_.calibration.empty() ? form_.video : form_.calibration);
+  if (form_.calibration.empty()) wanted.start = wanted.start.parent_path();
+  wanted.chosen = [this, choose](const fs::path& path) {
+    form_.calibration = path.string();
+    choose();
+  };
+  if (draw_path(context, "calibration", form_.calibration, std::move(wanted))) choose();
+}
+
+void NewProjectDialog::draw_lens(const ViewContext& context) {
+  begin_group();
+  begin_setting("Lens", "How the camera projects the world");
+  const VideoFactsState state = facts_.state();
+  const bool is_known = state.phase == JobPhase::done && state.request == typed_path(form_.video);
+  const bool is_stated = is_known && !state.value->lens.empty();
+  if (ImGui::RadioButton(is_stated ? "As the video states###guess" : "Guess###guess",
+                         form_.lens == LensChoice::guess)) {
+    form_.lens = LensChoice::guess;
+    changed();
+  }
+  context.ui_probe.note_item("new project/guess");
+  ImGui::SameLine(scaled(150));
+  const std::string hint = is_stated  ? state.value->lens
+                           : is_known ? "the video does not tell its lens: a usual one is assumed"
+                                      : "from what the video tells, else a usual lens";
+  ImGui::TextDisabled("%s", elided(hint, ImGui::GetContentRegionAvail().x).c_str());
+  tooltip_for_item(hint.c_str());
+  draw_field_of_view(context);
+  draw_calibration(context);
+  draw_problem(context, FormRow::lens);
+}
+
+void NewProjectDialog::draw_model_file(const ViewContext& context) {
+  AskForFile wanted = question_for("Choose the aircraft's model", "intruders[0].model.file", form_.model);
+  wanted.chosen = [this](const fs::path& path) {
+    form_.model = path.string();
+    changed();
+  };
+  if (draw_path(context, "model", form_.model, std::move(wanted))) changed();
+}
+
+void NewProjectDialog::draw_aircraft(const ViewContext& context) {
+  begin_group();
+  begin_setting("Aircraft", "The intruder that is put into the video");
+  ImGui::SetNextItemWidth(-1);
+  const std::string shown = form_.sample ? samples_[*form_.sample].name : kOwnModel;
+  has_list_open_ = ImGui::BeginCombo("##aircraft", shown.c_str(), ImGuiComboFlags_HeightLarge);
+  if (!has_list_open_) context.ui_probe.note_item("new project/aircraft");
+  if (has_list_open_) {
+    for (std::size_t i = 0; i <= samples_.size(); ++i) {
+      const std::optional<std::size_t> one = i < samples_.size() ? std::optional(i) : std::nullopt;
+      const std::string name = one ? samples_[i].name : kOwnModel;
+      if (ImGui::Selectable(name.c_str(), form_.sample == one)) {
+        form_.sample = one;
+        changed();
+      }
+      context.ui_probe.note_item("new project/aircraft/" + name);
+    }
+    ImGui::EndCombo();
+  }
+  if (!form_.sample) draw_model_file(context);
+  draw_problem(context, FormRow::aircraft);
+}
+
+void NewProjectDialog::draw_file(const ViewContext& context) {
+  begin_group();
+  begin_setting("Save as", "The project file; what the project needs beside it goes into the same folder");
+  AskForFile wanted{.title = "Save the project as",
+                    .extensions = {".json"},
+                    .for_saving = true,
+                    .start = typed_path(form_.file),
+                    .chosen = [this](const fs::path& path) {
+                      form_.file = path.string();
+                      form_.is_file_chosen = true;
+                      changed();
+                      asked_about_ = typed_path(form_.file);  // the browser has asked
+                    }};
+  if (draw_path(context, "file", form_.file, std::move(wanted))) {
+    form_.is_file_chosen = !trimmed(form_.file).empty();
+    changed();
+  }
+  std::error_code code;
+  if (problem_ && problem_->row == FormRow::file) {
+    draw_problem(context, FormRow::file);
+  } else if (!asked_about_.empty() && fs::exists(asked_about_, code)) {
+    small_text(asked_about_.filename().string() + " is there already. Replace it?", color::kPartly);
+    context.ui_probe.note_item("new project/replace");
+  }
+}
+
+void NewProjectDialog::draw_rows(const ViewContext& context, const FirstProjectState& making) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
+  ImGui::TextWrapped("Puts one simulated aircraft into a video of yours. All of it can be changed afterwards.");
+  ImGui::PopStyleColor();
+  ImGui::Dummy({0, scaled(2)});
+  if (ImGui::BeginTable("rows", 2)) {
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, scaled(80));
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+    draw_video(context);
+    draw_lens(context);
+    draw_aircraft(context);
+    draw_file(context);
+    ImGui::EndTable();
+  }
+  if (std::exchange(tells_end_, false)) {
+    if (making.phase == JobPhase::failed) note_ = making.error.text();
+    if (making.phase == JobPhase::cancelled) note_ = "Cancelled; nothing was written.";
+  }
+  if (note_.empty()) return;
+  note_line(Icon::warning, color::kBad, note_);
+  context.ui_probe.note_item("new project/note");
+}
+
+void NewProjectDialog::try_to_create(NewProjectChoice& choice) {
+  problem_ = problem_of(form_);
+  if (problem_) return;
+  FirstProjectOptions options = options_of(form_, samples_);
+  std::error_code code;
+  const bool is_there = fs::exists(options.out, code);
+  // What was agreed to be replaced is what was shown.
+  if (is_there && asked_about_ != options.out) {
+    asked_about_ = options.out;
+    return;
+  }
+  options.overwrite = is_there;
+  note_.clear();
+  choice.create = std::move(options);
+}
+
+void NewProjectDialog::draw_buttons(const ViewContext& context, NewProjectChoice& choice) {
+  ImGui::Dummy({0, scaled(6)});
+  if (dialog_button("Empty project")) choice.empty = true;
+  context.ui_probe.note_item("new project/empty");
+  tooltip_for_item("Without a video: the files are chosen one by one");
+  ImGui::SameLine();
+  std::error_code code;
+  const bool replaces = !asked_about_.empty() && fs::exists(asked_about_, code);
+  const char* const go = replaces ? "Replace" : "Create";
+  const char* const labels[] = {"Cancel", go};
+  align_buttons_right(labels, 2);
+  if (dialog_button("Cancel")) closed_ = true;
+  context.ui_probe.note_item("new project/cancel");
+  ImGui::SameLine();
+  bool wants = dialog_button(go, true);
+  context.ui_probe.note_item("new project/create");
+  if (!has_list_open_ && (pressed(Key::enter) || pressed(Key::keypad_enter))) wants = true;
+  if (wants && !closed_) try_to_create(choice);
+}
+
+void NewProjectDialog::draw_progress(const ViewContext& context, const FirstProjectState& state,
+                                     const std::string& step, NewProjectChoice& choice) {
+  ImGui::TextUnformatted(elided("Making " + state.request.out.string(), ImGui::GetContentRegionAvail().x).c_str());
+  ImGui::Dummy({0, scaled(2)});
+  const double share = state.total > 0 ? double(state.done) / state.total : 0;
+  ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
+  const std::string text = state.is_stopping ? "stopping" : step.empty() ? "reading the video" : step;
+  ImGui::TextDisabled("%s", elided(capitalised(text) + "...", ImGui::GetContentRegionAvail().x).c_str());
+  ImGui::Dummy({0, scaled(6)});
+  const char* const labels[] = {"Cancel"};
+  align_buttons_right(labels, 1);
+  if (dialog_button("Cancel", false, !state.is_stopping)) closed_ = true;
+  context.ui_probe.note_item("new project/stop");
+  choice.cancel = std::exchange(closed_, false);
+}
+
+NewProjectChoice NewProjectDialog::draw(const ViewContext& context, const FirstProjectJob& making) {
+  NewProjectChoice choice;
+  closed_ = false;
+  if (!begin_dialog("New project###new project", 640, 0, closed_)) {
+    open_ = open_ && !closed_;
+    return choice;
+  }
+  const FirstProjectState state = making.state();
+  if (state.is_running()) {
+    draw_progress(context, state, making.step(), choice);
+  } else {
+    draw_rows(context, state);
+    draw_buttons(context, choice);
+  }
+  if (choice.empty) closed_ = true;
+  open_ = !closed_;
+  end_dialog(open_);
+  return choice;
+}
+
+}  // namespace sigs::editor

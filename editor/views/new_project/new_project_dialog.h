@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/preview/first_project_job.h"
+#include "editor/views/context.h"
+#include "editor/views/new_project/new_project_form.h"
+
+namespace sigs::editor {
+
+// What the person wants of the dialog in one update.
+struct NewProjectChoice {
+  // A project without footage, to be filled by hand.
+  bool empty = false;
+  // A project of this video.
+  std::optional<FirstProjectOptions> create;
+  // What is being made is not wanted any more.
+  bool cancel = false;
+};
+
+// The dialog "New project": video, lens, aircraft and the project file to be written; then the progress. It decides
+// nothing: who owns it makes the project, and closes it when that is there.
+class NewProjectDialog {
+ public:
+  //   samples  models to choose from
+  //   wake     called from another thread when something is known of a video
+  NewProjectDialog(std::vector<SampleModel> samples, std::function<void()> wake);
+
+  // Shows the dialog in the next update, with empty rows.
+  //   video      to begin with; "": none
+  //   elsewhere  where a project goes whose video lies where nothing can be written
+  void open(const std::filesystem::path& video, std::filesystem::path elsewhere);
+  void close() { open_ = false; }
+  [[nodiscard]] bool is_open() const { return open_; }
+
+  // What was wanted is being made: how it ends is told, however soon that is.
+  void tell_end() { tells_end_ = true; }
+
+  // A file that was dropped onto the window while it is open.
+  void take_dropped(const std::filesystem::path& file);
+
+  // Once per update while it is open.
+  //   making  makes the project, or has ended with an error
+  [[nodiscard]] NewProjectChoice draw(const ViewContext& context, const FirstProjectJob& making);
+
+ private:
+  // Each draws a row of the form.
+  void draw_video(const ViewContext& context);
+  void draw_video_facts(const ViewContext& context);
+  void draw_lens(const ViewContext& context);
+  void draw_field_of_view(const ViewContext& context);
+  void draw_calibration(const ViewContext& context);
+  void draw_aircraft(const ViewContext& context);
+  void draw_model_file(const ViewContext& context);
+  void draw_file(const ViewContext& context);
+  // What is wrong with a row, below it.
+  void draw_problem(const ViewContext& context, FormRow row) const;
+  void draw_rows(const ViewContext& context, const FirstProjectState& making);
+  void draw_buttons(const ViewContext& context, NewProjectChoice& choice);
+  void draw_progress(const ViewContext& context, const FirstProjectState& state, const std::string& step,
+                     NewProjectChoice& choice);
+  // A line of text with a button that asks for a file; whether the text was changed.
+  [[nodiscard]] bool draw_path(const ViewContext& context, const char* name, std::string& text, AskForFile wanted);
+  // The form was changed: what was said of it counts no more.
+  void changed();
+  // The person wants the project: where the form is right, and what would be replaced was agreed to.
+  void try_to_create(NewProjectChoice& choice);
+  // Asks for the facts of the video that is in the form.
+  void look_at_video();
+
+  std::vector<SampleModel> samples_;
+  std::filesystem::path elsewhere_;
+  NewProjectForm form_;
+  VideoFactsJob facts_;
+  std::optional<FormProblem> problem_;
+  // What went wrong outside of the form's rows; "": nothing.
+  std::string note_;
+  // The file that the person was asked about whether it may be replaced; "": none.
+  std::filesystem::path asked_about_;
+  bool open_ = false;
+  bool closed_ = false;
+  // The first row gets the keyboard in this update.
+  bool focus_video_ = false;
+  // A list is open: Enter is meant for it.
+  bool has_list_open_ = false;
+  // How the making ends has to be told.
+  bool tells_end_ = false;
+};
+
+}  // namespace sigs::editor
