@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/ensure.h"
 #include "base/threads.h"
+#include "export/encounter_files.h"
 #include "export/frame_pipeline.h"
 #include "scene/opened_project.h"
 
@@ -14,6 +16,9 @@ struct FrameStream::Inside {
   OpenedProject opened;
   FrameRange range;
   FootageTruth footage;
+  std::optional<ExportedEncounters> encounters;  // none: the project asks for none
+  std::unique_ptr<FramePipeline> pipeline;       // while frames are composed
+  int next = 0;                                  // number of the frame that next() returns
 };
 
 FrameStream::FrameStream(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
@@ -28,7 +33,17 @@ Result<FrameStream> FrameStream::open(const Project& project, const std::optiona
   const Result<FrameRange> range = range_in(opened->scene, frames);
   if (!range) return fail(range.error());
   FootageTruth footage = footage_truth(opened->source.info(), *range);
-  return FrameStream(std::make_unique<Inside>(std::move(*opened), *range, std::move(footage)));
+  auto inside = std::make_unique<Inside>(Inside{std::move(*opened), *range, std::move(footage), {}, {}, range->first});
+  if (!project.output.encounter.empty()) {
+    Result<ExportedEncounters> encounters = ExportedEncounters::of(project, inside->opened.scene, *range);
+    if (!encounters) return fail(encounters.error());
+    inside->encounters = std::move(*encounters);
+  }
+  return FrameStream(std::move(inside));
+}
+
+const FrameRange& FrameStream::range() const {
+  return inside_->range;
 }
 
 const FootageTruth& FrameStream::footage() const {
@@ -39,17 +54,42 @@ const std::vector<Warning>& FrameStream::warnings() const {
   return inside_->opened.warnings;
 }
 
-Result<int> FrameStream::show(int jobs, const std::function<Result<void>(const StreamFrame&)>& see) {
-  const FrameRange range = inside_->range;
-  FramePipeline pipeline(inside_->opened.scene, inside_->opened.source, range, std::max(1, jobs));
+void FrameStream::start(int jobs) {
+  inside_->pipeline.reset();
+  inside_->next = inside_->range.first;
+  inside_->pipeline =
+      std::make_unique<FramePipeline>(inside_->opened.scene, inside_->opened.source, inside_->range, std::max(1, jobs));
+}
+
+Result<std::optional<ComposedFrame>> FrameStream::next() {
+  if (inside_->next > inside_->range.last) {
+    inside_->pipeline.reset();
+    return std::nullopt;
+  }
+  ENSURE(inside_->pipeline);
+  ++inside_->next;
+  Result<ComposedFrame> frame = inside_->pipeline->next();
+  if (!frame) return fail(frame.error());
+  if (inside_->encounters) inside_->encounters->add_to(frame->truth);
+  return std::optional<ComposedFrame>(std::move(*frame));
+}
+
+Result<int> FrameStream::show_all(const std::function<Result<void>(const StreamFrame&)>& see) {
   int damaged = 0;
-  for (int number = range.first; number <= range.last; ++number) {
-    Result<ComposedFrame> frame = pipeline.next();
+  while (true) {
+    Result<std::optional<ComposedFrame>> frame = next();
     if (!frame) return fail(frame.error());
-    damaged += frame->image.damaged ? 1 : 0;
-    const StreamFrame seen{.image = bgr_of(frame->image), .truth = std::move(frame->truth)};
+    if (!*frame) return damaged;
+    damaged += (*frame)->image.damaged ? 1 : 0;
+    const StreamFrame seen{.image = bgr_of((*frame)->image), .truth = std::move((*frame)->truth)};
     if (const Result<void> step = see(seen); !step) return fail(step.error());
   }
+}
+
+Result<int> FrameStream::show(int jobs, const std::function<Result<void>(const StreamFrame&)>& see) {
+  start(jobs);
+  Result<int> damaged = show_all(see);
+  inside_->pipeline.reset();
   return damaged;
 }
 

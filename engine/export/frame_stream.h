@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "frame/composed_frame.h"
 #include "project/project.h"
 #include "truth/annotation.h"
 #include "video/frame_source.h"
@@ -33,9 +34,18 @@ class FrameStream {
   FrameStream& operator=(FrameStream&&) noexcept;
   ~FrameStream();
 
-  // As in a label file of that export.
+  // The frames, and the footage's properties as in a label file of that export.
+  [[nodiscard]] const FrameRange& range() const;
   [[nodiscard]] const FootageTruth& footage() const;
   [[nodiscard]] const std::vector<Warning>& warnings() const;
+
+  // Begins to compose `jobs` frames in parallel, from the first one on, some frames ahead of next(). To be called
+  // before next(); not together with show().
+  void start(int jobs);
+
+  // The next frame, in the footage's planes, with mask and truth; waits for it. None after the last one, which also
+  // ends the threads. Not to be called after an error.
+  [[nodiscard]] Result<std::optional<ComposedFrame>> next();
 
   // Composes `jobs` frames in parallel and passes each to `see`, on the calling thread. Ends early where that returns
   // an error, and returns it. Returns how many frames of the footage were damaged.
@@ -44,6 +54,7 @@ class FrameStream {
  private:
   struct Inside;
   explicit FrameStream(std::unique_ptr<Inside> inside);
+  [[nodiscard]] Result<int> show_all(const std::function<Result<void>(const StreamFrame&)>& see);
   std::unique_ptr<Inside> inside_;
 };
 

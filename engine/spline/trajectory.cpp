@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "base/ensure.h"
 #include "spline/attitude.h"
@@ -57,10 +58,12 @@ TimedCurve timed_curve_of(const std::vector<TimedWaypoint>& waypoints, const Tra
 
 struct Trajectory::Path {
   TimedCurve timed_curve;
-  AttitudeTable attitude;
+  std::variant<AttitudeTable, glm::dquat> attitude;  // the latter: the same at all times
 
   Path(TimedCurve timed, const TrajectorySettings& settings)
-      : timed_curve(std::move(timed)), attitude(timed_curve, settings.bank, settings.bank_limit_rad) {}
+      : timed_curve(std::move(timed)), attitude(AttitudeTable(timed_curve, settings.bank, settings.bank_limit_rad)) {}
+  Path(TimedCurve timed, const glm::dquat& world_from_body)
+      : timed_curve(std::move(timed)), attitude(world_from_body) {}
 };
 
 Trajectory::Trajectory(std::shared_ptr<const Path> path) : path_(std::move(path)) {}
@@ -68,6 +71,15 @@ Trajectory::Trajectory(std::shared_ptr<const Path> path) : path_(std::move(path)
 Result<Trajectory> Trajectory::make(const std::vector<TimedWaypoint>& waypoints, const TrajectorySettings& settings) {
   if (const Result<void> good = checked(waypoints, settings); !good) return fail(good.error());
   return Trajectory(std::make_shared<const Path>(timed_curve_of(waypoints, settings), settings));
+}
+
+Trajectory Trajectory::steady(double time_s, const Pose<frame::World, frame::Body>& world_from_body,
+                              const glm::dvec3& velocity_mps) {
+  constexpr double kPiece_s = 1;  // any: the curve goes on as a straight line
+  const glm::dvec3& from_m = world_from_body.translation_m;
+  PiecewiseCubic line({time_s, time_s + kPiece_s}, {CubicPiece{from_m, velocity_mps, glm::dvec3(0), glm::dvec3(0)}},
+                      from_m + kPiece_s * velocity_mps);
+  return Trajectory(std::make_shared<const Path>(TimedCurve(std::move(line)), world_from_body.rotation));
 }
 
 glm::dvec3 Trajectory::position_m(double time_s) const {
@@ -85,7 +97,8 @@ glm::dvec3 Trajectory::acceleration_mps2(double time_s) const {
 Pose<frame::World, frame::Body> Trajectory::world_from_body(double time_s) const {
   ENSURE(std::isfinite(time_s));
   const Motion motion = motion_at(path_->timed_curve, time_s);
-  return {path_->attitude.world_from_body(time_s, motion.velocity_mps), motion.position_m};
+  if (const auto* const always = std::get_if<glm::dquat>(&path_->attitude)) return {*always, motion.position_m};
+  return {std::get<AttitudeTable>(path_->attitude).world_from_body(time_s, motion.velocity_mps), motion.position_m};
 }
 
 }  // namespace sigs

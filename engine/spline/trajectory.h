@@ -47,6 +47,11 @@ class Trajectory {
   [[nodiscard]] static Result<Trajectory> make(const std::vector<TimedWaypoint>& waypoints,
                                                const TrajectorySettings& settings);
 
+  // The trajectory that has this pose at time_s: straight on at constant velocity, the attitude always the same,
+  // whatever the direction of the velocity. All numbers finite, the rotation a unit quaternion.
+  [[nodiscard]] static Trajectory steady(double time_s, const Pose<frame::World, frame::Body>& world_from_body,
+                                         const glm::dvec3& velocity_mps);
+
   // In the world. Before the first and after the last waypoint's time the flight goes on straight at constant velocity.
   // Acceleration may be discontinuous at those two times (approximating) and at corners (constant speed); at corners
   // velocity may be, too.

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+"""SIGS: simulated intruder aircraft in real UAV footage, with the truth of every frame.
+
+    import sigs
+    project = sigs.open("crossing.json")
+    for frame in project.frames(range(100)):
+        frame.rgb, frame.mask, frame.truth          # arrays and objects
+
+Metres, seconds, pixels; degrees where a name says so. The world and the camera have X forward, Y right, Z down. The
+manual is docs/python.md.
+"""
+
+from ._sigs import Frame, FrameIterator, Video, __version__
+from .errors import (
+    BadData,
+    BadProject,
+    CannotCreate,
+    CannotRead,
+    Error,
+    Interrupted,
+    ProjectWarning,
+    Unavailable,
+    UsageError,
+    WriteFailed,
+)
+from .labels import Labels, read_labels
+from .project import (
+    ExportReport,
+    Field,
+    Footage,
+    Intruder,
+    Pose,
+    Problem,
+    Project,
+    Waypoints,
+    export,
+    open,
+)
+from .truth import (
+    Appearance,
+    Attitude,
+    Box,
+    CameraTruth,
+    Encounter,
+    FrameTruth,
+    IntruderTruth,
+    Place,
+    Silhouette,
+    WellClear,
+)
+
+__all__ = [
+    "Appearance",
+    "Attitude",
+    "BadData",
+    "BadProject",
+    "Box",
+    "CameraTruth",
+    "CannotCreate",
+    "CannotRead",
+    "Encounter",
+    "Error",
+    "ExportReport",
+    "Field",
+    "Footage",
+    "Frame",
+    "FrameIterator",
+    "FrameTruth",
+    "Interrupted",
+    "Intruder",
+    "IntruderTruth",
+    "Labels",
+    "Place",
+    "Pose",
+    "Problem",
+    "Project",
+    "ProjectWarning",
+    "Silhouette",
+    "Unavailable",
+    "UsageError",
+    "Video",
+    "Waypoints",
+    "WellClear",
+    "WriteFailed",
+    "__version__",
+    "export",
+    "open",
+    "read_labels",
+]

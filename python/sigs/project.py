@@ -1,0 +1,369 @@
+# SPDX-License-Identifier: MIT
+"""Projects: fields, waypoints, frames, and the export."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Callable, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _sigs
+from ._sigs import Frame, FrameIterator
+from .errors import ProjectWarning, UsageError
+
+_Path = Union[str, "os.PathLike[str]"]
+_PoseTuple = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+
+
+class Waypoints(NamedTuple):
+    """frames: float64 [n], NaN for a waypoint whose frame is chosen by even spacing; positions_m: float64 [n, 3] in
+    the world (X forward, Y right, Z down)."""
+
+    frames: NDArray[np.float64]
+    positions_m: NDArray[np.float64]
+
+
+class Problem(NamedTuple):
+    """A mistake in a project: the field's key, what is wrong, and the kind as in sigs.Error."""
+
+    field: str
+    what: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class Field:
+    """One setting of a project: its key and value, and what docs/project-format.md says of it."""
+
+    key: str
+    value: Any
+    unit: str
+    help: str
+    minimum: float
+    maximum: float
+    choices: tuple[str, ...]
+    is_path: bool
+
+
+@dataclass(frozen=True)
+class Pose:
+    """A pose in the world for Project.render.
+
+    position_m    X forward, Y right, Z down (a height is a negative Z)
+    attitude_deg  roll (right wing down), pitch (nose up), yaw (nose to the right)
+    velocity_mps  in the world; counts for motion blur and a rolling shutter within the frame alone
+    """
+
+    position_m: Sequence[float]
+    attitude_deg: Sequence[float] = (0.0, 0.0, 0.0)
+    velocity_mps: Sequence[float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Footage:
+    """The footage of an opened project. times_s: presentation time of each frame, 0 for the first."""
+
+    path: pathlib.Path
+    size_px: tuple[int, int]
+    frame_count: int
+    frame_rate: tuple[int, int]
+    times_s: NDArray[np.float64] = field(repr=False)
+    codec: str
+    layout: str
+
+
+@dataclass(frozen=True)
+class ExportReport:
+    """What an export has written. renderer is empty where no intruder came into view."""
+
+    written: list[pathlib.Path]
+    frames: int
+    damaged_frames: int
+    warnings: list[str]
+    seconds: float
+    renderer: str
+
+
+def _vector(value: Any, what: str) -> tuple[float, float, float]:
+    array = np.asarray(value, dtype=np.float64)
+    if array.shape != (3,):
+        raise UsageError(what, f"expected three numbers, found an array of the shape {array.shape}", "usage")
+    return float(array[0]), float(array[1]), float(array[2])
+
+
+def _pose_tuple(pose: Any, whose: str) -> _PoseTuple:
+    if not isinstance(pose, Pose):
+        if not isinstance(pose, (tuple, list)) or not 1 <= len(pose) <= 3:
+            raise UsageError(whose, "expected a sigs.Pose, or (position_m, attitude_deg)", "usage")
+        pose = Pose(*pose)
+    return (
+        _vector(pose.position_m, f"{whose}: position_m"),
+        _vector(pose.attitude_deg, f"{whose}: attitude_deg"),
+        _vector(pose.velocity_mps, f"{whose}: velocity_mps"),
+    )
+
+
+def _plain(value: Any) -> Any:
+    """NumPy's numbers and arrays as those that JSON knows."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, (tuple, list)):
+        return [_plain(one) for one in value]
+    return value
+
+
+def _jobs(jobs: Optional[int]) -> int:
+    return len(os.sched_getaffinity(0)) if jobs is None else max(1, jobs)
+
+
+def _ends(frames: Optional[range]) -> Optional[tuple[int, int]]:
+    if frames is None:
+        return None
+    if not isinstance(frames, range) or frames.step != 1 or len(frames) == 0:
+        raise UsageError("frames", "expected a range of frame numbers with step 1, such as range(0, 100)", "usage")
+    return frames[0], frames[-1]
+
+
+def _warn(texts: Sequence[str]) -> None:
+    for text in texts:
+        warnings.warn(text, ProjectWarning, stacklevel=3)
+
+
+class Intruder:
+    """One intruder of a project. It stays the one at its position in the project's list."""
+
+    def __init__(self, project: Project, index: int) -> None:
+        self._project = project
+        self._index = index
+
+    @property
+    def index(self) -> int:
+        """Its position in the project's list, from 0: the id in labels."""
+        return self._index
+
+    @property
+    def name(self) -> str:
+        """Its name in annotations."""
+        return str(self["name"])
+
+    @property
+    def waypoints(self) -> Waypoints:
+        """Frames and positions of its waypoints: copies; assign to change them.
+
+        Assign Waypoints, or (frames, positions_m); frames may be None, and NaN in it: spread evenly.
+        """
+        return Waypoints(*self._project._inside.waypoints(self._index))
+
+    @waypoints.setter
+    def waypoints(self, value: tuple[Optional[ArrayLike], ArrayLike]) -> None:
+        frames, positions = value
+        positions_m = np.asarray(positions, dtype=np.float64)
+        if positions_m.ndim != 2 or positions_m.shape[1] != 3:
+            raise UsageError("waypoints", f"expected positions [n, 3], found the shape {positions_m.shape}", "usage")
+        numbers = np.full(len(positions_m), np.nan) if frames is None else np.asarray(frames, dtype=np.float64)
+        if numbers.shape != (len(positions_m),):
+            raise UsageError(
+                "waypoints", f"{len(positions_m)} positions need as many frames, found {numbers.shape}", "usage"
+            )
+        self._project._inside.set_waypoints(
+            self._index, [None if np.isnan(n) else float(n) for n in numbers], positions_m.tolist()
+        )
+
+    def __getitem__(self, key: str) -> Any:
+        """A field by its key within the intruder: intruder["model.scale"]."""
+        return self._project[f"intruders[{self._index}].{key}"]
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        self._project[f"intruders[{self._index}].{key}"] = value
+
+    def __repr__(self) -> str:
+        return f"<sigs.Intruder {self._index} '{self.name}'>"
+
+
+class Project:
+    """A project: footage, camera, light and intruders (docs/project-format.md).
+
+    Made by sigs.open(). Fields are read and set by their keys: project["camera.speed_mps"] = 30. Ranges are checked
+    when frames are asked for; problems() lists what is wrong before. A project may be used by several threads, can be
+    pickled, and may be used in forked processes, where decoder and OpenGL are opened anew.
+    """
+
+    def __init__(self, inside: _sigs.Project) -> None:
+        self._inside = inside
+
+    @staticmethod
+    def parse(text: str, path: _Path) -> Project:
+        """The project of a file's text. Relative paths in it start in the folder of `path`, which need not exist."""
+        return Project(_sigs.Project.parse(text, path))
+
+    @property
+    def path(self) -> pathlib.Path:
+        """The file that it was read from."""
+        return pathlib.Path(self._inside.path())
+
+    def __getitem__(self, key: str) -> Any:
+        """A field's value: a number, text, list or None. Raises UsageError where there is no such field."""
+        return json.loads(self._inside.value(key))
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        """Sets a field. Arrays become lists. Raises UsageError: no such field, a value of the wrong type."""
+        self._inside.assign(f"{key}={json.dumps(_plain(value))}")
+
+    def fields(self) -> dict[str, Field]:
+        """All fields, by key, with unit, range and help."""
+        return {one["key"]: Field(**{**one, "value": json.loads(one["value"])}) for one in self._inside.fields()}
+
+    def problems(self) -> list[Problem]:
+        """What is wrong in the fields; empty: nothing. The footage's contents are not looked at."""
+        return [Problem(*problem) for problem in self._inside.problems()]
+
+    def text(self) -> str:
+        """The project as the JSON text of its file."""
+        return self._inside.text()
+
+    def save(self, path: _Path, overwrite: bool = False) -> None:
+        """Writes the project file, which appears when it is complete. Relative paths in it are written as they are."""
+        self._inside.write(path, overwrite)
+
+    @property
+    def intruders(self) -> list[Intruder]:
+        """The intruders in the project's order."""
+        return [Intruder(self, index) for index in range(self._inside.intruder_count())]
+
+    def intruder(self, which: int | str) -> Intruder:
+        """The intruder with this index or name. Raises KeyError where there is none."""
+        for intruder in self.intruders:
+            if which in (intruder.index, intruder.name):
+                return intruder
+        raise KeyError(which)
+
+    def add_intruder(self, **settings: Any) -> Intruder:
+        """Appends an intruder; settings: name, category, and model, a file."""
+        model = settings.pop("model", None)
+        added = Intruder(self, self._inside.add_intruder())
+        try:
+            for key, value in settings.items():
+                added[key] = value
+            if model is not None:
+                added["model.file"] = model
+        except BaseException:
+            self._inside.remove_intruder(added.index)
+            raise
+        return added
+
+    def remove_intruder(self, which: int | str) -> None:
+        """Removes an intruder; those behind it move up."""
+        self._inside.remove_intruder(self.intruder(which).index)
+
+    def _opened(self) -> dict[str, Any]:
+        opened = self._inside.opened()
+        _warn(opened["warnings"])
+        return opened
+
+    @property
+    def footage(self) -> Footage:
+        """The footage's properties; opens the project."""
+        of = self._opened()
+        return Footage(
+            path=pathlib.Path(of["path"]),
+            size_px=(of["width"], of["height"]),
+            frame_count=len(of["times_s"]),
+            frame_rate=of["frame_rate"],
+            times_s=of["times_s"],
+            codec=of["codec"],
+            layout=of["layout"],
+        )
+
+    @property
+    def frame_range(self) -> range:
+        """Numbers of the frames that an export writes; opens the project."""
+        of = self._opened()
+        return range(of["first_frame"], of["last_frame"] + 1)
+
+    def frames(self, frames: Optional[range] = None, jobs: Optional[int] = None) -> FrameIterator:
+        """The frames of an export, in order, without writing them.
+
+        frames  numbers in the footage; None: the project's own range
+        jobs    frames composed at a time, ahead of the one that is asked for; None: one for each processor. The
+                frames do not depend on it, and at most some 2 jobs + 4 of them are in memory
+
+        The project is read now: later changes have no effect on the frames.
+        """
+        iterator = FrameIterator(self._inside, _ends(frames), _jobs(jobs))
+        _warn(iterator.warnings)
+        return iterator
+
+    def render(
+        self,
+        frame: int,
+        poses: Optional[Mapping[int | str, Any]] = None,
+        camera: Any = None,
+    ) -> Frame:
+        """Composes one frame of the footage: the same as an export's, with poses of your own if you like.
+
+        poses   poses in the world of some intruders, by name or index: a sigs.Pose or (position_m, attitude_deg);
+                those not named fly as the project says
+        camera  likewise of the camera itself
+
+        Decoder, models and OpenGL are kept from call to call, also when fields or waypoints change between them.
+        Truth of encounters is that of whole flights and is None here.
+        """
+        given = [
+            (self.intruder(which).index, _pose_tuple(pose, f"intruder {which}"))
+            for which, pose in (poses or {}).items()
+        ]
+        return self._inside.render(frame, None if camera is None else _pose_tuple(camera, "camera"), given)
+
+    def close(self) -> None:
+        """Frees decoder and OpenGL; the next render() opens them again."""
+        self._inside.close()
+
+    def copy(self) -> Project:
+        """A project of its own with the same fields."""
+        return Project.parse(self.text(), self.path)
+
+    def __iter__(self) -> Iterator[Frame]:
+        return iter(self.frames())
+
+    def __reduce__(self) -> tuple[Callable[[str, _Path], Project], tuple[str, str]]:
+        return Project.parse, (self.text(), str(self.path.absolute()))
+
+    def __repr__(self) -> str:
+        return f"<sigs.Project '{self['name']}', {len(self.intruders)} intruders>"
+
+
+def open(path: _Path) -> Project:
+    """Reads a project file. Unknown keys are kept and give a ProjectWarning."""
+    inside, texts = _sigs.Project.read(path)
+    _warn(texts)
+    return Project(inside)
+
+
+def export(
+    project: Project,
+    folder: _Path,
+    frames: Optional[range] = None,
+    jobs: Optional[int] = None,
+    overwrite: bool = False,
+    progress: Optional[Callable[[int, int], object]] = None,
+) -> ExportReport:
+    """Exports as `sigs export` does: video, masks and labels, which appear when all are complete.
+
+    folder    created if it is missing
+    progress  called with the number of frames done and of all, on this thread, some 20 times a second; an exception
+              that it raises stops the export
+
+    Ctrl-C (KeyboardInterrupt) stops it too, and leaves no file.
+    """
+    report = ExportReport(**_sigs.export_to(project._inside, folder, _ends(frames), _jobs(jobs), overwrite, progress))
+    _warn(report.warnings)
+    return report
