@@ -1,13 +1,17 @@
 # Compile options of all targets: strict warnings, and the engine's folder as include root.
 add_library(sigs_flags INTERFACE)
-target_include_directories(sigs_flags INTERFACE "${CMAKE_SOURCE_DIR}/engine")
+target_include_directories(sigs_flags INTERFACE "$<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/engine>" $<INSTALL_INTERFACE:include/sigs>)
 target_include_directories(sigs_flags SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
-target_compile_options(sigs_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
-  -Wnon-virtual-dtor
+set(warnings -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow -Wnon-virtual-dtor
   # Designated initialisers may leave fields at their defaults.
   -Wno-missing-field-initializers)
+target_compile_options(sigs_flags INTERFACE "$<BUILD_INTERFACE:${warnings}>")
+target_compile_features(sigs_flags INTERFACE cxx_std_20)
 # The same sum in the same order everywhere: a fused multiply-add on one machine alone would change the bytes.
-target_compile_options(sigs_flags INTERFACE -ffp-contract=off)
+target_compile_options(sigs_flags INTERFACE $<BUILD_INTERFACE:-ffp-contract=off>)
+# Messages of failed checks name sources relative to the root: a program that is installed knows nothing of where it was
+# built.
+target_compile_options(sigs_flags INTERFACE "$<BUILD_INTERFACE:-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=>")
 target_link_libraries(sigs_flags INTERFACE glm::glm tl::expected)
 
 # The engine is linked into programs and into the Python module, a shared library. As its symbols are hidden, the code
@@ -59,6 +63,9 @@ function(sigs_module name)
     sigs_compile(sigs_${name} light)
   else()
     sigs_compile(sigs_${name} fast)
+  endif()
+  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${CMAKE_SOURCE_DIR}/engine/")
+    set_property(GLOBAL APPEND PROPERTY sigs_engine_modules sigs_${name})
   endif()
 endfunction()
 

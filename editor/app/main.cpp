@@ -2,10 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 #include <thread>
 
 #include "base/threads.h"
 #include "editor/app/app.h"
+#include "editor/app/command_line.h"
 
 namespace {
 
@@ -40,20 +42,15 @@ int run(const std::string& project, const std::string& probe) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App program("Puts simulated aircraft into real UAV footage: the visual editor.", "sigs-editor");
-  program.set_version_flag("--version", std::string("sigs-editor ") + SIGS_VERSION);
-  std::string project;
-  std::string probe;
-  program.add_option("project", project, "project file to open; none: the start page")->option_text("PROJECT");
-  program
-      .add_option("--probe", probe, "write what the window shows and where into this file, for driving it from outside")
-      ->option_text("FILE");
+  sigs::editor::EditorOptions options;
+  const std::unique_ptr<CLI::App> program = sigs::editor::make_command_line(options);
   try {
-    program.parse(argc, argv);
+    program->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : static_cast<int>(sigs::ErrorKind::usage);
+    return program->exit(error) == 0 ? 0 : static_cast<int>(sigs::ErrorKind::usage);
   }
-  const sigs::Result<int> status = sigs::guarded([&]() -> sigs::Result<int> { return run(project, probe); });
+  const sigs::Result<int> status =
+      sigs::guarded([&]() -> sigs::Result<int> { return run(options.project, options.probe); });
   if (status) return *status;
   std::fprintf(stderr, "error: %s\n", status.error().text().c_str());
   return static_cast<int>(status.error().kind);

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "cli/describe/completion.h"
+
+namespace sigs::cli {
+
+namespace {
+
+// The function's parts that do not depend on the program. In COMP_WORDS "--codec=ffv1" is three words.
+constexpr const char* kBegin = R"(
+  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command= options= values= commands= i
+  COMPREPLY=()
+  if [[ $cur == "=" ]]; then
+    cur=
+  elif [[ $prev == "=" ]]; then
+    prev=${COMP_WORDS[COMP_CWORD-2]}
+  fi
+)";
+
+constexpr const char* kEnd = R"(
+  case $values in
+    "") ;;
+    FILE) mapfile -t COMPREPLY < <(compgen -f -- "$cur"); compopt -o filenames 2>/dev/null; return ;;
+    DIR) mapfile -t COMPREPLY < <(compgen -d -- "$cur"); compopt -o filenames 2>/dev/null; return ;;
+    TEXT) return ;;
+    LIST\ *)
+      local before=
+      [[ $cur == *,* ]] && before=${cur%,*},
+      mapfile -t COMPREPLY < <(compgen -P "$before" -W "${values#LIST }" -- "${cur##*,}")
+      compopt -o nospace 2>/dev/null
+      return ;;
+    *) mapfile -t COMPREPLY < <(compgen -W "$values" -- "$cur"); return ;;
+  esac
+  if [[ $cur == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$cur")
+  elif [[ -n $commands ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$cur")
+  else
+    mapfile -t COMPREPLY < <(compgen -f -- "$cur")
+    compopt -o filenames 2>/dev/null
+  fi
+}
+)";
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+std::string values_of(const OptionFacts& option) {
+  if (!option.choices.empty()) return (option.takes_list ? "LIST " : "") + joined(option.choices);
+  return option.kind == ValueKind::file ? "FILE" : option.kind == ValueKind::folder ? "DIR" : "TEXT";
+}
+
+std::string last_word(const std::string& name) {
+  return name.substr(name.rfind(' ') + 1);
+}
+
+// The lines that find the subcommand among the words before the cursor.
+std::string command_cases(const CommandFacts& command) {
+  std::string text;
+  for (const CommandFacts& below : command.commands) {
+    text += fmt::format("      '{}:{}') command='{}' ;;\n", command.name, last_word(below.name), below.name);
+    text += command_cases(below);
+  }
+  return text;
+}
+
+// What may follow within one command.
+std::string option_cases(const CommandFacts& command) {
+  std::string names;
+  std::string values;
+  for (const OptionFacts& option : command.options) {
+    names += (names.empty() ? "" : " ") + joined(option.names);
+    if (option.value.empty()) continue;
+    std::string patterns;
+    for (const std::string& name : option.names) patterns += (patterns.empty() ? "" : "|") + name;
+    values += fmt::format("        {}) values='{}' ;;\n", patterns, values_of(option));
+  }
+  std::string below;
+  for (const CommandFacts& one : command.commands) below += (below.empty() ? "" : " ") + last_word(one.name);
+  std::string text = fmt::format("    '{}')\n      options='{}'\n", command.name, names);
+  if (!below.empty()) text += fmt::format("      commands='{}'\n", below);
+  if (!values.empty()) text += "      case $prev in\n" + values + "      esac\n";
+  text += "      ;;\n";
+  for (const CommandFacts& one : command.commands) text += option_cases(one);
+  return text;
+}
+
+}  // namespace
+
+std::string bash_completion(const CommandFacts& program) {
+  std::string function = "_" + program.name;
+  for (char& c : function)
+    if (c == '-') c = '_';
+  std::string text =
+      fmt::format("# Completion of {} for bash; made from the program's own descriptions.\n", program.name);
+  text += fmt::format("{}() {{", function) + kBegin + fmt::format("  command='{}'\n", program.name);
+  if (!program.commands.empty())
+    text += "  for ((i = 1; i < COMP_CWORD; ++i)); do\n    case \"$command:${COMP_WORDS[i]}\" in\n" +
+            command_cases(program) + "    esac\n  done\n";
+  text += "  case $command in\n" + option_cases(program) + "  esac" + kEnd;
+  return text + fmt::format("complete -F {} {}\n", function, program.name);
+}
+
+}  // namespace sigs::cli

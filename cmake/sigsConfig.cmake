@@ -1,0 +1,13 @@
+# find_package(sigs): target sigs::sigs. What the engine is built upon is looked for with the same names as in its build.
+include(CMakeFindDependencyMacro)
+find_dependency(OpenCV 4.6 COMPONENTS core imgproc imgcodecs calib3d video tracking)
+foreach(library glm tl-expected fmt nlohmann_json pugixml yaml-cpp Threads Eigen3)
+  find_dependency(${library})
+endforeach()
+list(APPEND CMAKE_MODULE_PATH /usr/share/cmake/geographiclib)
+find_dependency(GeographicLib)
+find_dependency(PkgConfig)
+pkg_check_modules(FFMPEG REQUIRED QUIET IMPORTED_TARGET libavformat libavcodec libavutil libswscale)
+pkg_check_modules(TINYOBJ REQUIRED QUIET IMPORTED_TARGET tinyobjloader)
+pkg_check_modules(EPOXY REQUIRED QUIET IMPORTED_TARGET epoxy egl)
+include("${CMAKE_CURRENT_LIST_DIR}/sigsTargets.cmake")
