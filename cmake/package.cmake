@@ -46,11 +46,16 @@ set(CPACK_COMPONENT_DEV_DESCRIPTION "Engine of SIGS for programs of your own
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
   "libopencv-dev, libopencv-contrib-dev, libavformat-dev, libavcodec-dev, libavutil-dev, libswscale-dev, libglm-dev, libtinyobjloader-dev, libepoxy-dev, libegl-dev, nlohmann-json3-dev, libpugixml-dev, libyaml-cpp-dev, libexpected-dev, libfmt-dev, libeigen3-dev, libgeographiclib-dev, pkg-config")
 
-# What Debian asks of every package: the licence and the changes beside it.
+# What Debian asks of every package: the licence and the changes beside it. SOURCE_DATE_EPOCH, where it is set, is the
+# date of the changes.
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(READ LICENSE licence)
+string(REGEX REPLACE "\n+$" "" licence "${licence}")
+string(REGEX REPLACE "\n\n" "\n.\n" licence "${licence}")
+string(REGEX REPLACE "\n" "\n " licence "${licence}")
 foreach(name sigs libsigs-dev)
   set(folder "${CMAKE_BINARY_DIR}/debian/${name}")
   file(MAKE_DIRECTORY "${folder}")
-  file(READ LICENSE licence)
   file(CONFIGURE OUTPUT "${folder}/copyright" @ONLY CONTENT
 "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: SIGS
@@ -58,10 +63,18 @@ Upstream-Name: SIGS
 Files: *
 Copyright: SIGS contributors
 License: Expat
- The text of the licence follows.
 
-@licence@")
-  execute_process(COMMAND gzip -9nc "${CMAKE_SOURCE_DIR}/CHANGELOG.md" OUTPUT_FILE "${folder}/changelog.gz")
+License: Expat
+ @licence@
+")
+  file(CONFIGURE OUTPUT "${folder}/changelog" @ONLY CONTENT
+"sigs (@PROJECT_VERSION@) unstable; urgency=medium
+
+  * The changes are listed in the project's file CHANGELOG.md.
+
+ -- @CPACK_PACKAGE_CONTACT@  @date@
+")
+  execute_process(COMMAND gzip -9nc "${folder}/changelog" OUTPUT_FILE "${folder}/changelog.gz")
 endforeach()
 install(FILES "${CMAKE_BINARY_DIR}/debian/sigs/copyright" "${CMAKE_BINARY_DIR}/debian/sigs/changelog.gz" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/sigs")
 install(FILES "${CMAKE_BINARY_DIR}/debian/libsigs-dev/copyright" "${CMAKE_BINARY_DIR}/debian/libsigs-dev/changelog.gz" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libsigs-dev" COMPONENT dev)

@@ -2,8 +2,9 @@
 # Installs the packages that SIGS needs, on Debian 12 or Ubuntu 24.04, and builds it. Sourced by demo.sh and test.sh.
 #   sigs_install programs         the packages to build and run the two programs
 #   sigs_install programs tests   and those for tests and measurements
+#   sigs_install programs package and those for the Python module and the Debian packages
 #   sigs_build PRESET [cmake options] [-- targets]
-# On its own, scripts/setup.sh installs both lists and builds nothing.
+# On its own, scripts/setup.sh installs all lists and builds nothing.
 set -euo pipefail
 
 sigs_packages_programs=(
@@ -13,11 +14,16 @@ sigs_packages_programs=(
   nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev libfmt-dev libeigen3-dev libgeographiclib-dev
   libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
 )
+# For the Python module and the Debian packages (scripts/package.sh).
+sigs_packages_package=(
+  pybind11-dev python3-dev python3-numpy dpkg-dev file gzip
+)
 # doctest; Embree for the reference renderer; FFmpeg's, GeographicLib's and libxml2's programs as independent checks; Xvfb and xdotool for the
-# window; gnuplot for plots of reports; Slurm for a dataset made by an array job.
+# window; gnuplot for plots of reports; Slurm for a dataset made by an array job;
+# man, zsh and desktop-file-validate for what is installed.
 sigs_packages_tests=(
   doctest-dev libembree-dev ffmpeg geographiclib-tools libxml2-utils xvfb xdotool gnuplot-nox
-  slurmctld slurmd slurm-client munge
+  slurmctld slurmd slurm-client munge man-db zsh desktop-file-utils
 )
 
 sigs_as_root() {
@@ -63,4 +69,4 @@ sigs_build() {
 }
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-[ "${BASH_SOURCE[0]}" != "$0" ] || sigs_install programs tests
+[ "${BASH_SOURCE[0]}" != "$0" ] || sigs_install programs tests package
