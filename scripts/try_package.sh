@@ -28,13 +28,13 @@ rm -rf "$root/root/results"
 mkdir -p "$root/root/results"
 cp "$package" "$video" "$root/root/results/"
 
-inside() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive bash -euc "cd /root/results; $1"; }
+inside() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive bash -euo pipefail -c "cd /root/results; $1"; }
 step() { printf '\n== %s\n' "$1"; inside "$1"; }
 
 inside "apt-get update -q" >/dev/null
-inside "apt-get purge -q -y sigs 2>/dev/null || true" >/dev/null
+inside "if dpkg -s sigs >/dev/null 2>&1; then apt-get purge -q -y sigs; fi" >/dev/null
 step "apt-get install -q -y --no-install-recommends ./$(basename "$package") | tail -n 3"
-step "! command -v cc gcc g++ clang ld cmake"
+step "for tool in cc gcc g++ clang ld cmake; do if command -v \$tool; then echo 'error: this root has a compiler' >&2; exit 1; fi; done"
 step "sigs --version"
 name=$(basename "$video")
 if inside "sigs --help" | grep -q '^  init '; then
