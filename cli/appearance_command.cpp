@@ -22,6 +22,7 @@
 #include "cli/process.h"
 #include "cli/progress.h"
 #include "project/json.h"
+#include "scene/opened_project.h"
 
 namespace sigs::cli {
 
@@ -74,6 +75,7 @@ Result<Project> project_of_file(const fs::path& file) {
 // The video to look at, and which frames of it.
 struct Looked {
   fs::path video;
+  SequenceTiming timing{};
   AppearanceFrames frames;
 };
 
@@ -81,6 +83,7 @@ Result<Looked> looked_at(const AppearanceOptions& options, const std::optional<P
   Looked looked{.video = options.file, .frames = {.every = options.every}};
   if (project) {
     looked.video = resolved(*project, project->footage.video);
+    looked.timing = timing_of(*project);
     looked.frames.first = project->footage.first_frame;
     looked.frames.last = project->footage.last_frame;
   }
@@ -94,7 +97,7 @@ Result<Looked> looked_at(const AppearanceOptions& options, const std::optional<P
 
 Result<Appearance> found_in(const Looked& looked, const std::optional<Project>& project,
                             const AppearanceOptions& options) {
-  Result<FrameSource> footage = FrameSource::open(looked.video, &interrupt_flag(), Quantisers::read);
+  Result<FrameSource> footage = FrameSource::open(looked.video, &interrupt_flag(), Quantisers::read, looked.timing);
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
   AppearanceHints hints;

@@ -47,7 +47,7 @@ Result<void> check(const ProjectOptions& options) {
   for (const Problem& problem : problems) print(error_of(*project, problem));
   if (!problems.empty())
     return fail(project->file.string(), count_text(problems.size(), "problem"), problems.front().kind);
-  const Result<FrameSource> source = FrameSource::open(resolved(*project, project->footage.video));
+  const Result<FrameSource> source = open_footage(*project);
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
   std::vector<Warning> warnings = warnings_of(source->info());
   for (Warning& warning : codec_warnings_of(*project, source->info())) warnings.push_back(std::move(warning));

@@ -15,6 +15,7 @@ using Command = std::function<Result<void>()>;
 // Each adds one subcommand with its options to the program, and returns what it does. The command keeps what its
 // options write to.
 [[nodiscard]] Command add_appearance_command(CLI::App& program);       // sigs appearance
+[[nodiscard]] Command add_calibrate_command(CLI::App& program);        // sigs calibrate
 [[nodiscard]] Command add_check_command(CLI::App& program);            // sigs check
 [[nodiscard]] Command add_compare_command(CLI::App& program);          // sigs compare
 [[nodiscard]] Command add_dataset_command(CLI::App& program);          // sigs dataset
@@ -25,6 +26,7 @@ using Command = std::function<Result<void>()>;
 [[nodiscard]] Command add_export_command(CLI::App& program);           // sigs export
 [[nodiscard]] Command add_frame_command(CLI::App& program);            // sigs frame
 [[nodiscard]] Command add_info_command(CLI::App& program);             // sigs info
+[[nodiscard]] Command add_init_command(CLI::App& program);             // sigs init
 [[nodiscard]] Command add_mask_command(CLI::App& program);             // sigs mask
 [[nodiscard]] Command add_occluder_command(CLI::App& program);         // sigs occluder
 [[nodiscard]] Command add_path_command(CLI::App& program);             // sigs path

@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "dataset/run.h"
+#include "scene/opened_project.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {
@@ -27,10 +28,18 @@ double bytes_a_pixel(const ExportSettings& output) {
       return 0.38;
     case CodecChoice::h264:
       return 0.017;
+    case CodecChoice::hevc:
+    case CodecChoice::av1:
+      return 0.012;
     case CodecChoice::mjpeg:
       return 0.13;
     case CodecChoice::png:
+    case CodecChoice::tiff:
       return 1.2;
+    case CodecChoice::jpeg:
+      return 0.15;
+    case CodecChoice::raw:
+      return 1.5;
   }
   return 1;
 }
@@ -101,7 +110,7 @@ class ImageSizes {
   Result<double> pixels_of(const Project& project) {
     const std::string path = resolved(project, project.footage.video).string();
     if (const auto known = pixels_.find(path); known != pixels_.end()) return known->second;
-    const Result<FrameSource> source = FrameSource::open(path);
+    const Result<FrameSource> source = open_footage(project);
     if (!source) return fail(source.error());
     const cv::Size size = source->info().size_px;
     return pixels_[path] = double(size.width) * size.height;

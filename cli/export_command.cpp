@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include <string_view>
 #include <thread>
 
+#include "base/output_stream.h"
 #include "base/text.h"
 #include "cli/options.h"
 #include "cli/process.h"
@@ -33,6 +35,8 @@ struct ExportOptions {
   int jobs = 0;
   bool force = false;
   bool times = false;
+  int labels_descriptor = -1;
+  bool in_real_time = false;
   std::string progress = "auto";
 };
 
@@ -46,9 +50,10 @@ struct SettingText {
 };
 
 constexpr SettingText kSettings[] = {
-    {"--codec", "export.video.codec", "NAME", "ffv1, h264, mjpeg or png"},
-    {"--crf", "export.video.crf", "N", "quality of h264: 0 lossless to 51 worst"},
-    {"--container", "export.video.container", "NAME", "mkv, mp4 or avi"},
+    {"--codec", "export.video.codec", "NAME", "ffv1, h264, hevc, av1, mjpeg, png, tiff, jpeg or raw"},
+    {"--crf", "export.video.crf", "N", "quality: 0 lossless to 51 worst (h264, hevc), 63 (av1)"},
+    {"--container", "export.video.container", "NAME", "mkv, mp4, avi, nut or y4m"},
+    {"--quality", "export.video.quality", "N", "quality of jpeg: 1 worst to 100 best"},
     {"--method", "compositing.method", "NAME", "direct, classic or plain"},
     {"--masks", "export.masks", "NAME", "video, png or none"},
     {"--min-pixels", "export.label_least_pixels", "N", "no label where fewer pixels are visible", true},
@@ -103,6 +108,31 @@ Result<void> set_options(Project& project, const ExportOptions& options) {
   return {};
 }
 
+bool is_stream(const ExportOptions& options) {
+  return options.folder == "-";
+}
+
+// A stream has a container that can be read as it comes, and no other outputs beside it.
+Result<void> prepare_for_stream(Project& project, const ExportOptions& options) {
+  ExportSettings& output = project.output;
+  const auto wrong = [](const std::string& where, const char* what) { return fail(where, what, ErrorKind::usage); };
+  if (is_terminal(STDOUT_FILENO))
+    return wrong("--out -", "standard output is a terminal; let a program read it: ... --out - | ffmpeg -i - ...");
+  if (options.labels_descriptor == STDOUT_FILENO) return wrong("--labels-fd 1", "the video goes there by --out -");
+  if (!options.labels.empty() && options.labels != "none")
+    return wrong("--labels " + options.labels, "is for files; beside a stream labels go to --labels-fd");
+  if (const std::string masks = given(options, "export.masks"); !masks.empty() && masks != "none")
+    return wrong("--masks " + masks, "is for files; standard output has the video alone");
+  if (writes_images(output.codec))
+    return wrong("--out -", "numbered images are files; choose the codec ffv1, h264, mjpeg or raw");
+  const bool can_stream = output.container == ContainerChoice::nut || output.container == ContainerChoice::y4m;
+  if (!can_stream && !given(options, "export.video.container").empty())
+    return wrong("--container " + given(options, "export.video.container"),
+                 "cannot be read as it comes; use nut or y4m with --out -");
+  if (!can_stream) output.container = ContainerChoice::nut;
+  return {};
+}
+
 Result<ExportRequest> request_of(const ExportOptions& options) {
   Result<Project> project = project_of(options.project);
   if (!project) return fail(project.error());
@@ -110,8 +140,17 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
   const bool codec_alone =
       !given(options, "export.video.codec").empty() && given(options, "export.video.container").empty();
   if (codec_alone) project->output.container = ContainerChoice::automatic;
+  // y4m holds nothing else.
+  if (given(options, "export.video.container") == "y4m" && given(options, "export.video.codec").empty())
+    project->output.codec = CodecChoice::raw;
   if (const Result<void> set = set_options(*project, options); !set) return fail(set.error());
-  ExportRequest request{.project = std::move(*project), .folder = options.folder, .overwrite = options.force};
+  if (is_stream(options))
+    if (const Result<void> stream = prepare_for_stream(*project, options); !stream) return fail(stream.error());
+  ExportRequest request{.project = std::move(*project),
+                        .folder = options.folder,
+                        .overwrite = options.force,
+                        .labels_descriptor = options.labels_descriptor,
+                        .in_real_time = options.in_real_time};
   // Decoding and writing occupy one core.
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   request.jobs = options.jobs > 0 ? options.jobs : std::max(1, cores - 1);
@@ -149,8 +188,13 @@ void print_visibilities(const Project& project, const std::vector<Visibility>& v
 }
 
 Result<void> run(const ExportOptions& options) {
-  const Result<ExportRequest> request = request_of(options);
+  Result<ExportRequest> request = request_of(options);
   if (!request) return fail(request.error());
+  if (is_stream(options)) {
+    const Result<int> descriptor = taken_standard_output();
+    if (!descriptor) return fail(descriptor.error());
+    request->video_descriptor = *descriptor;
+  }
   defer_interrupts();
   tune_allocator();
   Progress progress(progress_style(options.progress));
@@ -164,7 +208,8 @@ Result<void> run(const ExportOptions& options) {
   const Result<ExportReport> report = export_project(*request, control);
   progress.end();
   if (!report) return fail(report.error());
-  for (const std::filesystem::path& path : report->written) std::printf("%s\n", path.c_str());
+  if (options.labels_descriptor != STDOUT_FILENO)
+    for (const std::filesystem::path& path : report->written) std::printf("%s\n", path.c_str());
   if (options.times) print_times(*report);
   if (options.progress != "none") print_visibilities(request->project, report->visibilities);
   return {};
@@ -177,9 +222,11 @@ Command add_export_command(CLI::App& program) {
       program.add_subcommand("export", "write a project's video, masks and annotations; prints the files written");
   const auto options = std::make_shared<ExportOptions>();
   add_project_options(*command, options->project);
-  command->add_option("--out", options->folder, "folder to write into; made where it is not there")
+  command
+      ->add_option("--out", options->folder,
+                   "folder to write into, made where it is not there; -: the video to standard output")
       ->capture_default_str()
-      ->check(output_path());
+      ->check(not_empty());
   command->add_option("--frames", options->frames, "only these frames of the footage")->option_text("A-B");
   for (const SettingText& setting : kSettings)
     command->add_option(setting.option, options->settings[setting.key], help_of(setting))->option_text(setting.value);
@@ -190,6 +237,12 @@ Command add_export_command(CLI::App& program) {
   command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one less than processor cores")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
+  command
+      ->add_option("--labels-fd", options->labels_descriptor,
+                   "labels as JSON lines to an open file descriptor, each before its frame")
+      ->option_text("N")
+      ->check(CLI::Range(0, 1 << 20));
+  command->add_flag("--realtime", options->in_real_time, "no frame goes out before its time");
   command->add_flag("--force", options->force, "overwrite what is there");
   command->add_flag("--times", options->times, "say at the end how long each stage took");
   add_progress_option(*command, options->progress);

@@ -34,8 +34,7 @@ struct FrameOptions {
 };
 
 Result<ComposedFrame> composed(const Project& project, const FrameOptions& options) {
-  Result<FrameSource> source =
-      FrameSource::open(resolved(project, project.footage.video), nullptr, quantisers_for(project));
+  Result<FrameSource> source = open_footage(project, nullptr, quantisers_for(project));
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   const int count = source->info().frame_count();
   if (options.frame < 0 || options.frame >= count)
@@ -61,7 +60,8 @@ using NamedImages = std::vector<std::pair<fs::path, cv::Mat>>;
 // By their final names.
 NamedImages stage_images(const ComposedFrame& frame, const FrameOptions& options) {
   const std::string base = fmt::format("frame_{}", options.frame);
-  NamedImages images{{options.folder / (base + ".png"), bgr_of(frame.image)}};
+  NamedImages images{
+      {options.folder / (base + ".png"), frame.image.bit_depth > 8 ? bgr16_of(frame.image) : bgr_of(frame.image)}};
   for (std::size_t i = 0; i < frame.stages.size(); ++i) {
     images.emplace_back(options.folder / fmt::format("{}_{:02}_{}.png", base, i, frame.stages[i].name),
                         frame.stages[i].image);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/pose.h"
 #include "base/text.h"
@@ -83,6 +84,7 @@ double length_s(const VideoInfo& video) {
 void print_video(const VideoInfo& video) {
   std::printf("video: %s, %s, %s (%s), container %s\n", video.codec.c_str(), image_size_text(video.size_px).c_str(),
               name_of(video.layout), video.pixel_format.c_str(), video.container.c_str());
+  if (video.bit_depth > 8) std::printf("bits a sample: %d\n", video.bit_depth);
   if (!video.conversion.empty()) std::printf("conversion: %s\n", video.conversion.c_str());
   std::printf("frames: %d, %d/%d a second%s, %.3f s\n", video.frame_count(), video.frame_rate_num, video.frame_rate_den,
               video.variable_frame_rate ? " (variable)" : "", length_s(video));
@@ -148,7 +150,8 @@ struct InfoOptions {
 Result<void> info(const InfoOptions& options) {
   const std::filesystem::path& path = options.path;
   std::error_code code;
-  if (!std::filesystem::exists(path, code)) return fail(path.string(), "no such file", ErrorKind::cannot_read);
+  if (!std::filesystem::exists(path, code) && !is_number_pattern(path))
+    return fail(path.string(), "no such file", ErrorKind::cannot_read);
   const std::string extension = lower_extension(path);
   if (extension == ".obj") {
     const Result<Mesh> mesh = read_obj(path);

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "base/numbered_files.h"
 #include "base/paths.h"
 #include "cli/mask_outputs.h"
 #include "cli/options.h"
@@ -75,7 +76,7 @@ Result<Project> project_of(const MaskOptions& options) {
 }
 
 Result<FrameSource> footage_of(const Project& project) {
-  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  Result<FrameSource> source = open_footage(project);
   if (!source && !project.file.empty())
     return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   if (source)
@@ -84,7 +85,10 @@ Result<FrameSource> footage_of(const Project& project) {
 }
 
 fs::path default_mask(const fs::path& video) {
-  return video.stem().string() + ".own-body.png";
+  // Of images the folder that they are in: "images/%06d.png" and "images/" give "images".
+  const bool is_pattern = is_number_pattern(video) && video.has_parent_path();
+  const fs::path named = is_pattern || !video.has_filename() ? video.parent_path() : video;
+  return named.stem().string() + ".own-body.png";
 }
 
 Result<MaskOutputs> reserved(const MaskOptions& options, const Project& project, const fs::path& video) {

@@ -54,7 +54,7 @@ bool is_meant_as_project(const std::string& text) {
 // What of a scene a recorded path needs: the footage's times, the camera's log and the place on the Earth. Models and
 // calibration may be missing still.
 Result<Scene> scene_for_traffic(const Project& project) {
-  const Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video), &interrupt_flag());
+  const Result<FrameSource> source = open_footage(project, &interrupt_flag());
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   Scene scene = bare_scene(project, shape_of(source->info()));

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "cli/process.h"
 
+#include <fcntl.h>
 #include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string_view>
 
 #include "base/result.h"
@@ -59,6 +63,14 @@ void listen_for_interrupts() {
 
 void defer_interrupts() {
   deferred = true;
+}
+
+Result<int> taken_standard_output() {
+  std::fflush(stdout);
+  const int descriptor = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (descriptor < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0)
+    return fail("standard output", std::strerror(errno), ErrorKind::cannot_create);
+  return descriptor;
 }
 
 void prepare_mesa() {

@@ -3,6 +3,8 @@
 
 #include <atomic>
 
+#include "base/result.h"
+
 namespace sigs::cli {
 
 // How the process as a whole behaves: signals, memory, the environment of libraries.
@@ -22,6 +24,10 @@ void defer_interrupts();
 
 // Exit status of an interrupted program: 128 + the signal's number, so 129 for SIGHUP, 130 for SIGINT, 143 for SIGTERM.
 [[nodiscard]] int interrupted_status();
+
+// A descriptor of the program's standard output, for data alone: from this call on what is printed there, by whichever
+// library, goes to standard error. Error cannot_create.
+[[nodiscard]] Result<int> taken_standard_output();
 
 // Makes the allocator keep memory of up to 32 MiB a block instead of returning it to the system. Images and layers of
 // some megabytes are allocated for every frame; memory that is kept costs no page faults when it is used again.

@@ -9,6 +9,7 @@ namespace {
 
 constexpr const char* kProgramFooter =
     "Examples:\n"
+    "  sigs init flight.mp4\n"
     "  sigs export projects/crossing/crossing.json --out out\n"
     "  sigs export projects/head-on/head-on.json --out out --codec h264 --frames 0-99\n"
     "  sigs frame projects/crossing/crossing.json --frame 100 --stages --out out\n"
@@ -19,6 +20,7 @@ constexpr const char* kProgramFooter =
     "  sigs info assets/footage/sample.mp4\n"
     "  sigs telemetry flight.mp4 --out flight.csv\n"
     "  sigs ego-motion flight.mp4 --calibration gopro.xml --out attitude.csv\n"
+    "  sigs calibrate board.mp4 --board chessboard --corners 9x6 --square-m 0.025 --out camera.xml\n"
     "  sigs appearance flight.mp4 --out settings.json --plot appearance.png\n"
     "  sigs path flight.gpx --out flight.kml\n"
     "  sigs encounter-model glider_v1.txt --samples 100 --out tracks.csv\n"
@@ -38,10 +40,11 @@ Program make_program() {
   program.app->set_version_flag("--version", std::string("sigs ") + SIGS_VERSION);
   program.app->require_subcommand(1);
   program.app->footer(kProgramFooter);
-  for (const auto add : {add_export_command, add_frame_command, add_mask_command, add_occluder_command,
-                         add_dataset_command, add_evaluate_command, add_check_command, add_info_command,
-                         add_telemetry_command, add_ego_motion_command, add_appearance_command, add_path_command,
-                         add_compare_command, add_encounter_command, add_encounter_model_command}) {
+  for (const auto add :
+       {add_init_command, add_export_command, add_frame_command, add_mask_command, add_occluder_command,
+        add_dataset_command, add_evaluate_command, add_check_command, add_info_command, add_telemetry_command,
+        add_ego_motion_command, add_appearance_command, add_path_command, add_calibrate_command, add_compare_command,
+        add_encounter_command, add_encounter_model_command}) {
     Command run = add(*program.app);
     program.commands.push_back({program.app->get_subcommands({}).back(), std::move(run)});
   }

@@ -75,6 +75,7 @@ void add(Digest& digest, const std::vector<WaypointSettings>& waypoints) {
 template <class ProjectOrConst, class Call>
 void for_each_input(ProjectOrConst& project, const Call& call) {
   call(project.footage.video);
+  call(project.footage.timestamps);
   call(project.footage.calibration);
   call(project.footage.own_body_mask);
   call(project.footage.occluder_mask);

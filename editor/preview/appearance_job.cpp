@@ -2,13 +2,13 @@
 #include "editor/preview/appearance_job.h"
 
 #include "appearance/project_hints.h"
+#include "scene/opened_project.h"
 
 namespace sigs::editor {
 
 Result<Appearance> estimated_appearance(const AppearanceRequest& request, const JobControl& control) {
   const FootageSettings& settings = request.project.footage;
-  Result<FrameSource> footage =
-      FrameSource::open(resolved(request.project, settings.video), control.cancel, Quantisers::read);
+  Result<FrameSource> footage = open_footage(request.project, control.cancel, Quantisers::read);
   if (!footage) return fail(footage.error());
   const Result<AppearanceHints> hints = hints_of(request.project, footage->info(), control.warn);
   if (!hints) return fail(hints.error());

@@ -10,6 +10,7 @@
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
 #include "telemetry/track_csv.h"
+#include "scene/opened_project.h"
 
 namespace sigs::editor {
 
@@ -40,7 +41,7 @@ std::shared_ptr<const Track> track_with_rates(const Project& project, SceneFiles
 
 Result<EstimatedMotion> estimated_motion(const EgoMotionRequest& request, const JobControl& control) {
   const Project& project = request.project;
-  Result<FrameSource> footage = FrameSource::open(resolved(project, project.footage.video), control.cancel);
+  Result<FrameSource> footage = open_footage(project, control.cancel);
   if (!footage) return fail(footage.error());
   const cv::Size size_px = footage->info().size_px;
   SceneFiles files;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "labels/labels.h"
+#include "scene/opened_project.h"
 
 namespace sigs::editor {
 
@@ -27,9 +28,10 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// As docs/command-line.md says: auto is mkv for ffv1, mp4 for h264, avi for mjpeg; png gives a folder of images.
+// As docs/command-line.md says: auto is mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for raw; png, tiff
+// and jpeg give a folder of images.
 std::string ending_of(const ExportSettings& output) {
-  if (output.codec == CodecChoice::png) return "";
+  if (writes_images(output.codec)) return "";
   switch (output.container) {
     case ContainerChoice::mkv:
       return ".mkv";
@@ -37,10 +39,15 @@ std::string ending_of(const ExportSettings& output) {
       return ".mp4";
     case ContainerChoice::avi:
       return ".avi";
+    case ContainerChoice::nut:
+      return ".nut";
+    case ContainerChoice::y4m:
+      return ".y4m";
     case ContainerChoice::automatic:
       break;
   }
-  if (output.codec == CodecChoice::h264) return ".mp4";
+  if (max_crf(video_codec_of(output.codec)) > 0) return ".mp4";
+  if (output.codec == CodecChoice::raw) return ".nut";
   return output.codec == CodecChoice::mjpeg ? ".avi" : ".mkv";
 }
 

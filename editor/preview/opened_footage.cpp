@@ -26,9 +26,10 @@ std::size_t bytes_of(const DecodedFrame& decoded) {
   return sum;
 }
 
-OpenedFootage opened_footage(const std::filesystem::path& video, Quantisers quantisers) {
+OpenedFootage opened_footage(const std::filesystem::path& video, Quantisers quantisers,
+                             const SequenceTiming& timing) {
   if (video.empty()) return {nullptr, std::make_shared<const Footage>(Footage{.problem = "no video is chosen"})};
-  Result<FrameSource> source = FrameSource::open(video, nullptr, quantisers);
+  Result<FrameSource> source = FrameSource::open(video, nullptr, quantisers, timing);
   if (!source) return {nullptr, std::make_shared<const Footage>(Footage{.problem = source.error().text()})};
   if (source->info().frame_count() == 0)
     return {nullptr, std::make_shared<const Footage>(Footage{.problem = video.string() + ": has no frames"})};

@@ -20,8 +20,9 @@ struct OpenedFootage {
 };
 // Opens a video, which may take minutes. An empty path, a file that cannot be read and a video without frames are
 // problems of the footage, not errors.
-//   quantisers  as for FrameSource::open()
-[[nodiscard]] OpenedFootage opened_footage(const std::filesystem::path& video, Quantisers quantisers);
+//   quantisers, timing  as for FrameSource::open()
+[[nodiscard]] OpenedFootage opened_footage(const std::filesystem::path& video, Quantisers quantisers,
+                                           const SequenceTiming& timing = {});
 
 // The footage itself where it is a video, else the grey frames that replace it in this project.
 [[nodiscard]] std::shared_ptr<const Footage> footage_for(const Project& project,

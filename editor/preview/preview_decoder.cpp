@@ -17,7 +17,7 @@ constexpr std::chrono::milliseconds kAfterFailure(100);  // memory may be had ag
 
 OpenedFootage opened_or_problem(const FootageId& footage) {
   Result<OpenedFootage> opened =
-      guarded([&]() -> Result<OpenedFootage> { return opened_footage(footage.path, footage.quantisers); },
+      guarded([&]() -> Result<OpenedFootage> { return opened_footage(footage.path, footage.quantisers, footage.timing); },
               footage.path.string());
   if (opened) return std::move(*opened);
   return {nullptr, std::make_shared<const Footage>(Footage{.problem = opened.error().text()})};

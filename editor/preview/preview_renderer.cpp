@@ -9,6 +9,7 @@
 #include "editor/preview/worker_thread.h"
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"
+#include "base/text.h"
 
 namespace sigs::editor {
 
@@ -118,9 +119,12 @@ void PreviewRenderer::run() {
 
 namespace {
 
-FootageId footage_id_of(const FileStamp& video, Quantisers quantisers) {
-  const ContentId id = id_of(video);
-  return {quantisers == Quantisers::read ? combined_id(id, id) : id, video.path, quantisers};
+FootageId footage_id_of(const FileStamp& video, Quantisers quantisers, const SequenceTiming& timing) {
+  ContentId id = id_of(video);
+  if (quantisers == Quantisers::read) id = combined_id(id, id);
+  if (timing.frame_rate_hz > 0) id = combined_id(id, id_of(FileStamp{.path = exact_text(timing.frame_rate_hz)}));
+  if (!timing.times_file.empty()) id = combined_id(id, id_of(stamp_of(timing.times_file)));
+  return {id, video.path, quantisers, timing};
 }
 
 }  // namespace
@@ -136,7 +140,7 @@ void PreviewRenderer::check_input_files(const PreviewSnapshot& snapshot) {
   const ContentId input_files = input_files_id_of(*revision.project);
   const FileStamp video = footage_stamp_of(*revision.project);
   content_ = combined_id(revision.content, input_files);
-  footage_ = footage_id_of(video, quantisers_for(*revision.project));
+  footage_ = footage_id_of(video, quantisers_for(*revision.project), timing_of(*revision.project));
   revision_ = revision.number;
   files_checked_ = now;
   preview_state_.set_input_files(input_files, footage_);

@@ -24,6 +24,8 @@ struct FootageId {
   std::filesystem::path path;
   // Whether frames are read with their quantisers; another id with than without.
   Quantisers quantisers = Quantisers::leave_out;
+  // Of footage in images; another id with other times.
+  SequenceTiming timing = {};
 };
 
 // What the rendering thread works by: a copy of the state at one moment. It may be out of date at any time after; what

@@ -162,7 +162,7 @@ Result<cv::Mat> project_thumbnail(const fs::path& project_file, cv::Size size_px
   const Result<ReadProject> read = read_project(project_file);
   if (!read) return fail(read.error());
   const Project& project = read->project;
-  Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video));
+  Result<FrameSource> source = open_footage(project);
   if (!source) return fail(source.error());
   if (const Result<Scene> scene = open_scene(project, shape_of(source->info())))
     if (Result<cv::Mat> image = composed_image(*scene, *source, size_px)) return image;

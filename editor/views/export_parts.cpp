@@ -20,6 +20,7 @@
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 #include "labels/labels.h"
+#include "scene/opened_project.h"
 
 namespace sigs::editor {
 
@@ -66,8 +67,10 @@ bool open_with_desktop(const fs::path& path) {
 }
 
 // In the order of the project's choices.
-constexpr std::array kCodecs{"ffv1 (lossless)", "h264 (small)", "mjpeg", "png (numbered images)"};
-constexpr std::array kContainers{"auto", "mkv", "mp4", "avi"};
+constexpr std::array kCodecs{
+    "ffv1 (lossless)",       "h264 (small)",           "hevc (smaller, slower)", "av1 (smaller, slow)", "mjpeg",
+    "png (numbered images)", "tiff (numbered images)", "jpeg (numbered images)", "raw (uncompressed)"};
+constexpr std::array kContainers{"auto", "mkv", "mp4", "avi", "nut", "y4m"};
 constexpr std::array kMasks{"none", "video", "png (numbered images)"};
 
 template <class Choice, std::size_t N>
@@ -170,20 +173,22 @@ void draw_video_choices(const ViewContext& context) {
       // A container that was chosen for another codec may not hold this one.
       if (p.output.codec != codec) p.output.container = ContainerChoice::automatic;
       p.output.codec = codec;
+      if (const int worst = max_crf(video_codec_of(codec)); worst > 0) p.output.crf = std::min(p.output.crf, worst);
     });
-  if (output.codec == CodecChoice::png) return;
+  if (writes_images(output.codec)) return;
   ImGui::SameLine();
   if (choose(context, "container", kContainers, output.container, scaled(90)))
     context.edits.change("container", [container = output.container](Project& p) { p.output.container = container; });
-  tooltip_for_item("Container; auto: mkv for ffv1, mp4 for h264, avi for mjpeg");
-  if (output.codec != CodecChoice::h264) return;
+  tooltip_for_item("Container; auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for raw");
+  const int worst = max_crf(video_codec_of(output.codec));
+  if (worst == 0) return;
   ImGui::SetNextItemWidth(scaled(210));
-  if (ImGui::SliderInt("##crf", &output.crf, 0, 51, "crf %d", ImGuiSliderFlags_AlwaysClamp))
+  if (ImGui::SliderInt("##crf", &output.crf, 0, worst, "crf %d", ImGuiSliderFlags_AlwaysClamp))
     context.edits.change(
         "crf", [crf = output.crf](Project& p) { p.output.crf = crf; }, "export crf");
   if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
   context.ui_probe.note_item("export/crf");
-  tooltip_for_item("Quality of h264: 0 lossless, 18 visually so, 51 worst");
+  tooltip_for_item(fmt::format("Quality: 0 lossless, 18 visually so, {} worst", worst).c_str());
 }
 
 void draw_mask_choice(const ViewContext& context) {

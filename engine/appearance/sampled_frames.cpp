@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/threads.h"
+#include "video/bit_depth.h"
 
 namespace sigs {
 
@@ -44,7 +45,7 @@ void SampledFrames::decode(FrameSource& footage, const std::vector<int>& numbers
     Result<Frame> frame = footage.read(number);
     const bool is_read = frame.has_value();
     const bool is_wanted =
-        is_read ? ahead_.put(NumberedFrame{number, *std::move(frame)}) : ahead_.put(fail(frame.error()));
+        is_read ? ahead_.put(NumberedFrame{number, with_bit_depth(*frame, 8)}) : ahead_.put(fail(frame.error()));
     if (!is_wanted || !is_read) break;
   }
   ahead_.close();

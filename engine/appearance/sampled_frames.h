@@ -17,8 +17,8 @@ struct NumberedFrame {
   Frame frame;
 };
 
-// Decodes the frames of these numbers on a thread of its own, up to 4 ahead of the caller, and gives them in order. No
-// other code may use the footage while the stream exists.
+// Decodes the frames of these numbers on a thread of its own, up to 4 ahead of the caller, and gives them in order,
+// with 8 bits: deeper samples are rounded. No other code may use the footage while the stream exists.
 class SampledFrames {
  public:
   SampledFrames(FrameSource& footage, std::vector<int> numbers);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "video/bit_depth.h"
+
 namespace sigs {
 
 namespace {
@@ -28,7 +30,7 @@ Result<std::optional<Stretch>> stretch_around(FrameSource& footage, const std::v
   for (int n = middle - reach; n <= middle + reach; ++n) {
     const Result<Frame> frame = footage.read(n);
     if (!frame) return fail(frame.error());
-    stretch.frames.push_back(cloned(*frame));
+    stretch.frames.push_back(cloned(with_bit_depth(*frame, 8)));
     stretch.boxes.push_back(*box_at(n));
   }
   return std::optional(std::move(stretch));

@@ -8,49 +8,65 @@
 #include "base/ensure.h"
 #include "compositor/footage_light.h"
 #include "compositor/shared_chroma.h"
+#include "video/bit_depth.h"
 #include "video/frame.h"
 
 namespace sigs {
 
 namespace {
 
+// The highest code of a frame's samples; of 8 bits known when the program is compiled.
+template <class Sample>
+class TopCode {
+ public:
+  explicit TopCode(int bit_depth) : top_(static_cast<float>(max_code(bit_depth))) {}
+  [[nodiscard]] float value() const { return sizeof(Sample) == 1 ? 255.0F : top_; }
+
+ private:
+  float top_;
+};
+
 // Where rewritten samples go: into the frame's own planes, rounded.
+template <class Sample>
 class IntoFrame {
  public:
-  explicit IntoFrame(Frame& frame) : frame_(frame) {}
+  explicit IntoFrame(Frame& frame) : frame_(frame), top_(frame.bit_depth) {}
 
   void put(int plane, int y, int x, float code, float /*opacity*/) const {
-    frame_.planes[static_cast<std::size_t>(plane)].ptr<uchar>(y)[x] =
-        static_cast<uchar>(std::clamp(code, 0.0F, 255.0F) + 0.5F);
+    frame_.planes[static_cast<std::size_t>(plane)].ptr<Sample>(y)[x] =
+        static_cast<Sample>(std::clamp(code, 0.0F, top_.value()) + 0.5F);
   }
 
  private:
   Frame& frame_;
+  TopCode<Sample> top_;
 };
 
 // Into the planes of a patch, as floats.
+template <class Sample>
 class IntoPatch {
  public:
-  explicit IntoPatch(CodePatch& patch) : patch_(patch) {}
+  explicit IntoPatch(CodePatch& patch) : patch_(patch), top_(patch.bit_depth) {}
 
   void put(int plane, int y, int x, float code, float opacity) const {
     PatchPlane& to = patch_.planes[static_cast<std::size_t>(plane)];
-    to.after.ptr<float>(y - to.rect.y)[x - to.rect.x] = std::clamp(code, 0.0F, 255.0F);
+    to.after.ptr<float>(y - to.rect.y)[x - to.rect.x] = std::clamp(code, 0.0F, top_.value());
     to.opacity.ptr<float>(y - to.rect.y)[x - to.rect.x] = std::min(opacity, 1.0F);
   }
 
  private:
   CodePatch& patch_;
+  TopCode<Sample> top_;
 };
 
 // Reads single pixels of a frame as R'G'B', in the frame's own planes, and puts what becomes of them into Target. Where
 // pixels share chroma, each is read with the chroma that lies between its neighbours' samples, and adds its own to the
 // samples that average it.
-template <class Target>
+template <class Sample, class Target>
 class PlaneWriter {
  public:
   PlaneWriter(const Frame& frame, const Target& target)
-      : frame_(frame), target_(target), map_(code_to_rgb(frame.layout, frame.color)) {}
+      : frame_(frame), target_(target), map_(code_to_rgb(frame.layout, frame.color, frame.bit_depth)) {}
 
   // Rewrites the pixels (x, y) of rect that have an opacity above 0; gives back how many. For each row y of rect,
   // pixels.row(y) gives an object with
@@ -99,7 +115,7 @@ class PlaneWriter {
 
   template <class Row>
   std::int64_t rewrite_row(int y, const cv::Range& columns, const Row& row, SharedChroma& chroma) const {
-    const uchar* const luma = frame_.planes[0].ptr<uchar>(y);
+    const Sample* const luma = frame_.planes[0].template ptr<Sample>(y);
     std::int64_t count = 0;
     for (int x = columns.start; x < columns.end; ++x) {
       const float opacity = row.opacity(x);
@@ -124,10 +140,10 @@ class PlaneWriter {
   [[nodiscard]] cv::Vec3f rgb_of(const cv::Vec3f& code) const { return map_.to_rgb * (code - map_.offset); }
 
   [[nodiscard]] cv::Vec3f own_code(const cv::Point& pixel) const {
-    const float luma = frame_.planes[0].at<uchar>(pixel);
+    const float luma = frame_.planes[0].template at<Sample>(pixel);
     if (frame_.plane_count() == 1) return {luma, map_.offset[1], map_.offset[2]};
-    return {luma, static_cast<float>(frame_.planes[1].at<uchar>(pixel)),
-            static_cast<float>(frame_.planes[2].at<uchar>(pixel))};
+    return {luma, static_cast<float>(frame_.planes[1].template at<Sample>(pixel)),
+            static_cast<float>(frame_.planes[2].template at<Sample>(pixel))};
   }
 
   const Frame& frame_;
@@ -174,9 +190,9 @@ struct LayerPixels {
   [[nodiscard]] LayerRow<space> row(int y) const { return {color.ptr<cv::Vec4f>(y - rect.y), rect.x, curve}; }
 };
 
-template <class Target>
+template <class Sample, class Target>
 std::int64_t blend_into(const Target& target, const Frame& frame, const Layer& layer, BlendSpace space) {
-  PlaneWriter<Target> planes(frame, target);
+  PlaneWriter<Sample, Target> planes(frame, target);
   const cv::Mat color = in_footage_primaries(layer.color, frame.color);
   const TransferCurve curve = transfer_curve_of(frame.color);
   return space == BlendSpace::linear
@@ -189,14 +205,21 @@ std::int64_t blend_into(const Target& target, const Frame& frame, const Layer& l
 std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
   if (layer.empty()) return 0;
   ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
-  return blend_into(IntoFrame(frame), frame, layer, space);
+  return with_sample_type(frame.bit_depth, [&](auto sample) {
+    using Sample = decltype(sample);
+    return blend_into<Sample>(IntoFrame<Sample>(frame), frame, layer, space);
+  });
 }
 
 CodePatch blended_patch(const Frame& frame, const Layer& layer, BlendSpace space, int margin_px,
                         const cv::Mat& own_body) {
   ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
   CodePatch patch = patch_of(frame, layer.rect, margin_px, own_body);
-  if (!layer.empty()) blend_into(IntoPatch(patch), frame, layer, space);
+  if (layer.empty()) return patch;
+  with_sample_type(frame.bit_depth, [&](auto sample) {
+    using Sample = decltype(sample);
+    blend_into<Sample>(IntoPatch<Sample>(patch), frame, layer, space);
+  });
   return patch;
 }
 
@@ -233,7 +256,11 @@ std::int64_t replace_pixels(Frame& frame, const cv::Rect& rect, const cv::Mat& b
   ENSURE((rect & cv::Rect({0, 0}, frame.size_px())) == rect);
   ENSURE(bgr.type() == CV_8UC3 && bgr.size() == rect.size());
   ENSURE(weight.type() == CV_32FC1 && weight.size() == rect.size());
-  return PlaneWriter(frame, IntoFrame(frame)).rewrite(rect, MixedPixels{rect, bgr, weight});
+  return with_sample_type(frame.bit_depth, [&](auto sample) {
+    using Sample = decltype(sample);
+    const IntoFrame<Sample> target(frame);
+    return PlaneWriter<Sample, IntoFrame<Sample>>(frame, target).rewrite(rect, MixedPixels{rect, bgr, weight});
+  });
 }
 
 std::int64_t replace_pixels(Frame& frame, const cv::Mat& bgr, const cv::Mat& weight) {

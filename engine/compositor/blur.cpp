@@ -98,10 +98,10 @@ Layer blurred_within(const Layer& layer, double sigma_px, const cv::Rect& image,
   return widely_blurred(layer, sigma_px, grown(layer.rect, margin_px) & image);
 }
 
-bool is_visible_after_blur(const Layer& layer, double sigma_px, const ColorInfo& footage) {
+bool is_visible_after_blur(const Layer& layer, double sigma_px, const ColorInfo& footage, int bit_depth) {
   if (sigma_px <= kWideSigma_px) return true;
   const TransferFunction function = transfer_function_of(footage.transfer).value_or(TransferFunction::srgb);
-  return max_after_blur(layer, sigma_px) >= min_light(function);
+  return max_after_blur(layer, sigma_px) >= min_light(function, bit_depth);
 }
 
 }  // namespace sigs

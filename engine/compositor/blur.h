@@ -36,7 +36,9 @@ inline constexpr double kWideSigma_px = 16;
 // Upper bound of any channel of any pixel after a blur above kWideSigma_px.
 [[nodiscard]] double max_after_blur(const Layer& layer, double sigma_px);
 
-// False where a wide blur leaves the layer too faint to change any 8-bit sample of a footage with these colours.
-[[nodiscard]] bool is_visible_after_blur(const Layer& layer, double sigma_px, const ColorInfo& footage);
+// False where a wide blur leaves the layer too faint to change any sample of a footage with these colours and this
+// depth.
+[[nodiscard]] bool is_visible_after_blur(const Layer& layer, double sigma_px, const ColorInfo& footage,
+                                         int bit_depth = 8);
 
 }  // namespace sigs

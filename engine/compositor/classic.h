@@ -10,7 +10,7 @@
 namespace sigs {
 
 // The paper's own compositing (section 3.2), kept as printed: whole images, 8 bits, a green screen for a key.
-// All images are CV_8UC3, BGR, of the footage's size.
+// All images are CV_8UC3, BGR, of the footage's size, whatever its depth.
 
 // The chroma key: pure green, BGR.
 inline const cv::Vec3b kKeyGreen{0, 255, 0};

@@ -6,6 +6,7 @@
 
 #include "base/ensure.h"
 #include "compositor/gaussian_kernel.h"
+#include "video/bit_depth.h"
 #include "video/chroma.h"
 
 namespace sigs {
@@ -41,11 +42,12 @@ cv::Mat free_share(const cv::Mat& own_body, const cv::Rect& pixels, const cv::Re
   return samples.size() == pixels.size() ? open : shrunk_chroma(open, frame.layout, frame.color.chroma_site);
 }
 
+template <class Sample>
 void mark_changed(const PatchPlane& plane, const cv::Mat& codes, const cv::Size& step, const cv::Point& corner,
                   cv::Mat& changed) {
   const cv::Rect all({0, 0}, changed.size());
   for (int y = 0; y < plane.rect.height; ++y) {
-    const uchar* const now = codes.ptr<uchar>(plane.rect.y + y) + plane.rect.x;
+    const Sample* const now = codes.ptr<Sample>(plane.rect.y + y) + plane.rect.x;
     const float* const before = plane.before.ptr<float>(y);
     for (int x = 0; x < plane.rect.width; ++x) {
       if (static_cast<float>(now[x]) == before[x]) continue;
@@ -55,6 +57,25 @@ void mark_changed(const PatchPlane& plane, const cv::Mat& codes, const cv::Size&
   }
 }
 
+template <class Sample>
+cv::Mat write_as(const CodePatch& patch, Frame& frame) {
+  const auto top = static_cast<float>(max_code(patch.bit_depth));
+  const cv::Point corner = patch.planes[0].rect.tl();
+  cv::Mat changed = patch.planes[0].opacity > 0;
+  for (int plane = 0; plane < patch.plane_count(); ++plane) {
+    const PatchPlane& from = patch.planes[static_cast<std::size_t>(plane)];
+    cv::Mat& codes = frame.planes[static_cast<std::size_t>(plane)];
+    for (int y = 0; y < from.rect.height; ++y) {
+      const float* const after = from.after.ptr<float>(y);
+      Sample* const to = codes.ptr<Sample>(from.rect.y + y) + from.rect.x;
+      for (int x = 0; x < from.rect.width; ++x) to[x] = static_cast<Sample>(std::clamp(after[x], 0.0F, top) + 0.5F);
+    }
+    const bool is_shared = plane > 0 && from.rect.size() != patch.planes[0].rect.size();
+    mark_changed<Sample>(from, codes, is_shared ? chroma_step(patch.layout) : cv::Size(1, 1), corner, changed);
+  }
+  return changed;
+}
+
 }  // namespace
 
 CodePatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body) {
@@ -62,7 +83,7 @@ CodePatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, co
   const int margin = margin_px + (step.area() > 1 ? 2 : 0);
   const cv::Rect grown(pixels.x - margin, pixels.y - margin, pixels.width + 2 * margin, pixels.height + 2 * margin);
   const cv::Rect luma = widened(grown & cv::Rect({0, 0}, frame.size_px()), step, frame.size_px());
-  CodePatch patch{.layout = frame.layout, .color = frame.color};
+  CodePatch patch{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
   for (int plane = 0; plane < frame.plane_count(); ++plane) {
     const auto index = static_cast<std::size_t>(plane);
     const cv::Rect rect = plane == 0 ? luma : in_chroma(luma, step);
@@ -90,20 +111,8 @@ void add_change(PatchPlane& plane, const cv::Mat& change) {
 }
 
 cv::Mat write_patch(const CodePatch& patch, Frame& frame) {
-  const cv::Point corner = patch.planes[0].rect.tl();
-  cv::Mat changed = patch.planes[0].opacity > 0;
-  for (int plane = 0; plane < patch.plane_count(); ++plane) {
-    const PatchPlane& from = patch.planes[static_cast<std::size_t>(plane)];
-    cv::Mat& codes = frame.planes[static_cast<std::size_t>(plane)];
-    for (int y = 0; y < from.rect.height; ++y) {
-      const float* const after = from.after.ptr<float>(y);
-      uchar* const to = codes.ptr<uchar>(from.rect.y + y) + from.rect.x;
-      for (int x = 0; x < from.rect.width; ++x) to[x] = static_cast<uchar>(std::clamp(after[x], 0.0F, 255.0F) + 0.5F);
-    }
-    const bool is_shared = plane > 0 && from.rect.size() != patch.planes[0].rect.size();
-    mark_changed(from, codes, is_shared ? chroma_step(patch.layout) : cv::Size(1, 1), corner, changed);
-  }
-  return changed;
+  ENSURE(patch.bit_depth == frame.bit_depth);
+  return with_sample_type(frame.bit_depth, [&](auto sample) { return write_as<decltype(sample)>(patch, frame); });
 }
 
 }  // namespace sigs

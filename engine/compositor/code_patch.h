@@ -13,16 +13,17 @@ namespace sigs {
 struct PatchPlane {
   cv::Rect rect;    // in samples of this plane
   cv::Mat before;   // code values of the frame without the layer
-  cv::Mat after;    // with it, as they have become so far: 0..255 after blending, beyond that after later stages
+  cv::Mat after;    // with it, as they have become so far: codes after blending, beyond their range after later stages
   cv::Mat opacity;  // of the layer at each sample, 0..1; at shared chroma the mean of its pixels
   cv::Mat free;     // what the own body leaves of a sample, 0..1; empty: everything
 };
 
 // The part of a frame that a layer, and the stages which follow its blending, can change: its samples as code values of
-// 8 bits, in floats. The stages (sharpening, spread of chroma, grain) work on what the layer changed. A sample that
-// nothing changes keeps its bits, and so does every sample that the own body hides wholly.
+// the frame's depth, in floats. The stages (sharpening, spread of chroma, grain) work on what the layer changed. A
+// sample that nothing changes keeps its bits, and so does every sample that the own body hides wholly.
 struct CodePatch {
   PixelLayout layout = PixelLayout::yuv420;
+  int bit_depth = 8;
   ColorInfo color;
   std::array<PatchPlane, 3> planes;  // unused ones are empty
 

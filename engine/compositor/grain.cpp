@@ -8,6 +8,7 @@
 
 #include "compositor/gaussian_kernel.h"
 #include "compositor/rgb_luma.h"
+#include "video/bit_depth.h"
 
 namespace sigs {
 
@@ -158,13 +159,16 @@ std::int64_t add_grain(CodePatch& patch, const Grain& grain, std::int64_t frame)
   if (grain.is_none()) return 0;
   const bool is_rgb = patch.layout == PixelLayout::rgb;
   const bool is_limited = !is_rgb && patch.color.range == ColorRange::limited;
-  PlaneGrain noise(grain, frame, is_limited ? cv::Vec2d(16, 235) : cv::Vec2d(0, 255));
+  const double step = codes_per_8_bit_step(patch.bit_depth);
+  const cv::Vec2d range = is_limited ? cv::Vec2d(16 * step, 235 * step) : cv::Vec2d(0, max_code(patch.bit_depth));
+  PlaneGrain noise(grain, frame, range);
+  const double sd_chroma = grain.sd_chroma * step;
   const cv::Mat of_luma =
-      noise.change_of(is_rgb ? luma_of_rgb(patch) : patch.planes[0], 0, grain.sd_dark, grain.sd_bright);
+      noise.change_of(is_rgb ? luma_of_rgb(patch) : patch.planes[0], 0, grain.sd_dark * step, grain.sd_bright * step);
   add_to(patch.planes[0], of_luma);
   if (patch.plane_count() > 1) {
-    const cv::Mat cb = noise.change_of(patch.planes[1], 1, grain.sd_chroma, grain.sd_chroma);
-    const cv::Mat cr = noise.change_of(patch.planes[2], 2, grain.sd_chroma, grain.sd_chroma);
+    const cv::Mat cb = noise.change_of(patch.planes[1], 1, sd_chroma, sd_chroma);
+    const cv::Mat cr = noise.change_of(patch.planes[2], 2, sd_chroma, sd_chroma);
     if (is_rgb) {
       add_chroma_to_rgb(patch, of_luma, cb, cr);
     } else {

@@ -8,7 +8,7 @@
 
 namespace sigs {
 
-// Random noise of a footage, in code values of 8 bits.
+// Random noise of a footage, in code values of 8 bits whatever the footage's depth.
 struct Grain {
   double sd_dark = 0;    // standard deviation of luma at black; between black and white the variance is linear in luma
   double sd_bright = 0;  // at white
@@ -32,9 +32,9 @@ struct Grain {
 [[nodiscard]] cv::Mat noise_field(const Grain& grain, int plane, std::int64_t frame, const cv::Rect& rect);
 
 // Adds noise to a patch where its layer hides the footage's own: with variance (1 - (1 - opacity)^2) times that of the
-// footage, so that both together have the footage's. Rounding to whole codes adds a variance of 1/12 by itself, which
-// is left out of the noise; grain below a standard deviation of 0.29 so adds nothing. Gives back how many samples of
-// noise were made.
+// footage, so that both together have the footage's. Rounding to whole codes of the patch's depth adds a variance of
+// 1/12 of such a code by itself, which is left out of the noise; of 8 bits, grain below a standard deviation of 0.29 so
+// adds nothing. Gives back how many samples of noise were made.
 std::int64_t add_grain(CodePatch& patch, const Grain& grain, std::int64_t frame);
 
 }  // namespace sigs

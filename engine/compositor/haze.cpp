@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compositor/footage_light.h"
+#include "video/bit_depth.h"
 #include "video/color_space.h"
 
 namespace sigs {
@@ -24,9 +25,10 @@ cv::Rect surroundings(const cv::Rect& box, const cv::Rect& image) {
 
 // Code values at a pixel; chroma from the sample that lies nearest.
 cv::Vec3f codes_at(const Frame& footage, int x, int y, const cv::Size& step, const cv::Vec3f& offset) {
-  cv::Vec3f codes(footage.planes[0].at<uchar>(y, x), offset[1], offset[2]);
+  cv::Vec3f codes(static_cast<float>(sample_at(footage.planes[0], y, x)), offset[1], offset[2]);
   for (int plane = 1; plane < footage.plane_count(); ++plane)
-    codes[plane] = footage.planes[static_cast<std::size_t>(plane)].at<uchar>(y / step.height, x / step.width);
+    codes[plane] =
+        static_cast<float>(sample_at(footage.planes[static_cast<std::size_t>(plane)], y / step.height, x / step.width));
   return codes;
 }
 
@@ -41,7 +43,7 @@ void keep_middle_half(std::vector<cv::Vec3f>& codes) {
 }
 
 cv::Vec3d mean_light(const std::vector<cv::Vec3f>& codes, const Frame& footage) {
-  const CodeToRgb map = code_to_rgb(footage.layout, footage.color);
+  const CodeToRgb map = code_to_rgb(footage.layout, footage.color, footage.bit_depth);
   const TransferCurve curve = transfer_curve_of(footage.color);
   cv::Vec3d sum(0, 0, 0);
   for (const cv::Vec3f& code : codes) {
@@ -77,7 +79,7 @@ std::optional<cv::Vec3d> airlight_around(const Frame& footage, const cv::Rect& b
   if (around.empty()) return std::nullopt;
   const int every = std::max(1, static_cast<int>(std::ceil(std::sqrt(around.area() / kMaxSamples))));
   const cv::Size step = chroma_step(footage.layout);
-  const cv::Vec3f offset = code_to_rgb(footage.layout, footage.color).offset;
+  const cv::Vec3f offset = code_to_rgb(footage.layout, footage.color, footage.bit_depth).offset;
   std::vector<cv::Vec3f> codes;
   for (int y = around.y + every / 2; y < around.br().y; y += every)
     for (int x = around.x + every / 2; x < around.br().x; x += every)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "video/bit_depth.h"
+
 namespace sigs {
 
 namespace {
@@ -35,15 +37,18 @@ void SharedChroma::start_row(int y, int begin, int end) {
   row_ = y;
   read_from_ = column_taps_[static_cast<size_t>(begin)].first;
   const int count = column_taps_[static_cast<size_t>(end - 1)].second + 1 - read_from_;
-  read_row(frame_.planes[1], count, read_cb_);
-  read_row(frame_.planes[2], count, read_cr_);
+  with_sample_type(frame_.bit_depth, [&](auto sample) {
+    read_row<decltype(sample)>(frame_.planes[1], count, read_cb_);
+    read_row<decltype(sample)>(frame_.planes[2], count, read_cr_);
+  });
   std::fill(row_sums_.begin(), row_sums_.end(), cv::Vec3f(0, 0, 0));
 }
 
+template <class Sample>
 void SharedChroma::read_row(const cv::Mat& plane, int count, std::vector<float>& samples) const {
   const ChromaTap& tap = row_taps_[static_cast<size_t>(row_)];
-  const uchar* const first = plane.ptr<uchar>(tap.first) + read_from_;
-  const uchar* const second = plane.ptr<uchar>(tap.second) + read_from_;
+  const Sample* const first = plane.ptr<Sample>(tap.first) + read_from_;
+  const Sample* const second = plane.ptr<Sample>(tap.second) + read_from_;
   samples.resize(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i)
     samples[static_cast<size_t>(i)] =
@@ -80,9 +85,15 @@ std::vector<SharedChroma::Averaging> SharedChroma::averaging(const std::vector<C
 cv::Mat SharedChroma::with_border(const cv::Mat& plane, const cv::Rect& window) {
   cv::Mat samples(window.height + 2, window.width + 2, CV_32FC1);
   for (int y = 0; y < samples.rows; ++y) {
-    const uchar* const in = plane.ptr<uchar>(std::clamp(window.y + y - 1, 0, plane.rows - 1));
+    const int row = std::clamp(window.y + y - 1, 0, plane.rows - 1);
     float* const out = samples.ptr<float>(y);
-    for (int x = 0; x < samples.cols; ++x) out[x] = in[std::clamp(window.x + x - 1, 0, plane.cols - 1)];
+    const auto copy = [&](const auto* const in) {
+      for (int x = 0; x < samples.cols; ++x) out[x] = in[std::clamp(window.x + x - 1, 0, plane.cols - 1)];
+    };
+    if (plane.depth() == CV_8U)
+      copy(plane.ptr<uchar>(row));
+    else
+      copy(plane.ptr<ushort>(row));
   }
   return samples;
 }

@@ -54,6 +54,7 @@ class SharedChroma {
     const float first = samples[static_cast<size_t>(tap.first - read_from_)];
     return first + tap.share * (samples[static_cast<size_t>(tap.second - read_from_)] - first);
   }
+  template <class Sample>
   void read_row(const cv::Mat& plane, int count, std::vector<float>& samples) const;
   void add_row_sums(int chroma_row, float weight);
 

@@ -20,6 +20,7 @@ extern "C" {
 #include "mesh/textures.h"
 #include "project/fields.h"
 #include "project/json.h"
+#include "video/image_sequence.h"
 
 namespace sigs {
 
@@ -121,6 +122,18 @@ Result<std::string> InputChecksums::of_model(const fs::path& file) {
   return models_.emplace(file, checksum_of_text(list)).first->second;
 }
 
+Result<std::string> InputChecksums::of_images(const fs::path& sequence) {
+  const Result<std::vector<fs::path>> files = files_of_sequence(sequence);
+  if (!files) return fail(files.error());
+  std::string list;
+  for (const fs::path& one : *files) {
+    const Result<std::string> checksum = of(one);
+    if (!checksum) return checksum;
+    list += checksum_line(*checksum, one.filename().string());
+  }
+  return checksum_of_text(list);
+}
+
 Result<std::string> fingerprint_of(const Project& project, const std::string& program, InputChecksums& inputs) {
   Project pathless = project;
   std::string list;
@@ -130,7 +143,11 @@ Result<std::string> fingerprint_of(const Project& project, const std::string& pr
     if (written.empty()) continue;
     const fs::path file = resolved(project, written);
     std::error_code code;
-    if (fs::is_regular_file(file, code)) {
+    if (field.key == "footage.video" && is_image_sequence(file)) {
+      const Result<std::string> checksum = inputs.of_images(file);
+      if (!checksum) return fail(checksum.error());
+      list += checksum_line(*checksum, field.key);
+    } else if (fs::is_regular_file(file, code)) {
       const Result<std::string> checksum = field.key.ends_with("model.file") ? inputs.of_model(file) : inputs.of(file);
       if (!checksum) return fail(checksum.error());
       list += checksum_line(*checksum, field.key);

@@ -53,6 +53,9 @@ class InputChecksums {
   // One checksum of an OBJ model, its material libraries and the images that those name.
   [[nodiscard]] Result<std::string> of_model(const std::filesystem::path& file);
 
+  // One checksum of all images of a sequence (video/image_sequence.h).
+  [[nodiscard]] Result<std::string> of_images(const std::filesystem::path& sequence);
+
  private:
   std::mutex mutex_;
   std::map<std::filesystem::path, Result<std::string>> files_;
@@ -62,7 +65,7 @@ class InputChecksums {
 
 // The fingerprint of a video: one checksum of all that its export depends on, which is the program's name and version,
 // the project, and the content of the files that the project names. Of a path only the file's name counts, since labels
-// contain it. Of footage that is a folder or a pattern of images the name alone counts.
+// contain it.
 [[nodiscard]] Result<std::string> fingerprint_of(const Project& project, const std::string& program,
                                                  InputChecksums& inputs);
 

@@ -24,8 +24,15 @@ tl::unexpected<Error> fail_at(const std::string& where, Error error) {
   return fail(where, error.text(), error.kind);
 }
 
-Result<FootageShape> opened_shape(const std::string& path) {
-  const Result<FrameSource> source = FrameSource::open(path);
+// What the shape of a footage depends on, by absolute paths.
+std::string footage_key(const FootageSettings& footage) {
+  return fmt::format("{}\n{}\n{}", footage.video, footage.frame_rate_hz.value_or(0), footage.timestamps);
+}
+
+Result<FootageShape> opened_shape(const FootageSettings& footage) {
+  Project project;
+  project.footage = footage;
+  const Result<FrameSource> source = open_footage(project);
   if (!source) return fail(source.error());
   return shape_of(source->info());
 }
@@ -51,8 +58,7 @@ class BackgroundOpener {
 
   // Error: the clip cannot be opened.
   [[nodiscard]] Result<FootageShape> shape(std::size_t i) {
-    const std::string& path = recipe_.backgrounds[i].footage.video;
-    Result<FootageShape> shape = shape_of_file(path);
+    Result<FootageShape> shape = shape_of_footage(recipe_.backgrounds[i].footage);
     if (!shape) return fail_at(key_of(i) + "footage.video", shape.error());
     return shape;
   }
@@ -94,10 +100,11 @@ class BackgroundOpener {
     return fmt::format("{}: backgrounds[{}].", recipe_.file.string(), i);
   }
 
-  Result<FootageShape> shape_of_file(const std::string& path) {
-    if (const auto known = shapes_.find(path); known != shapes_.end()) return known->second;
-    Result<FootageShape> shape = opened_shape(path);
-    if (shape) shapes_.emplace(path, *shape);
+  Result<FootageShape> shape_of_footage(const FootageSettings& footage) {
+    const std::string key = footage_key(footage);
+    if (const auto known = shapes_.find(key); known != shapes_.end()) return known->second;
+    Result<FootageShape> shape = opened_shape(footage);
+    if (shape) shapes_.emplace(key, *shape);
     return shape;
   }
 
@@ -126,12 +133,15 @@ Result<std::vector<Result<OpenedBackground>>> opened_backgrounds(const Recipe& r
   return backgrounds;
 }
 
-void VideoVisibility::remember(const std::string& video, const FootageShape& shape) {
-  shapes_[video] = shape;
+void VideoVisibility::remember(const FootageSettings& footage, const FootageShape& shape) {
+  shapes_[footage_key(footage)] = shape;
 }
 
 std::optional<Scene> VideoVisibility::scene_of(const Project& project) {
-  const std::optional<FootageShape> footage = shape_of_footage(resolved(project, project.footage.video).string());
+  FootageSettings settings = project.footage;
+  settings.video = resolved(project, settings.video).string();
+  if (!settings.timestamps.empty()) settings.timestamps = resolved(project, settings.timestamps).string();
+  const std::optional<FootageShape> footage = shape_of_footage(settings);
   if (!footage) return std::nullopt;
   Project unit = project;
   for (IntruderSettings& intruder : unit.intruders) {
@@ -155,10 +165,11 @@ std::optional<Visibility> VideoVisibility::visibility_of(const Project& project,
   return estimated_visibilities(*scene, frames).front();
 }
 
-std::optional<FootageShape> VideoVisibility::shape_of_footage(const std::string& path) {
-  if (const auto known = shapes_.find(path); known != shapes_.end()) return known->second;
-  const Result<FootageShape> shape = opened_shape(path);
-  return shapes_[path] = shape ? std::optional(*shape) : std::nullopt;
+std::optional<FootageShape> VideoVisibility::shape_of_footage(const FootageSettings& footage) {
+  const std::string key = footage_key(footage);
+  if (const auto known = shapes_.find(key); known != shapes_.end()) return known->second;
+  const Result<FootageShape> shape = opened_shape(footage);
+  return shapes_[key] = shape ? std::optional(*shape) : std::nullopt;
 }
 
 std::vector<std::optional<Visibility>> visibilities_of(const std::vector<const PlannedVideo*>& videos, int frames,

@@ -35,8 +35,8 @@ struct OpenedBackground {
 // Estimates of how the intruder of a planned video will be visible. Keeps what it has opened. For one thread at a time.
 class VideoVisibility {
  public:
-  // Makes it unnecessary to open a clip. video: its path as projects have it, absolute.
-  void remember(const std::string& video, const FootageShape& shape);
+  // Makes it unnecessary to open a clip. Paths are absolute.
+  void remember(const FootageSettings& footage, const FootageShape& shape);
 
   // Visibility of the first intruder, estimated without rendering it (scene/visibility_estimate.h). Evaluates up to
   // `frames` frames, and all of them where none of these shows the intruder. None where the files that the project
@@ -48,10 +48,10 @@ class VideoVisibility {
   [[nodiscard]] std::optional<Scene> scene_of(const Project& project);
 
  private:
-  [[nodiscard]] std::optional<FootageShape> shape_of_footage(const std::string& path);
+  [[nodiscard]] std::optional<FootageShape> shape_of_footage(const FootageSettings& footage);
 
   SceneFiles files_;
-  std::map<std::string, std::optional<FootageShape>> shapes_;  // by path; none: it cannot be opened
+  std::map<std::string, std::optional<FootageShape>> shapes_;  // by video and its times; none: it cannot be opened
 };
 
 // Number of frames that are evaluated of each video when a dataset is planned or listed.

@@ -89,7 +89,7 @@ class Planner {
   Planner(const Recipe& recipe, const std::vector<Result<OpenedBackground>>& backgrounds)
       : recipe_(recipe), backgrounds_(backgrounds) {
     for (std::size_t i = 0; i < backgrounds.size(); ++i)
-      if (backgrounds[i]) estimator_.remember(recipe.backgrounds[i].footage.video, backgrounds[i]->footage);
+      if (backgrounds[i]) estimator_.remember(recipe.backgrounds[i].footage, backgrounds[i]->footage);
   }
 
   void add(const VideoSpec& spec, Plan& plan);

@@ -21,6 +21,7 @@
 #include "dataset/video_folder.h"
 #include "dataset/video_name.h"
 #include "video/frame_source.h"
+#include "scene/opened_project.h"
 
 namespace sigs {
 
@@ -344,7 +345,7 @@ Result<DatasetReport> made_in(const fs::path& dataset, const Plan& plan, const D
 
 Result<int> frames_of(const Project& project, const std::atomic<bool>* cancel) {
   if (project.footage.last_frame) return *project.footage.last_frame - project.footage.first_frame + 1;
-  const Result<FrameSource> source = FrameSource::open(resolved(project, project.footage.video), cancel);
+  const Result<FrameSource> source = open_footage(project, cancel);
   if (!source) return fail(source.error());
   return source->info().frame_count() - project.footage.first_frame;
 }

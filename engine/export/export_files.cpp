@@ -11,7 +11,9 @@
 
 #include "base/text.h"
 #include "export/frame_stream.h"
+#include "labels/json_lines.h"
 #include "scene/opened_project.h"
+#include "video/image_folder.h"
 
 namespace sigs {
 
@@ -54,20 +56,6 @@ Result<void> check_label_folder(const fs::path& folder, const LabelFormat& forma
 
 namespace {
 
-VideoCodec codec_of(CodecChoice choice) {
-  switch (choice) {
-    case CodecChoice::ffv1:
-      return VideoCodec::ffv1;
-    case CodecChoice::h264:
-      return VideoCodec::h264;
-    case CodecChoice::mjpeg:
-      return VideoCodec::mjpeg;
-    case CodecChoice::png:
-      return VideoCodec::png;
-  }
-  return VideoCodec::ffv1;
-}
-
 Container container_of(const ExportSettings& output) {
   switch (output.container) {
     case ContainerChoice::mkv:
@@ -76,14 +64,22 @@ Container container_of(const ExportSettings& output) {
       return Container::mp4;
     case ContainerChoice::avi:
       return Container::avi;
+    case ContainerChoice::nut:
+      return Container::nut;
+    case ContainerChoice::y4m:
+      return Container::y4m;
     case ContainerChoice::automatic:
       break;
   }
   switch (output.codec) {
     case CodecChoice::h264:
+    case CodecChoice::hevc:
+    case CodecChoice::av1:
       return Container::mp4;
     case CodecChoice::mjpeg:
       return Container::avi;
+    case CodecChoice::raw:
+      return Container::nut;
     default:
       return Container::mkv;
   }
@@ -95,12 +91,15 @@ int encoder_threads() {
 }
 
 VideoFormat video_format(const ExportSettings& output, const VideoInfo& footage, int threads) {
-  return {.codec = codec_of(output.codec),
+  return {.codec = video_codec_of(output.codec),
           .container = container_of(output),
+          .jpeg_quality = output.jpeg_quality,
           .crf = output.crf,
           .threads = threads,
           .size_px = footage.size_px,
           .layout = footage.layout,
+          .bit_depth = footage.bit_depth,
+          .max_bit_depth = output.max_bit_depth,
           .color = footage.color,
           .frame_rate_num = footage.frame_rate_num,
           .frame_rate_den = footage.frame_rate_den,
@@ -114,12 +113,13 @@ VideoFormat mask_format(const VideoFormat& image, MasksChoice masks) {
   format.codec = masks == MasksChoice::png ? VideoCodec::png : VideoCodec::ffv1;
   format.container = Container::mkv;
   format.layout = PixelLayout::gray;
+  format.bit_depth = 8;
   format.color = {.range = ColorRange::full, .range_stated = true};
   return format;
 }
 
 std::string with_extension(const std::string& name, const VideoFormat& format) {
-  return format.codec == VideoCodec::png ? name : name + "." + extension_of(format.container);
+  return writes_images(format.codec) ? name : name + "." + extension_of(format.container);
 }
 
 Frame frame_of_mask(cv::Mat mask, double time_s) {
@@ -131,12 +131,13 @@ Frame frame_of_mask(cv::Mat mask, double time_s) {
 
 LabelSequence label_sequence(const Project& project, const VideoInfo& footage, const Scene& scene,
                              const FrameRange& range, const std::string& output) {
-  const bool has_images = project.output.codec == CodecChoice::png;
+  const bool has_images = writes_images(project.output.codec);
   LabelSequence sequence{.name = project.name,
                          .footage = footage_truth(footage, range),
                          .categories = categories_of(project),
                          .video = has_images ? std::string() : output,
                          .channels = footage.layout == PixelLayout::gray ? 1 : 3,
+                         .image_extension = has_images ? image_extension_of(codec_of(project.output.codec)) : ".png",
                          .images = project.name,
                          .own_body = scene.own_body,
                          .camera = scene.camera,
@@ -164,7 +165,9 @@ Result<void> check_image_folder(const fs::path& folder) {
   std::error_code code;
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     const std::string name = it->path().filename().string();
-    if (!name.starts_with("frame_") || it->path().extension() != ".png")
+    const std::string extension = it->path().extension().string();
+    const bool is_image = extension == ".png" || extension == ".tiff" || extension == ".jpg";
+    if (!name.starts_with("frame_") || !is_image)
       return fail(folder.string(), fmt::format("holds {}, which no export wrote; choose another folder", name),
                   ErrorKind::cannot_create);
   }
@@ -198,7 +201,7 @@ OutputPaths output_paths(const ExportRequest& request, const VideoFormat& video,
 
 Result<ExportFiles::OpenedVideo> ExportFiles::open_video(const fs::path& path, const VideoFormat& format) {
   const Result<fs::path> staged =
-      format.codec == VideoCodec::png ? outputs_.add_folder(path, check_image_folder) : outputs_.add_file(path);
+      writes_images(format.codec) ? outputs_.add_folder(path, check_image_folder) : outputs_.add_file(path);
   if (!staged) return fail(staged.error());
   Result<VideoWriter> writer = VideoWriter::open(*staged, format);
   if (!writer) return fail(writer.error());
@@ -226,28 +229,69 @@ Result<void> ExportFiles::write_encounters(const fs::path& path, const Project& 
 }
 
 Result<void> check_output(const Project& project, const VideoInfo& footage) {
+  if (project.output.container == ContainerChoice::y4m && footage.layout == PixelLayout::rgb)
+    return fail(project.file.string() + ": export.video.container",
+                "y4m has no place for RGB, which the footage is; use nut", ErrorKind::bad_project);
   const cv::Size size = footage.size_px;
   const bool odd = size.width % 2 != 0 || size.height % 2 != 0;
   const bool shares_chroma = footage.layout != PixelLayout::yuv444 && footage.layout != PixelLayout::rgb;
-  if (project.output.codec == CodecChoice::h264 && odd && shares_chroma)
+  const VideoCodec codec = video_codec_of(project.output.codec);
+  if ((codec == VideoCodec::h264 || codec == VideoCodec::hevc) && odd && shares_chroma)
     return fail(project.file.string() + ": export.video.codec",
-                fmt::format("h264 needs an even width and height, the footage is {}; use ffv1, mjpeg or png",
-                            image_size_text(size)),
+                fmt::format("{} needs an even width and height, the footage is {}; use ffv1, av1, mjpeg or png",
+                            name_of(codec), image_size_text(size)),
                 ErrorKind::bad_project);
   return {};
 }
 
 Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                      const FrameRange& range) {
-  if (const Result<void> folder = make_folder(request.folder); !folder) return fail(folder.error());
+                                      const FrameRange& range, const std::atomic<bool>* cancel) {
+  if (request.video_descriptor < 0)
+    if (const Result<void> folder = make_folder(request.folder); !folder) return fail(folder.error());
   ExportFiles files(request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  const Result<void> opened = files.open_all(request, footage, scene, range);
+  const Result<void> opened = files.open_all(request, footage, scene, range, cancel);
   if (!opened) return fail(files.outputs_.with_final_names(opened.error()));
   return files;
 }
 
 Result<void> ExportFiles::open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                   const FrameRange& range) {
+                                   const FrameRange& range, const std::atomic<bool>* cancel) {
+  if (request.labels_descriptor >= 0) {
+    const LabelSequence sequence = label_sequence(request.project, footage, scene, range, "");
+    if (const Result<void> opened = open_label_stream(request, sequence, cancel); !opened) return opened;
+  }
+  if (request.video_descriptor < 0) return open_files(request, footage, scene, range);
+  if (!request.project.output.encounter.empty()) {
+    Result<ExportedEncounters> encounters = ExportedEncounters::of(request.project, scene, range);
+    if (!encounters) return fail(encounters.error());
+    encounters_ = *std::move(encounters);
+  }
+  return open_video_stream(request, footage, cancel);
+}
+
+Result<void> ExportFiles::open_video_stream(const ExportRequest& request, const VideoInfo& footage,
+                                            const std::atomic<bool>* cancel) {
+  Result<OutputStream> out = OutputStream::of_descriptor(request.video_descriptor, "standard output", cancel);
+  if (!out) return fail(out.error());
+  Result<VideoWriter> writer =
+      VideoWriter::open_stream(std::move(*out), video_format(request.project.output, footage, encoder_threads()));
+  if (!writer) return fail(writer.error());
+  video_ = std::make_unique<WriterThread>(std::move(*writer));
+  return {};
+}
+
+Result<void> ExportFiles::open_label_stream(const ExportRequest& request, const LabelSequence& sequence,
+                                            const std::atomic<bool>* cancel) {
+  const int descriptor = request.labels_descriptor;
+  Result<OutputStream> out =
+      OutputStream::of_descriptor(descriptor, fmt::format("labels, descriptor {}", descriptor), cancel);
+  if (!out) return fail(out.error());
+  labels_.push_back({std::make_unique<JsonLinesStream>(std::move(*out), sequence)});
+  return {};
+}
+
+Result<void> ExportFiles::open_files(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
+                                     const FrameRange& range) {
   const ExportSettings& output = request.project.output;
   const VideoFormat format = video_format(output, footage, encoder_threads());
   const VideoFormat masks = mask_format(format, output.masks);
@@ -256,7 +300,7 @@ Result<void> ExportFiles::open_all(const ExportRequest& request, const VideoInfo
   Result<OpenedVideo> video = open_video(paths.video, format);
   if (!video) return fail(video.error());
   video_ = std::move(video->writer);
-  if (format.codec == VideoCodec::png) image_folder_ = video->staged;
+  if (writes_images(format.codec)) image_folder_ = video->staged;
   if (output.masks != MasksChoice::none) {
     Result<OpenedVideo> opened = open_video(paths.masks, masks);
     if (!opened) return fail(opened.error());
@@ -289,13 +333,13 @@ Result<void> ExportFiles::write(ComposedFrame frame) {
   if (encounters_) encounters_->add_to(frame.truth);
   const int number = frame.truth.index;
   const double time_s = frame.image.time_s;
-  bool goes_on = video_->put(std::move(frame.image), number);
+  bool goes_on = write_labels(frame.truth);
+  if (goes_on) goes_on = video_->put(std::move(frame.image), number);
   if (masks_) {
     WriterThread& masks = *masks_;
     goes_on &= frame.mask.empty() ? masks.put_blank(time_s, number)
                                   : masks.put(frame_of_mask(std::move(frame.mask), time_s), number);
   }
-  goes_on &= write_labels(frame.truth);
   return goes_on ? Result<void>() : join();
 }
 

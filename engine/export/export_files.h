@@ -16,11 +16,14 @@
 
 namespace sigs {
 
-// The files of one export, written frame by frame: each video on a thread of its own, the labels on the caller's.
+// The files of one export, or its streams, written frame by frame: each video on a thread of its own, the labels on the
+// caller's. A frame's labels are written before its image is passed on.
 class ExportFiles {
  public:
+  //   cancel  while it is true, waiting for the reader of a stream soon ends; null, or outlives the files
   [[nodiscard]] static Result<ExportFiles> open(const ExportRequest& request, const VideoInfo& footage,
-                                                const Scene& scene, const FrameRange& range);
+                                                const Scene& scene, const FrameRange& range,
+                                                const std::atomic<bool>* cancel);
 
   // Frames in order. An error is that of the first frame that could not be written, which may be an earlier one.
   [[nodiscard]] Result<void> write(ComposedFrame frame);
@@ -46,7 +49,13 @@ class ExportFiles {
     std::unique_ptr<WriterThread> writer;
   };
   [[nodiscard]] Result<void> open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                      const FrameRange& range);
+                                      const FrameRange& range, const std::atomic<bool>* cancel);
+  [[nodiscard]] Result<void> open_files(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
+                                        const FrameRange& range);
+  [[nodiscard]] Result<void> open_video_stream(const ExportRequest& request, const VideoInfo& footage,
+                                               const std::atomic<bool>* cancel);
+  [[nodiscard]] Result<void> open_label_stream(const ExportRequest& request, const LabelSequence& sequence,
+                                               const std::atomic<bool>* cancel);
   [[nodiscard]] Result<OpenedVideo> open_video(const std::filesystem::path& path, const VideoFormat& format);
   [[nodiscard]] Result<Labels> open_labels(const std::filesystem::path& path, const LabelFormat& format,
                                            const LabelSequence& sequence);

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -44,18 +47,35 @@ std::string damaged_text(const ExportReport& report, int total) {
 }
 
 // As soon as there are too many: the remaining frames cannot change that.
-Result<void> check_substituted(const ExportReport& report, int total, const OpenedProject& opened, double max_percent) {
+Result<void> check_substituted(const ExportReport& report, int total, const OpenedProject& opened,
+                               const ExportRequest& request) {
+  const double max_percent = request.project.footage.max_substituted_percent;
   if (report.damaged_frames * 100.0 <= max_percent * total) return {};
   std::ostringstream limit;
   limit << max_percent;
   return fail(opened.source.info().path.string(),
-              fmt::format("at least {}, more than footage.max_substituted_percent, {}, allows; nothing was written. "
+              fmt::format("at least {}, more than footage.max_substituted_percent, {}, allows; {}. "
                           "Repair or cut the footage, or raise the limit: footage.max_substituted_percent=100",
-                          damaged_text(report, total), limit.str()));
+                          damaged_text(report, total), limit.str(),
+                          request.video_descriptor < 0 ? "nothing was written" : "the stream ends early"));
+}
+
+// Waits until as much time has passed as lies between the first frame and this one in the footage.
+Result<void> wait_for_time_of(const ComposedFrame& frame, double first_time_s, const Stopwatch& since_first,
+                              const ExportControl& control) {
+  constexpr double kStep_s = 0.05;  // how soon an interruption is noticed
+  while (true) {
+    if (const Result<void> on = check_interrupt(control.cancel); !on) return on;
+    const double left_s = frame.image.time_s - first_time_s - since_first.elapsed_s();
+    if (left_s <= 0) return {};
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left_s, kStep_s)));
+  }
 }
 
 Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, const OpenedProject& opened,
-                          double max_percent, ExportFiles& files, const ExportControl& control, ExportReport& report) {
+                          const ExportRequest& request, ExportFiles& files, const ExportControl& control,
+                          ExportReport& report) {
+  std::optional<std::pair<Stopwatch, double>> first;  // since the first frame, and its time
   const int total = range.last - range.first + 1;
   for (int done = 1; done <= total; ++done) {
     if (const Result<void> on = check_interrupt(control.cancel); !on) return on;
@@ -65,7 +85,10 @@ Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, cons
       return fail(before ? frame.error() : before.error());
     }
     count(*frame, report);
-    if (const Result<void> valid = check_substituted(report, total, opened, max_percent); !valid) return valid;
+    if (const Result<void> valid = check_substituted(report, total, opened, request); !valid) return valid;
+    if (!first) first.emplace(Stopwatch(), frame->image.time_s);
+    if (request.in_real_time)
+      if (const Result<void> due = wait_for_time_of(*frame, first->second, first->first, control); !due) return due;
     if (const Result<void> step = files.write(std::move(*frame)); !step) return step;
     if (control.progress) control.progress(done, total);
   }
@@ -76,7 +99,7 @@ Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, cons
 
 // Labels that name an image for each frame, where a video is written and no images.
 void warn_of_missing_images(const ExportSettings& output, const ExportControl& control, ExportReport& report) {
-  if (output.codec == CodecChoice::png) return;
+  if (writes_images(output.codec)) return;
   std::string names;
   for (const std::string& label : output.labels)
     if (label_format(label)->names_images) names.append(names.empty() ? "" : ", ").append(label);
@@ -101,13 +124,11 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
   ExportReport report;
   report.visibilities.assign(scene.intruders.size(), {.frames = range->last - range->first + 1});
   for (const Warning& warning : opened->warnings) say(control, report, warning);
-  Result<ExportFiles> files = ExportFiles::open(request, video, scene, *range);
+  Result<ExportFiles> files = ExportFiles::open(request, video, scene, *range, control.cancel);
   if (!files) return fail(files.error());
   {
     FramePipeline pipeline(scene, opened->source, *range, std::max(1, request.jobs));
-    if (const Result<void> step =
-            write_frames(pipeline, *range, *opened, project.footage.max_substituted_percent, *files, control, report);
-        !step)
+    if (const Result<void> step = write_frames(pipeline, *range, *opened, request, *files, control, report); !step)
       return fail(step.error());
   }
   Result<std::vector<std::filesystem::path>> written = files->commit();
@@ -115,7 +136,7 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
   report.times.encode_s = files->spent_s();
   report.written = std::move(*written);
   report.times.wall_s = watch.elapsed_s();
-  warn_of_missing_images(project.output, control, report);
+  if (request.video_descriptor < 0) warn_of_missing_images(project.output, control, report);
   if (report.damaged_frames > 0)
     say(control, report,
         {video.path.string(),
@@ -127,7 +148,10 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
 }  // namespace
 
 Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control) {
-  return guarded([&] { return exported(request, control); });
+  Result<ExportReport> report = guarded([&] { return exported(request, control); });
+  if (!report && report.error().kind == ErrorKind::interrupted && request.video_descriptor >= 0)
+    return fail("", "interrupted; the stream ends early", ErrorKind::interrupted);
+  return report;
 }
 
 }  // namespace sigs

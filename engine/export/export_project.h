@@ -25,6 +25,10 @@ struct ExportRequest {
   std::optional<FrameRange> frames;  // none: the project's own range; numbers are the footage's
   int jobs = 1;                      // frames composed in parallel; the bytes do not depend on it
   bool overwrite = false;
+  // Open descriptors of the process that are written to frame by frame; -1: none. docs/streams.md.
+  int video_descriptor = -1;   // the video goes there, as nut or y4m, and no file is written
+  int labels_descriptor = -1;  // JSON lines, each before its frame's image
+  bool in_real_time = false;   // no frame goes out before its time has passed since the first one
 };
 
 // Seconds spent in each stage, added up over frames (stages run in parallel).
@@ -52,9 +56,10 @@ struct ExportControl {
   const std::atomic<bool>* cancel = nullptr;          // set: stops soon with error interrupted, and leaves no file
 };
 
-// All frames of a project: NAME.mkv (or the container asked for; for png a folder NAME of images), NAME.masks.mkv (or
-// a folder NAME.masks), labels such as NAME.xml and, where encounters are asked for, NAME.encounter.json. Each appears
-// under its final name only when all are complete.
+// All frames of a project: NAME.mkv (or the container asked for; for png, tiff and jpeg a folder NAME of images),
+// NAME.masks.mkv (or a folder NAME.masks), labels such as NAME.xml and, where encounters are asked for,
+// NAME.encounter.json. Each appears under its final name only when all are complete. With a video_descriptor none of
+// them is written, and the frames that have gone out before an error or an interruption stay with the reader.
 [[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
 
 // Errors in a project's outputs that only the footage can show: h264 of an odd size. Names the field.

@@ -20,6 +20,7 @@ std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& 
                                           const std::vector<IntruderLayers>& layers) {
   const CodecMatchSettings& settings = scene.appearance.codec;
   if (settings.match == CodecMatchChoice::none || scene.compositing.method != MethodChoice::direct) return std::nullopt;
+  if (background.bit_depth > 8) return std::nullopt;
   const cv::Rect image({0, 0}, background.size_px());
   std::vector<cv::Rect> reaches;
   std::vector<std::vector<cv::Point2d>> earlier_px;

@@ -61,13 +61,13 @@ Layer hazed_layer(const Scene& scene, const IntruderLayers& layers, const Frame*
 }
 
 // Fills `moved` and `blurred`; the latter stays empty where the layer is too faint to be seen.
-void blur(const Scene& scene, const ColorInfo& footage, IntruderLayers& layers) {
+void blur(const Scene& scene, const ColorInfo& footage, int bit_depth, IntruderLayers& layers) {
   const cv::Rect image({0, 0}, scene.footage.size_px);
   const cv::Rect& rect = layers.hazed.rect;
   layers.moved = motion_blurred(layers.hazed, layers.motion, kUnboundedRect);
   layers.op_counts.pixels_motion_blurred +=
       static_cast<std::int64_t>(layers.motion.shifts.size()) * std::int64_t{rect.area()};
-  if (!is_visible_after_blur(layers.moved, layers.sigma_px, footage)) return;
+  if (!is_visible_after_blur(layers.moved, layers.sigma_px, footage, bit_depth)) return;
   if (!needs_blurred_layers(scene)) {
     layers.blurred = clipped(layers.moved, image);
     return;
@@ -158,7 +158,7 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     layers.views = std::move(*views);
     layers.warped = warped(layers.views, lens, plan.warp_rect, turn_of_row(layers));
     layers.hazed = hazed_layer(scene, layers, background);
-    blur(scene, footage, layers);
+    blur(scene, footage, background == nullptr ? 8 : background->bit_depth, layers);
     layers.occluded = occluded_by_body(layers.blurred, scene.own_body);
     if (scene.occluder.hides(placed.distance_m()) && !layers.occluded.empty())
       layers.occluded = occluded_by(

@@ -12,9 +12,10 @@ namespace sigs {
 namespace {
 
 cv::Mat luma_of_part(const Frame& frame, const cv::Rect& rect) {
-  if (frame.layout != PixelLayout::rgb) return frame.planes[0](rect);
   Frame part = frame;
-  for (cv::Mat& plane : part.planes) plane = plane(rect);
+  part.planes[0] = frame.planes[0](rect);
+  if (frame.layout == PixelLayout::rgb)
+    for (std::size_t plane = 1; plane < 3; ++plane) part.planes[plane] = frame.planes[plane](rect);
   return luma_of(part);
 }
 

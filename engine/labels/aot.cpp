@@ -68,7 +68,8 @@ class AotLabels : public LabelWriter {
     const std::string camera = has_source(truth.camera) ? ", \"camera\": " + camera_json(truth) : "";
     return fmt::format(R"({}{{"time": {}, "blob": {{"frame": {}{}{}, "flight_id": {}, "img_name": {}}})", separator,
                        time_ns, truth.index, camera, labelled == nullptr ? "}, \"labels\": {}" : object_text(*labelled),
-                       json_string(sequence_.name), json_string(sequence_.images + "/" + image_name(truth.index)));
+                       json_string(sequence_.name),
+                       json_string(sequence_.images + "/" + image_name(truth.index, sequence_.image_extension)));
   }
 
   // The rest of "blob", and what else an entity has that is an object.

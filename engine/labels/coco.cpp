@@ -142,7 +142,7 @@ class CocoLabels : public LabelWriter {
 
   [[nodiscard]] Json image_of(const FrameTruth& truth, int frame, int image_id) const {
     return {{"id", image_id},
-            {"file_name", sequence_.images + "/" + image_name(truth.index)},
+            {"file_name", sequence_.images + "/" + image_name(truth.index, sequence_.image_extension)},
             {"width", sequence_.footage.size_px.width},
             {"height", sequence_.footage.size_px.height},
             {"video_id", kVideoId},

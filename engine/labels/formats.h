@@ -17,6 +17,8 @@ namespace sigs {
 //   sequence  what is the same for all frames; ids of intruders and frames of the footage count from 0
 // Errors: cannot_create; write_failed where the beginning of a file cannot be written.
 //
+// Images are named here as PNG files; exported as TIFF or JPEG they end so (LabelSequence::image_extension).
+//
 // Boxes of truth/annotation.h are boxes of whole pixels: x, y, width, height with the first pixel at 0, 0. Each comment
 // says how the format counts them. k...Files lists what a format's folder may contain (LabelFormat::files).
 
@@ -45,8 +47,9 @@ namespace sigs {
 //                                 fractions of the image's width or height
 // The paths below images/ and labels/ are the same, since readers derive the one from the other. NAME is the
 // sequence's, so that the folders of several videos can be merged into one.
-inline constexpr std::array<std::string_view, 4> kYoloFiles{"data.yaml", "images/*/frame_#.png", "labels/*/frame_#.txt",
-                                                            "labels/*.cache"};
+inline constexpr std::array<std::string_view, 6> kYoloFiles{
+    "data.yaml",     "images/*/frame_#.png", "images/*/frame_#.jpg", "images/*/frame_#.tiff", "labels/*/frame_#.txt",
+    "labels/*.cache"};
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_yolo(const std::filesystem::path& path,
                                                              const LabelSequence& sequence);
 
@@ -61,8 +64,9 @@ inline constexpr std::array<std::string_view, 4> kYoloFiles{"data.yaml", "images
 //   difficult  less than 20 % of the intruder is visible; VOC's evaluation neither requires it nor counts a detection
 //              of it as false
 // <trackid>, as in ImageNet VID, is the intruder's id.
-inline constexpr std::array<std::string_view, 4> kVocFiles{"Annotations/frame_#.xml", "ImageSets/Main/*train.txt",
-                                                           "ImageSets/Main/*val.txt", "JPEGImages/frame_#.png"};
+inline constexpr std::array<std::string_view, 6> kVocFiles{"Annotations/frame_#.xml", "ImageSets/Main/*train.txt",
+                                                           "ImageSets/Main/*val.txt", "JPEGImages/frame_#.png",
+                                                           "JPEGImages/frame_#.jpg",  "JPEGImages/frame_#.tiff"};
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_voc(const std::filesystem::path& path,
                                                             const LabelSequence& sequence);
 
@@ -72,8 +76,8 @@ inline constexpr std::array<std::string_view, 4> kVocFiles{"Annotations/frame_#.
 //   NAME/gt/gt.txt        frame, id, left, top, width, height, 1 to count or 0 to ignore, class, visible fraction;
 //                         frames, ids, pixels and classes count from 1
 //   NAME/img1/000001.png  only where images are written
-inline constexpr std::array<std::string_view, 4> kMotFiles{"seqmaps/*.txt", "*/seqinfo.ini", "*/gt/gt.txt",
-                                                           "*/img1/#.png"};
+inline constexpr std::array<std::string_view, 6> kMotFiles{"seqmaps/*.txt", "*/seqinfo.ini", "*/gt/gt.txt",
+                                                           "*/img1/#.png",  "*/img1/#.jpg",  "*/img1/#.tiff"};
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_mot(const std::filesystem::path& path,
                                                             const LabelSequence& sequence);
 
@@ -83,8 +87,9 @@ inline constexpr std::array<std::string_view, 4> kMotFiles{"seqmaps/*.txt", "*/s
 //   calib/NAME.txt               where the sequence has a camera: the pinhole part of its lens
 //   image_02/NAME/000000.png     only where images are written
 //   evaluate_tracking.seqmap.training  TrackEval's list of the sequences
-inline constexpr std::array<std::string_view, 4> kKittiFiles{"label_02/*.txt", "calib/*.txt",
-                                                             "evaluate_tracking.seqmap.training", "image_02/*/#.png"};
+inline constexpr std::array<std::string_view, 6> kKittiFiles{
+    "label_02/*.txt",   "calib/*.txt",      "evaluate_tracking.seqmap.training",
+    "image_02/*/#.png", "image_02/*/#.jpg", "image_02/*/#.tiff"};
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_kitti(const std::filesystem::path& path,
                                                               const LabelSequence& sequence);
 
@@ -124,9 +129,10 @@ struct KittiBox {
 //   NAME/groundtruth.txt      a line for each frame: x,y,width,height from 0; nan,nan,nan,nan: no label
 //   NAME/*.tag, *.value       a line for each frame: absence, occlusion; distance_m, visible_fraction
 //   NAME/color/00000001.png   only where images are written
-inline constexpr std::array<std::string_view, 8> kVotFiles{
+inline constexpr std::array<std::string_view, 10> kVotFiles{
     "list.txt",        "*/sequence",         "*/groundtruth.txt",        "*/absence.tag",
-    "*/occlusion.tag", "*/distance_m.value", "*/visible_fraction.value", "*/color/#.png"};
+    "*/occlusion.tag", "*/distance_m.value", "*/visible_fraction.value", "*/color/#.png",
+    "*/color/#.jpg",   "*/color/#.tiff"};
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_vot(const std::filesystem::path& path,
                                                             const LabelSequence& sequence);
 
@@ -146,5 +152,10 @@ inline constexpr std::array<std::string_view, 8> kVotFiles{
 // content and the digits of the SIGS XML file; fields of a box are empty where there is none.
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_csv(const std::filesystem::path& path,
                                                             const LabelSequence& sequence);
+
+// JSON Lines (https://jsonlines.org): everything that the SIGS annotation file has of a frame, on one line.
+// labels/json_lines.h writes the same to a stream.
+[[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_jsonl(const std::filesystem::path& path,
+                                                              const LabelSequence& sequence);
 
 }  // namespace sigs

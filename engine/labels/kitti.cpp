@@ -90,7 +90,8 @@ class KittiLabels : public LabelWriter {
     for (std::optional<TextFile>* const file : {&poses_, &pose_sources_})
       if (*file)
         if (const Result<void> closed = (*file)->close(); !closed) return closed;
-    return link_numbered_images(images, sequence_.footage, folder_ / "image_02" / name_, {.first = 0, .digits = 6});
+    return link_numbered_images(images, sequence_.footage, folder_ / "image_02" / name_,
+                                {.first = 0, .digits = 6, .extension = sequence_.image_extension});
   }
 
  private:

@@ -70,8 +70,9 @@ Result<void> link_numbered_images(const fs::path& images, const FootageTruth& fo
   if (const Result<void> created = make_inner_folder(folder); !created) return created;
   for (int frame = footage.first_frame; frame <= footage.last_frame; ++frame) {
     const int number = frame - footage.first_frame + numbers.first;
-    const fs::path name = folder / fmt::format("{:0{}}.png", number, numbers.digits);
-    if (const Result<void> linked = link_or_copy(images / image_name(frame), name); !linked) return linked;
+    const fs::path name = folder / fmt::format("{:0{}}{}", number, numbers.digits, numbers.extension);
+    if (const Result<void> linked = link_or_copy(images / image_name(frame, numbers.extension), name); !linked)
+      return linked;
   }
   return {};
 }

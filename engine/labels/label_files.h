@@ -44,8 +44,9 @@ class TextFile {
 
 // How a format names the images of a sequence: 000001.png, 000002.png, ...
 struct ImageNumbers {
-  int first = 0;   // number of the sequence's first image
-  int digits = 6;  // minimum number of digits, filled with zeros at the front
+  int first = 0;                        // number of the sequence's first image
+  int digits = 6;                       // minimum number of digits, filled with zeros at the front
+  std::string_view extension = ".png";  // LabelSequence::image_extension
 };
 
 // Links the images of all frames of the footage's range into a folder, which is created, under numbered names.

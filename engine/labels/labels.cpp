@@ -69,6 +69,12 @@ constexpr LabelFormat kFormats[] = {
      .open = open_csv,
      .names_images = false,
      .has_thresholds = false},
+    {.name = "jsonl",
+     .suffix = ".jsonl",
+     .help = "JSON Lines: everything of a frame on a line of its own",
+     .open = open_jsonl,
+     .names_images = false,
+     .has_thresholds = false},
 };
 
 }  // namespace
@@ -92,8 +98,8 @@ bool is_labelled(const IntruderTruth& truth, const LabelThresholds& thresholds) 
          truth.visible_fraction >= thresholds.min_visible_fraction;
 }
 
-std::string image_name(int frame) {
-  return fmt::format("frame_{:06}.png", frame);
+std::string image_name(int frame, std::string_view extension) {
+  return fmt::format("frame_{:06}{}", frame, extension);
 }
 
 std::span<const LabelFormat> label_formats() {

@@ -42,6 +42,7 @@ struct LabelSequence {
   std::vector<std::string> categories;      // a format's number of a category follows from its position here
   std::string video;                        // the exported video, beside the labels; empty: numbered images are written
   int channels = 3;                         // of an image: 3 in colour, 1 in grey
+  std::string image_extension = ".png";     // of the numbered images
   std::string images;  // folder beside the labels for numbered images, which need not exist: frame_000123.png
   cv::Mat
       own_body;  // CV_32FC1 of the image's size, 1 where the own body hides everything, 0 where nothing; empty: none
@@ -60,7 +61,8 @@ struct LabelSequence {
 [[nodiscard]] bool is_labelled(const IntruderTruth& truth, const LabelThresholds& thresholds);
 
 // "frame_000123.png": the name of a frame's image in LabelSequence::images. The number is the footage's.
-[[nodiscard]] std::string image_name(int frame);
+//   extension  LabelSequence::image_extension
+[[nodiscard]] std::string image_name(int frame, std::string_view extension = ".png");
 
 // One set of labels in one format, frame by frame in order.
 class LabelWriter {

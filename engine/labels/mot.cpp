@@ -46,10 +46,10 @@ int first_own_body_id(const LabelSequence& sequence) {
 std::string seqinfo(const LabelSequence& sequence, const std::string& name) {
   const FootageTruth& footage = sequence.footage;
   std::string text = fmt::format(
-      "[Sequence]\nname={}\nimDir=img1\nframeRate={}\nseqLength={}\nimWidth={}\nimHeight={}\nimExt=.png\n"
+      "[Sequence]\nname={}\nimDir=img1\nframeRate={}\nseqLength={}\nimWidth={}\nimHeight={}\nimExt={}\n"
       "exactFrameRate={}\n\n[Classes]\n",
       name, whole_rate_hz(footage), frame_count(footage), footage.size_px.width, footage.size_px.height,
-      rate_text(footage));
+      sequence.image_extension, rate_text(footage));
   for (std::size_t i = 0; i < sequence.categories.size(); ++i)
     text += fmt::format("{}={}\n", i + 1, line_name(sequence.categories[i]));
   if (!sequence.own_body.empty()) text += fmt::format("{}=own body, ignored\n", own_body_class(sequence));
@@ -78,7 +78,8 @@ class MotLabels : public LabelWriter {
 
   Result<void> finish(const fs::path& images) override {
     if (const Result<void> closed = truth_.close(); !closed) return closed;
-    return link_numbered_images(images, sequence_.footage, folder_ / "img1", {.first = 1, .digits = 6});
+    return link_numbered_images(images, sequence_.footage, folder_ / "img1",
+                                {.first = 1, .digits = 6, .extension = sequence_.image_extension});
   }
 
  private:

@@ -44,7 +44,7 @@ std::string annotation_of(const FrameTruth& truth, const LabelSequence& sequence
   pugi::xml_document document;
   pugi::xml_node annotation = document.append_child("annotation");
   add_element(annotation, "folder", sequence.name + ".voc");
-  add_element(annotation, "filename", image_name(truth.index));
+  add_element(annotation, "filename", image_name(truth.index, sequence.image_extension));
   pugi::xml_node source = annotation.append_child("source");
   add_element(source, "database", "SIGS");
   add_element(source, "annotation", sequence.name);
@@ -90,7 +90,7 @@ class VocLabels : public LabelWriter {
   }
 
   Result<void> write(const FrameTruth& truth) override {
-    images_.emplace_back(image_name(truth.index));
+    images_.emplace_back(image_name(truth.index, sequence_.image_extension));
     for (std::vector<Presence>& shown : presence_) shown.push_back(Presence::no);
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds)) note_presence(intruder);

@@ -31,10 +31,11 @@ std::string value_text(const std::string& text) {
   return value;
 }
 
-std::string sequence_text(const FootageTruth& footage, const std::string& name) {
-  return fmt::format("channels.color=color/%08d.png\nfps={}\nframe_rate={}\nheight={}\nlength={}\nname={}\nwidth={}\n",
-                     whole_rate_hz(footage), rate_text(footage), footage.size_px.height, frame_count(footage),
-                     value_text(name), footage.size_px.width);
+std::string sequence_text(const LabelSequence& sequence, const std::string& name) {
+  const FootageTruth& footage = sequence.footage;
+  return fmt::format("channels.color=color/%08d{}\nfps={}\nframe_rate={}\nheight={}\nlength={}\nname={}\nwidth={}\n",
+                     sequence.image_extension, whole_rate_hz(footage), rate_text(footage), footage.size_px.height,
+                     frame_count(footage), value_text(name), footage.size_px.width);
 }
 
 // The toolkit writes and reads an absent target as four NaN, as in its long-term challenges.
@@ -48,7 +49,7 @@ class VotSequence {
  public:
   static Result<VotSequence> create(fs::path folder, const LabelSequence& sequence) {
     if (const Result<void> created = make_inner_folder(folder); !created) return fail(created.error());
-    const std::string text = sequence_text(sequence.footage, folder.filename().string());
+    const std::string text = sequence_text(sequence, folder.filename().string());
     if (const Result<void> head = write_text(folder / "sequence", text, false); !head) return fail(head.error());
     std::vector<TextFile> files;
     for (const char* name : kFiles) {
@@ -73,10 +74,11 @@ class VotSequence {
     return {};
   }
 
-  [[nodiscard]] Result<void> finish(const fs::path& images, const FootageTruth& footage) {
+  [[nodiscard]] Result<void> finish(const fs::path& images, const LabelSequence& sequence) {
     for (TextFile& file : files_)
       if (const Result<void> closed = file.close(); !closed) return closed;
-    return link_numbered_images(images, footage, folder_ / "color", {.first = 1, .digits = 8});
+    return link_numbered_images(images, sequence.footage, folder_ / "color",
+                                {.first = 1, .digits = 8, .extension = sequence.image_extension});
   }
 
   [[nodiscard]] std::string name() const { return folder_.filename().string(); }
@@ -111,7 +113,7 @@ class VotLabels : public LabelWriter {
   Result<void> finish(const fs::path& images) override {
     std::string list;
     for (VotSequence& target : targets_) {
-      if (const Result<void> finished = target.finish(images, sequence_.footage); !finished) return finished;
+      if (const Result<void> finished = target.finish(images, sequence_); !finished) return finished;
       // A sequence in which the target never appears gives a tracker nothing to begin with.
       if (target.appears()) list += target.name() + "\n";
     }

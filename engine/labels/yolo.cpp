@@ -63,7 +63,7 @@ class YoloLabels : public LabelWriter {
     std::string text;
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds)) text += line_of(intruder);
-    images_.push_back(image_name(truth.index));
+    images_.push_back(image_name(truth.index, sequence_.image_extension));
     return write_text_file(root_ / "labels" / folder_ / fs::path(images_.back()).replace_extension(".txt"), text);
   }
 

@@ -54,7 +54,12 @@ class FieldList {
 };
 
 void add_footage(FieldList list, FootageSettings& footage) {
-  list.path("video", footage.video, true, "the background: a video file of a real flight");
+  list.path("video", footage.video, true,
+            "the background: a video of a real flight, or its images: a folder, or a pattern as images/%06d.png");
+  list.number("frame_rate", &footage.frame_rate_hz, "Hz", 0.001, 1e6,
+              "of footage in images: frames a second; null: 25, with a warning");
+  list.path("timestamps", footage.timestamps, false,
+            "of footage in images: text file with a line for each, its time in seconds; empty: evenly spaced");
   list.number("first_frame", &footage.first_frame, "frame", 0, 1e9, "first frame that is used, counted from 0");
   list.number("last_frame", &footage.last_frame, "frame", 0, 1e9, "last frame that is used; null: the footage's last");
   list.path("calibration", footage.calibration, true, "the camera's calibration file");
@@ -212,20 +217,26 @@ void add_appearance(FieldList list, AppearanceSettings& appearance) {
 }
 
 void add_output(FieldList list, ExportSettings& output) {
-  list.add("video.codec", choice_of(output.codec, {"ffv1", "h264", "mjpeg", "png"}), "",
-           "ffv1: lossless; h264: small; mjpeg; png: numbered images");
-  list.add("video.container", choice_of(output.container, {"auto", "mkv", "mp4", "avi"}), "",
-           "auto: mkv for ffv1, mp4 for h264, avi for mjpeg");
-  list.number("video.crf", &output.crf, "", 0, 51, "quality of h264: 0 lossless, 18 visually so, 51 worst");
+  list.add("video.codec",
+           choice_of(output.codec, {"ffv1", "h264", "hevc", "av1", "mjpeg", "png", "tiff", "jpeg", "raw"}), "",
+           "ffv1: lossless; h264: small; hevc, av1: smaller, slower; mjpeg; png, tiff, jpeg: numbered images; raw: "
+           "uncompressed");
+  list.add("video.container", choice_of(output.container, {"auto", "mkv", "mp4", "avi", "nut", "y4m"}), "",
+           "auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for raw");
+  list.number("video.crf", &output.crf, "", 0, 63,
+              "quality: 0 lossless, 18 visually so, worst is 51 of h264 and hevc, 63 of av1");
+  list.number("video.quality", &output.jpeg_quality, "", 1, 100, "quality of jpeg: 1 worst, 100 best");
+  list.number("video.max_bit_depth", &output.max_bit_depth, "", 8, 16,
+              "samples of more bits are rounded to this many: 8 for players that know no more");
   list.add("masks", choice_of(output.masks, {"none", "video", "png"}), "",
            "opacity of the intruders, as video or images");
   static const std::string label_help = "annotation formats to write: " + listed(kLabelNames);  // a Field keeps no copy
   list.add("labels", &output.labels, "", label_help);
   // Formats that leave nothing out are those without LabelFormat::has_thresholds (engine/labels/labels.h).
   list.number("label_least_pixels", &output.label_least_pixels, "px", 1, 1e9,
-              "fewer visible pixels: no label; xml and csv leave nothing out");
+              "fewer visible pixels: no label; xml, csv and jsonl leave nothing out");
   list.number("label_least_visible_fraction", &output.label_least_visible_fraction, "", 0, 1,
-              "less of it to be seen: no label; xml and csv leave nothing out");
+              "less of it to be seen: no label; xml, csv and jsonl leave nothing out");
   list.add("categories", &output.categories, "",
            "categories that labels count, in this order; empty: those of the intruders");
   static const std::string encounter_help =

@@ -21,7 +21,9 @@ enum class LensModelChoice { automatic, brown_conrady, fisheye };
 // range, in fields.cpp and docs/project-format.md.
 // The background: which video, which of its frames, and the camera that took it.
 struct FootageSettings {
-  std::string video;
+  std::string video;                    // a file, a folder of images, or a pattern such as images/%06d.png
+  std::optional<double> frame_rate_hz;  // of images; none: not known
+  std::string timestamps;               // file with the time of each image; empty: evenly spaced
   int first_frame = 0;
   std::optional<int> last_frame;  // the last one used; none: the footage's last
   std::string calibration;
@@ -289,14 +291,14 @@ struct AppearanceSettings {
 };
 
 // Formats of the exported video and masks; automatic: the container that suits the codec.
-enum class CodecChoice { ffv1, h264, mjpeg, png };
-enum class ContainerChoice { automatic, mkv, mp4, avi };
+enum class CodecChoice { ffv1, h264, hevc, av1, mjpeg, png, tiff, jpeg, raw };
+enum class ContainerChoice { automatic, mkv, mp4, avi, nut, y4m };
 enum class MasksChoice { none, video, png };
 
 // The label formats that export.labels may contain: the names of the table in engine/labels/labels.cpp, in its order.
 // They are repeated because this module may not include labels; tests/labels/labels_test.cpp compares them.
 inline constexpr auto kLabelNames =
-    std::to_array<std::string_view>({"xml", "coco", "yolo", "voc", "mot", "kitti", "cvat", "vot", "aot", "csv"});
+    std::to_array<std::string_view>({"xml", "coco", "yolo", "voc", "mot", "kitti", "cvat", "vot", "aot", "csv", "jsonl"});
 
 // The volumes that export.encounter may contain: the names of well_clear_volumes() in engine/encounter/well_clear.h, in
 // its order. They are repeated because this module may not include encounter; tests/scene/encounter_tracks_test.cpp
@@ -304,12 +306,15 @@ inline constexpr auto kLabelNames =
 inline constexpr auto kWellClearNames =
     std::to_array<std::string_view>({"dwc-en-route", "dwc-non-cooperative", "dwc-terminal", "small-uas", "nmac"});
 
-// What an export writes. crf: quality of h264, 0 (lossless) to 51. The two thresholds leave out labels of intruders
-// with fewer visible pixels, or a smaller visible share.
+// What an export writes. crf: quality of h264 and hevc, 0 (lossless) to 51, and of av1, to 63. max_bit_depth: samples
+// of more bits are rounded to this many. The two thresholds leave out labels of intruders with fewer visible pixels, or
+// a smaller visible share.
 struct ExportSettings {
   CodecChoice codec = CodecChoice::ffv1;
   ContainerChoice container = ContainerChoice::automatic;
   int crf = 18;
+  int jpeg_quality = 95;  // 1 to 100
+  int max_bit_depth = 16;
   MasksChoice masks = MasksChoice::video;
   std::vector<std::string> labels{"xml"};
   int label_least_pixels = 1;
@@ -319,6 +324,11 @@ struct ExportSettings {
 
   [[nodiscard]] bool operator==(const ExportSettings&) const = default;
 };
+
+// Whether a codec writes a folder of images, one for each frame, instead of a video.
+[[nodiscard]] constexpr bool writes_images(CodecChoice codec) {
+  return codec == CodecChoice::png || codec == CodecChoice::tiff || codec == CodecChoice::jpeg;
+}
 
 // A whole project file.
 struct Project {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "project/fields.h"
@@ -49,7 +50,8 @@ void check_text(const Project& project, const Field& field, Problems& problems) 
   }
   std::error_code code;
   const std::filesystem::path path = resolved(project, text);
-  if (field.is_path && !std::filesystem::exists(path, code))
+  const bool is_sequence = field.key == "footage.video" && is_number_pattern(path);  // opening it shows what is there
+  if (field.is_path && !is_sequence && !std::filesystem::exists(path, code))
     problems.push_back({field.key, "no such file: " + path.lexically_normal().string(), ErrorKind::cannot_read});
 }
 
@@ -125,8 +127,21 @@ void check_output(const ExportSettings& output, Problems& problems) {
   const ContainerChoice container = output.container;
   if (output.codec == CodecChoice::ffv1 && container == ContainerChoice::mp4)
     problems.push_back({"export.video.container", "mp4 cannot hold ffv1; use mkv or avi"});
-  if (output.codec == CodecChoice::png && container != ContainerChoice::automatic)
-    problems.push_back({"export.video.container", "png writes numbered images, not a container; use auto"});
+  const bool is_hevc = output.codec == CodecChoice::hevc;
+  if ((is_hevc || output.codec == CodecChoice::av1) && container == ContainerChoice::avi)
+    problems.push_back(
+        {"export.video.container", fmt::format("avi cannot hold {}; use mp4 or mkv", is_hevc ? "hevc" : "av1")});
+  if ((is_hevc || output.codec == CodecChoice::h264) && output.crf > 51)
+    problems.push_back({"export.video.crf", fmt::format("is {}; of h264 and hevc 51 is the worst", output.crf)});
+  if (writes_images(output.codec) && container != ContainerChoice::automatic)
+    problems.push_back(
+        {"export.video.container", "png, tiff and jpeg write numbered images, not a container; use auto"});
+  if (container == ContainerChoice::y4m && output.codec != CodecChoice::raw)
+    problems.push_back({"export.video.container", "y4m holds uncompressed video alone; use the codec raw"});
+  const bool holds_raw = container == ContainerChoice::automatic || container == ContainerChoice::nut ||
+                         container == ContainerChoice::y4m;
+  if (output.codec == CodecChoice::raw && !holds_raw)
+    problems.push_back({"export.video.container", "raw goes into nut or y4m; use one of them or auto"});
 }
 
 bool is_twice(const std::vector<std::string>& list, const std::string& text) {

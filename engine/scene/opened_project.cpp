@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "base/paths.h"
+#include "base/text.h"
 #include "mesh/textures.h"
 #include "project/fields.h"
 #include "project/validate.h"
@@ -79,8 +80,7 @@ Result<void> check_interrupt(const std::atomic<bool>* cancel) {
 
 Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel) {
   if (const Result<void> valid = check_valid(project); !valid) return fail(valid.error());
-  Result<FrameSource> source =
-      FrameSource::open(resolved(project, project.footage.video), cancel, quantisers_for(project));
+  Result<FrameSource> source = open_footage(project, cancel, quantisers_for(project));
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   SceneFiles files;
@@ -100,6 +100,16 @@ Quantisers quantisers_for(const Project& project) {
   return direct && codec.match != CodecMatchChoice::none ? Quantisers::read : Quantisers::leave_out;
 }
 
+SequenceTiming timing_of(const Project& project) {
+  const FootageSettings& footage = project.footage;
+  return {.frame_rate_hz = footage.frame_rate_hz.value_or(0),
+          .times_file = footage.timestamps.empty() ? fs::path() : resolved(project, footage.timestamps)};
+}
+
+Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel, Quantisers quantisers) {
+  return FrameSource::open(resolved(project, project.footage.video), cancel, quantisers, timing_of(project));
+}
+
 FootageShape shape_of(const VideoInfo& video) {
   return {.size_px = video.size_px,
           .times_s = video.times_s,
@@ -112,9 +122,72 @@ std::vector<Warning> warnings_of(const VideoInfo& video) {
   return warnings;
 }
 
-std::vector<Warning> codec_warnings_of(const Project& project, const VideoInfo& video) {
+VideoCodec video_codec_of(CodecChoice choice) {
+  switch (choice) {
+    case CodecChoice::ffv1:
+      return VideoCodec::ffv1;
+    case CodecChoice::h264:
+      return VideoCodec::h264;
+    case CodecChoice::hevc:
+      return VideoCodec::hevc;
+    case CodecChoice::av1:
+      return VideoCodec::av1;
+    case CodecChoice::mjpeg:
+      return VideoCodec::mjpeg;
+    case CodecChoice::png:
+      return VideoCodec::png;
+    case CodecChoice::tiff:
+      return VideoCodec::tiff;
+    case CodecChoice::jpeg:
+      return VideoCodec::jpeg;
+    case CodecChoice::raw:
+      return VideoCodec::raw;
+  }
+  return VideoCodec::ffv1;
+}
+
+namespace {
+
+std::string codecs_of_depth(int bit_depth) {
+  std::vector<std::string_view> names;
+  for (const VideoCodec codec : {VideoCodec::ffv1, VideoCodec::h264, VideoCodec::hevc, VideoCodec::av1, VideoCodec::png,
+                                 VideoCodec::tiff, VideoCodec::raw})
+    if (max_bit_depth(codec) >= bit_depth) names.emplace_back(name_of(codec));
+  return listed(names);
+}
+
+// Of footage of more than 8 bits: what has fewer.
+std::vector<Warning> depth_warnings_of(const Project& project, const VideoInfo& video) {
+  std::vector<Warning> warnings;
+  const auto warn = [&](const char* field, std::string what) {
+    warnings.push_back({project.file.string() + ": " + field, std::move(what)});
+  };
+  const int depth = std::min(video.bit_depth, project.output.max_bit_depth);
+  const VideoCodec codec = video_codec_of(project.output.codec);
+  if (depth > max_bit_depth(codec))
+    warn("export.video.codec",
+         fmt::format("{} has {} bits a sample at most, the footage {}: all samples are rounded; "
+                     "codecs that keep them are {}",
+                     name_of(codec), max_bit_depth(codec), video.bit_depth, codecs_of_depth(depth)));
+  const MethodChoice method = project.compositing.method;
+  if (video.bit_depth > 8 && method != MethodChoice::direct)
+    warn("compositing.method",
+         fmt::format(
+             "{} works with 8 bits a sample, the footage has {}: what it changes has the steps of 8 bits; direct "
+             "keeps all",
+             method == MethodChoice::classic ? "classic" : "plain", video.bit_depth));
+  return warnings;
+}
+
+// Of the codec match.
+std::vector<Warning> match_warnings_of(const Project& project, const VideoInfo& video) {
   const CodecMatchSettings& codec = project.appearance.codec;
-  if (quantisers_for(project) == Quantisers::leave_out || codec.quantiser) return {};
+  if (quantisers_for(project) == Quantisers::leave_out) return {};
+  if (video.bit_depth > 8)
+    return {
+        {project.file.string() + ": appearance.codec.match",
+         fmt::format("is left out: it recompresses images of 8 bits a sample, the footage has {}", video.bit_depth)}};
+  if (codec.quantiser) return {};
   const bool jpeg = codec.match == CodecMatchChoice::mjpeg;
   const bool is_its_own =
       codec.match == CodecMatchChoice::footage || (jpeg ? video.codec == "mjpeg" : video.codec == "h264");
@@ -126,6 +199,14 @@ std::vector<Warning> codec_warnings_of(const Project& project, const VideoInfo& 
                    video.codec,
                    jpeg ? fmt::format("a quality of {:g} percent", kDefaultJpegQuality_percent)
                         : fmt::format("H.264's QP {}", kDefaultQp))}};
+}
+
+}  // namespace
+
+std::vector<Warning> codec_warnings_of(const Project& project, const VideoInfo& video) {
+  std::vector<Warning> warnings = match_warnings_of(project, video);
+  for (Warning& warning : depth_warnings_of(project, video)) warnings.push_back(std::move(warning));
+  return warnings;
 }
 
 std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
@@ -156,6 +237,9 @@ std::vector<fs::path> files_read_by(const Project& project) {
     const fs::path file = resolved(project, *std::get<std::string*>(field.value));
     if (file.empty()) continue;
     files.push_back(file);
+    if (field.key == "footage.video" && is_image_sequence(file))
+      if (const Result<std::vector<fs::path>> images = files_of_sequence(file))
+        files.insert(files.end(), images->begin(), images->end());
     if (!field.key.ends_with("model.file")) continue;
     if (const Result<std::vector<fs::path>> more = files_of_model(file))
       files.insert(files.end(), more->begin(), more->end());

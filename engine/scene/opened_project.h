@@ -13,6 +13,7 @@
 #include "scene/scene_files.h"
 #include "scene/visibility.h"
 #include "video/frame_source.h"
+#include "video/video_writer.h"
 
 // The way from a project to a scene: validate, open the footage, open what else the project names.
 namespace sigs {
@@ -47,6 +48,14 @@ struct OpenedProject {
 // Whether the frames of a project's footage need their quantisers: where the codec match is to be by the footage's own.
 [[nodiscard]] Quantisers quantisers_for(const Project& project);
 
+// The footage of a project: a video, or images with the times that the project states. Errors and arguments are those of
+// FrameSource::open(); they do not name the project.
+[[nodiscard]] Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel = nullptr,
+                                               Quantisers quantisers = Quantisers::leave_out);
+
+// The times that settings state of footage in images; the file of times is the project's.
+[[nodiscard]] SequenceTiming timing_of(const Project& project);
+
 // What a scene has to know of a video.
 [[nodiscard]] FootageShape shape_of(const VideoInfo& video);
 
@@ -59,7 +68,12 @@ struct OpenedProject {
 [[nodiscard]] std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
                                                const std::vector<Visibility>& visibilities);
 
-// That the codec match has to do with a default quantiser, as neither the footage nor the project states one.
+// The codec that an export writes.
+[[nodiscard]] VideoCodec video_codec_of(CodecChoice choice);
+
+// What becomes of the footage's coding: that the codec match has to do with a default quantiser, as neither the footage
+// nor the project states one; of footage of more than 8 bits, what rounds its samples, and that there is no codec
+// match.
 [[nodiscard]] std::vector<Warning> codec_warnings_of(const Project& project, const VideoInfo& video);
 
 // Number of frames sampled to find intruders that are never visible, where each is visible in one of these.

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "base/ensure.h"
+#include "video/bit_depth.h"
 
 namespace sigs {
 namespace {
@@ -214,10 +215,10 @@ double display_of_linear(TransferFunction function, double linear) {
   return std::copysign(display_of_size(function, std::fabs(linear)), linear);
 }
 
-double min_light(TransferFunction function) {
+double min_light(TransferFunction function, int bit_depth) {
   // Every curve of display over light is steepest at black and mirrored there, so a step of half a code value, placed
   // evenly about black, takes the minimum light.
-  return 2 * linear_of_display(function, 0.25 / 255);
+  return 2 * linear_of_display(function, 0.25 / max_code(bit_depth));
 }
 
 std::optional<cv::Matx33d> from_bt709(int primaries) {

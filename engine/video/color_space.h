@@ -37,9 +37,9 @@ enum class TransferFunction {
 [[nodiscard]] double linear_of_display(TransferFunction function, double display);
 [[nodiscard]] double display_of_linear(TransferFunction function, double linear);
 
-// The light of half an 8-bit step where the curve is steepest, around black. Less light than this, added to any sample,
-// changes no code value.
-[[nodiscard]] double min_light(TransferFunction function);
+// The light of half a step of this depth where the curve is steepest, around black. Less light than this, added to any
+// sample, changes no code value.
+[[nodiscard]] double min_light(TransferFunction function, int bit_depth = 8);
 
 // The matrix that converts linear light from BT.709's (sRGB's) red, green and blue to those of the footage. White stays
 // white, by Bradford's chromatic adaptation (Lam 1985) where the white points differ.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/ensure.h"
+#include "video/bit_depth.h"
 #include "video/chroma.h"
 
 namespace sigs {
@@ -36,20 +37,26 @@ LumaShares luma_shares(ColorMatrix matrix) {
   ENSURE(false);
 }
 
-// How many code values luma 0..1 and a colour difference of -0.5..0.5 span in 8 bits: H.273, equations 20 to 31.
+// How many code values luma 0..1 and a colour difference of -0.5..0.5 span: H.273, equations 20 to 31.
 struct Quantiser {
   double luma_scale = 0;
   double luma_offset = 0;
   double chroma_scale = 0;
+  double chroma_offset = 0;
 };
 
-Quantiser quantiser(ColorRange range) {
-  if (range == ColorRange::full) return {.luma_scale = 255, .luma_offset = 0, .chroma_scale = 255};
-  return {.luma_scale = 219, .luma_offset = 16, .chroma_scale = 224};
+Quantiser quantiser(ColorRange range, int bit_depth) {
+  const double top = max_code(bit_depth);
+  const double step = codes_per_8_bit_step(bit_depth);
+  const double middle = 128 * step;
+  if (range == ColorRange::full)
+    return {.luma_scale = top, .luma_offset = 0, .chroma_scale = top, .chroma_offset = middle};
+  return {.luma_scale = 219 * step, .luma_offset = 16 * step, .chroma_scale = 224 * step, .chroma_offset = middle};
 }
 
-CodeToRgb rgb_map() {
-  return {cv::Matx33f::eye() * (1.0F / 255.0F), cv::Matx33f::eye() * 255.0F, cv::Vec3f(0, 0, 0)};
+CodeToRgb rgb_map(int bit_depth) {
+  const auto top = static_cast<float>(max_code(bit_depth));
+  return {cv::Matx33f::eye() * (1.0F / top), cv::Matx33f::eye() * top, cv::Vec3f(0, 0, 0)};
 }
 
 CodeToRgb gray_map(const LumaShares& k, const Quantiser& q) {
@@ -71,14 +78,24 @@ CodeToRgb ycbcr_map(const LumaShares& k, const Quantiser& q) {
                                (1 - k.red) / red_span, -k.green / red_span, -k.blue / red_span);
   const cv::Matx33d scale(q.luma_scale, 0, 0, 0, q.chroma_scale, 0, 0, 0, q.chroma_scale);
   const cv::Matx33d unscale(1 / q.luma_scale, 0, 0, 0, 1 / q.chroma_scale, 0, 0, 0, 1 / q.chroma_scale);
-  return {rgb_of_ycc * unscale, scale * ycc_of_rgb, cv::Vec3f(static_cast<float>(q.luma_offset), 128, 128)};
+  return {rgb_of_ycc * unscale, scale * ycc_of_rgb,
+          cv::Vec3f(static_cast<float>(q.luma_offset), static_cast<float>(q.chroma_offset),
+                    static_cast<float>(q.chroma_offset))};
 }
 
 // Whole images as BGR, and back.
 
-uchar code_of(float value) {
-  return static_cast<uchar>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+template <class Sample>
+Sample code_of(float value, float top) {
+  return static_cast<Sample>(std::clamp(value, 0.0F, top) + 0.5F);
 }
+
+// White in a BGR image of this sample type.
+template <class Sample>
+constexpr float kWhite = sizeof(Sample) == 1 ? 255.0F : 65535.0F;
+
+template <class Sample>
+constexpr int kBgrType = sizeof(Sample) == 1 ? CV_8UC3 : CV_16UC3;
 
 float between(float first, float second, float share) {
   return first + share * (second - first);
@@ -86,6 +103,7 @@ float between(float first, float second, float share) {
 
 // Chroma at every luma sample of a row, as code values: the interpolation of chroma_taps, in loops that compilers turn
 // into vector instructions.
+template <class Sample>
 class ChromaReader {
  public:
   explicit ChromaReader(const Frame& frame)
@@ -119,8 +137,8 @@ class ChromaReader {
  private:
   // The chroma row between two of the plane's, its ends repeated once on either side.
   static void read_samples(const cv::Mat& plane, const ChromaTap& row, std::vector<float>& samples) {
-    const uchar* first = plane.ptr<uchar>(row.first);
-    const uchar* second = plane.ptr<uchar>(row.second);
+    const Sample* first = plane.ptr<Sample>(row.first);
+    const Sample* second = plane.ptr<Sample>(row.second);
     const auto count = static_cast<size_t>(plane.cols);
     samples.resize(count + 2);
     float* const to = samples.data() + 1;
@@ -135,15 +153,20 @@ class ChromaReader {
   std::vector<ChromaTap> rows_;
 };
 
+template <class In, class Out>
 cv::Mat bgr_of_gray(const Frame& frame) {
-  const CodeToRgb map = code_to_rgb(frame.layout, frame.color);
-  cv::Mat lut(1, 256, CV_8UC1);
-  for (int code = 0; code < 256; ++code)
-    lut.at<uchar>(code) = code_of(255.0F * map.to_rgb(0, 0) * (static_cast<float>(code) - map.offset[0]));
-  cv::Mat value;
-  cv::LUT(frame.planes[0], lut, value);
-  cv::Mat bgr;
-  cv::merge(std::vector<cv::Mat>{value, value, value}, bgr);
+  const CodeToRgb map = code_to_rgb(frame.layout, frame.color, frame.bit_depth);
+  std::vector<Out> values(static_cast<size_t>(max_code(frame.bit_depth)) + 1);
+  for (size_t code = 0; code < values.size(); ++code)
+    values[code] =
+        code_of<Out>(kWhite<Out> * map.to_rgb(0, 0) * (static_cast<float>(code) - map.offset[0]), kWhite<Out>);
+  const size_t mask = values.size() - 1;
+  cv::Mat bgr(frame.size_px(), kBgrType<Out>);
+  for (int y = 0; y < bgr.rows; ++y) {
+    const In* const in = frame.planes[0].ptr<In>(y);
+    Out* const out = bgr.ptr<Out>(y);
+    for (int x = 0; x < bgr.cols; ++x) out[3 * x] = out[3 * x + 1] = out[3 * x + 2] = values[in[x] & mask];
+  }
   return bgr;
 }
 
@@ -153,48 +176,65 @@ cv::Mat bgr_of_rgb(const Frame& frame) {
   return bgr;
 }
 
-uchar converted(const cv::Matx33f& m, int row, float y, float u, float v) {
-  return code_of(m(row, 0) * y + m(row, 1) * u + m(row, 2) * v);
+template <class Out>
+Out converted(const cv::Matx33f& m, int row, float y, float u, float v) {
+  return code_of<Out>(m(row, 0) * y + m(row, 1) * u + m(row, 2) * v, kWhite<Out>);
 }
 
-void convert_row(const uchar* luma, const float* cb, const float* cr, int width, const CodeToRgb& map, uchar* bgr) {
-  const cv::Matx33f m = map.to_rgb * 255.0F;
+template <class In, class Out>
+void convert_row(const In* luma, const float* cb, const float* cr, int width, const CodeToRgb& map, Out* bgr) {
+  const cv::Matx33f m = map.to_rgb * kWhite<Out>;
   for (int x = 0; x < width; ++x) {
     const float y = static_cast<float>(luma[x]) - map.offset[0];
     const float u = cb[x] - map.offset[1];
     const float v = cr[x] - map.offset[2];
-    for (int c = 0; c < 3; ++c) bgr[3 * x + c] = converted(m, 2 - c, y, u, v);
+    for (int c = 0; c < 3; ++c) bgr[3 * x + c] = converted<Out>(m, 2 - c, y, u, v);
   }
 }
 
+template <class In, class Out>
 cv::Mat bgr_of_ycbcr(const Frame& frame) {
-  const CodeToRgb map = code_to_rgb(frame.layout, frame.color);
-  const ChromaReader chroma(frame);
-  cv::Mat bgr(frame.size_px(), CV_8UC3);
+  const CodeToRgb map = code_to_rgb(frame.layout, frame.color, frame.bit_depth);
+  const ChromaReader<In> chroma(frame);
+  cv::Mat bgr(frame.size_px(), kBgrType<Out>);
   cv::parallel_for_({0, bgr.rows}, [&](const cv::Range& rows) {
     std::vector<float> samples, cb, cr;
     for (int y = rows.start; y < rows.end; ++y) {
       chroma.read(frame.planes[1], y, samples, cb);
       chroma.read(frame.planes[2], y, samples, cr);
-      convert_row(frame.planes[0].ptr<uchar>(y), cb.data(), cr.data(), bgr.cols, map, bgr.ptr<uchar>(y));
+      convert_row(frame.planes[0].ptr<In>(y), cb.data(), cr.data(), bgr.cols, map, bgr.ptr<Out>(y));
     }
   });
   return bgr;
 }
 
-cv::Mat rounded(const cv::Mat& values) {
-  cv::Mat codes(values.size(), CV_8UC1);
+template <class Out>
+cv::Mat bgr_as(const Frame& frame) {
+  ENSURE(!frame.planes[0].empty());
+  if (frame.layout == PixelLayout::rgb) return bgr_of_rgb(with_bit_depth(frame, 8 * static_cast<int>(sizeof(Out))));
+  return with_sample_type(frame.bit_depth, [&](auto sample) {
+    using In = decltype(sample);
+    return frame.layout == PixelLayout::gray ? bgr_of_gray<In, Out>(frame) : bgr_of_ycbcr<In, Out>(frame);
+  });
+}
+
+template <class Out>
+cv::Mat rounded(const cv::Mat& values, int bit_depth) {
+  const auto top = static_cast<float>(max_code(bit_depth));
+  cv::Mat codes(values.size(), plane_type(bit_depth));
   for (int y = 0; y < values.rows; ++y)
-    std::transform(values.ptr<float>(y), values.ptr<float>(y) + values.cols, codes.ptr<uchar>(y), code_of);
+    std::transform(values.ptr<float>(y), values.ptr<float>(y) + values.cols, codes.ptr<Out>(y),
+                   [top](float value) { return code_of<Out>(value, top); });
   return codes;
 }
 
 // Row `which` of the code matrix applied to every pixel, not rounded.
+template <class In>
 cv::Mat component(const cv::Mat& bgr, const CodeToRgb& map, int which) {
-  const cv::Matx33f m = map.from_rgb * (1.0F / 255.0F);
+  const cv::Matx33f m = map.from_rgb * (1.0F / kWhite<In>);
   cv::Mat values(bgr.size(), CV_32FC1);
   for (int y = 0; y < bgr.rows; ++y) {
-    const uchar* in = bgr.ptr<uchar>(y);
+    const In* in = bgr.ptr<In>(y);
     float* out = values.ptr<float>(y);
     for (int x = 0; x < bgr.cols; ++x, in += 3)
       out[x] = m(which, 0) * static_cast<float>(in[2]) + m(which, 1) * static_cast<float>(in[1]) +
@@ -203,13 +243,27 @@ cv::Mat component(const cv::Mat& bgr, const CodeToRgb& map, int which) {
   return values;
 }
 
+cv::Mat component_of(const cv::Mat& bgr, const CodeToRgb& map, int which) {
+  return bgr.depth() == CV_8U ? component<uchar>(bgr, map, which) : component<ushort>(bgr, map, which);
+}
+
+cv::Mat codes_of(const cv::Mat& values, int bit_depth) {
+  return with_sample_type(bit_depth, [&](auto sample) { return rounded<decltype(sample)>(values, bit_depth); });
+}
+
+Frame rgb_frame_of(const cv::Mat& bgr, const ColorInfo& color, int bit_depth) {
+  Frame frame{.layout = PixelLayout::rgb, .bit_depth = bgr.depth() == CV_8U ? 8 : 16, .color = color};
+  for (int i = 0; i < 3; ++i) cv::extractChannel(bgr, frame.planes[static_cast<size_t>(i)], 2 - i);
+  return with_bit_depth(frame, bit_depth);
+}
+
 }  // namespace
 
-CodeToRgb code_to_rgb(PixelLayout layout, const ColorInfo& color) {
-  if (layout == PixelLayout::rgb) return rgb_map();
+CodeToRgb code_to_rgb(PixelLayout layout, const ColorInfo& color, int bit_depth) {
+  if (layout == PixelLayout::rgb) return rgb_map(bit_depth);
   const LumaShares shares = luma_shares(color.matrix);
-  if (layout == PixelLayout::gray) return gray_map(shares, quantiser(color.range));
-  return ycbcr_map(shares, quantiser(color.range));
+  const Quantiser steps = quantiser(color.range, bit_depth);
+  return layout == PixelLayout::gray ? gray_map(shares, steps) : ycbcr_map(shares, steps);
 }
 
 Frame cloned(const Frame& frame) {
@@ -218,10 +272,11 @@ Frame cloned(const Frame& frame) {
   return copy;
 }
 
-Frame blank_frame(PixelLayout layout, cv::Size size_px, const ColorInfo& color) {
-  Frame frame{.layout = layout, .color = color};
+Frame blank_frame(PixelLayout layout, cv::Size size_px, const ColorInfo& color, int bit_depth) {
+  Frame frame{.layout = layout, .bit_depth = bit_depth, .color = color};
   for (int i = 0; i < frame.plane_count(); ++i)
-    frame.planes[static_cast<size_t>(i)] = cv::Mat::zeros(i == 0 ? size_px : chroma_size(layout, size_px), CV_8UC1);
+    frame.planes[static_cast<size_t>(i)] =
+        cv::Mat::zeros(i == 0 ? size_px : chroma_size(layout, size_px), plane_type(bit_depth));
   return frame;
 }
 
@@ -240,24 +295,23 @@ cv::Size chroma_step(PixelLayout layout) {
 }
 
 cv::Mat bgr_of(const Frame& frame) {
-  ENSURE(!frame.planes[0].empty());
-  if (frame.layout == PixelLayout::gray) return bgr_of_gray(frame);
-  if (frame.layout == PixelLayout::rgb) return bgr_of_rgb(frame);
-  return bgr_of_ycbcr(frame);
+  return bgr_as<uchar>(frame);
 }
 
-Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& color) {
-  ENSURE(bgr.type() == CV_8UC3 && !bgr.empty());
-  Frame frame{.layout = layout, .color = color};
-  if (layout == PixelLayout::rgb) {
-    for (int i = 0; i < 3; ++i) cv::extractChannel(bgr, frame.planes[static_cast<size_t>(i)], 2 - i);
-    return frame;
-  }
-  const CodeToRgb map = code_to_rgb(layout, color);
-  frame.planes[0] = rounded(component(bgr, map, 0));
+cv::Mat bgr16_of(const Frame& frame) {
+  return bgr_as<ushort>(frame);
+}
+
+Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& color, int bit_depth) {
+  ENSURE((bgr.type() == CV_8UC3 || bgr.type() == CV_16UC3) && !bgr.empty());
+  if (layout == PixelLayout::rgb) return rgb_frame_of(bgr, color, bit_depth);
+  Frame frame{.layout = layout, .bit_depth = bit_depth, .color = color};
+  const CodeToRgb map = code_to_rgb(layout, color, bit_depth);
+  frame.planes[0] = codes_of(component_of(bgr, map, 0), bit_depth);
   if (layout == PixelLayout::gray) return frame;
   for (int i = 1; i < 3; ++i)
-    frame.planes[static_cast<size_t>(i)] = rounded(shrunk_chroma(component(bgr, map, i), layout, color.chroma_site));
+    frame.planes[static_cast<size_t>(i)] =
+        codes_of(shrunk_chroma(component_of(bgr, map, i), layout, color.chroma_site), bit_depth);
   return frame;
 }
 

@@ -9,7 +9,7 @@ namespace sigs {
 
 struct FrameQuantisers;
 
-// How the 8-bit samples of an image are stored.
+// How the samples of an image are stored.
 enum class PixelLayout {
   gray,    // plane 0: luma
   yuv420,  // planes Y, Cb, Cr; chroma halved both ways, rounded up
@@ -18,7 +18,7 @@ enum class PixelLayout {
   rgb,  // planes red, green, blue, full range
 };
 
-enum class ColorRange { limited, full };          // luma 16..235 or 0..255
+enum class ColorRange { limited, full };          // luma 16..235 or 0..255, of 10 bits 64..940 or 0..1023
 enum class ColorMatrix { bt601, bt709, bt2020 };  // Y'CbCr coefficients; bt2020 is the non-constant-luminance one
 
 // Where the chroma samples lie among the luma samples (H.273, chroma sample location type).
@@ -45,9 +45,12 @@ struct ColorInfo {
   return layout == PixelLayout::gray ? 1 : 3;
 }
 
-// One image of the footage in its own planes, CV_8UC1 each. Unused planes are empty.
+// One image of the footage in its own planes. Unused planes are empty.
+//   bit_depth  of the samples, 8 to 16 (usual are 8, 10, 12 and 16). Of 8 bits planes are CV_8UC1; else CV_16UC1 with
+//              codes from 0 to 2^bit_depth - 1 (video/bit_depth.h)
 struct Frame {
   PixelLayout layout = PixelLayout::yuv420;
+  int bit_depth = 8;
   ColorInfo color;
   std::array<cv::Mat, 3> planes{};
   double time_s = 0;     // presentation time, 0 at the footage's first frame
@@ -64,26 +67,32 @@ struct Frame {
 [[nodiscard]] Frame cloned(const Frame& frame);
 
 // A frame whose samples are all 0.
-[[nodiscard]] Frame blank_frame(PixelLayout layout, cv::Size size_px, const ColorInfo& color);
+[[nodiscard]] Frame blank_frame(PixelLayout layout, cv::Size size_px, const ColorInfo& color, int bit_depth = 8);
 
 // How many luma samples one chroma sample spans, in x and y: {2, 2} for yuv420, {1, 1} for layouts without subsampling.
 [[nodiscard]] cv::Size chroma_step(PixelLayout layout);
 
-// The linear map between 8-bit code values (planes 0, 1, 2) and R'G'B' in 0..1:
+// The linear map between code values (planes 0, 1, 2) and R'G'B' in 0..1:
 //   rgb = to_rgb * (code - offset), code = from_rgb * rgb + offset
-// For gray only luma is used (R' = G' = B'); for rgb the map is a division by 255. Equations of H.273, section 8.3.
+// For gray only luma is used (R' = G' = B'); for rgb the map is a division by the highest code. Equations of H.273,
+// section 8.3.
 struct CodeToRgb {
   cv::Matx33f to_rgb;
   cv::Matx33f from_rgb;
   cv::Vec3f offset;
 };
-[[nodiscard]] CodeToRgb code_to_rgb(PixelLayout layout, const ColorInfo& color);
+[[nodiscard]] CodeToRgb code_to_rgb(PixelLayout layout, const ColorInfo& color, int bit_depth = 8);
 
-// A whole image as 8-bit BGR (CV_8UC3, OpenCV's order), chroma interpolated bilinearly from its site. For display, for
-// PNG files and for the classic method; the direct method never converts a whole image. The frame must not be empty.
+// A whole image as 8-bit BGR (CV_8UC3, OpenCV's order), chroma interpolated bilinearly from its site, whatever the
+// frame's depth. For display, for PNG files and for the classic method; the direct method never converts a whole image.
+// The frame must not be empty.
 [[nodiscard]] cv::Mat bgr_of(const Frame& frame);
 
-// The reverse: an 8-bit BGR image as a frame, chroma averaged at its site (shrunk_chroma), codes rounded.
-[[nodiscard]] Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& color);
+// The same in 16 bits: CV_16UC3, 65535 is white. For frames of more than 8 bits.
+[[nodiscard]] cv::Mat bgr16_of(const Frame& frame);
+
+// The reverse: a BGR image of 8 (CV_8UC3) or 16 bits (CV_16UC3) as a frame, chroma averaged at its site
+// (shrunk_chroma), codes rounded.
+[[nodiscard]] Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& color, int bit_depth = 8);
 
 }  // namespace sigs

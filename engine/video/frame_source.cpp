@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "video/frame_seeker.h"
+#include "video/libav/image_file.h"
 #include "video/libav/planes.h"
 #include "video/libav/stream_info.h"
 #include "video/libav/stream_quantisers.h"
@@ -64,15 +65,28 @@ struct FrameSource::State {
 
   libav::PacketTable table;
   VideoInfo info;
-  std::optional<FrameSeeker> seeker;
+  std::optional<FrameSeeker> seeker;          // none: a sequence of images
+  std::optional<libav::StillFrames> stills;   // none: a video
   const std::atomic<bool>* cancel = nullptr;  // null: none
   FileState file;                             // when it was opened
   libav::Orientation orientation;
   bool quantisers = false;  // frames have their quantisers
 
   [[nodiscard]] static FileState state_of(const fs::path& path);
+  // An image as it is stored, that of frame n or its substitute.
+  struct Shown {
+    const AVFrame* image = nullptr;  // null: no image is intact
+    int n = 0;
+    libav::Orientation orientation;
+    std::shared_ptr<const FrameQuantisers> quantisers;
+    fs::path file;
+  };
+
   [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
+  [[nodiscard]] Result<void> open_images(const SequenceTiming& timing);
+  [[nodiscard]] Result<Shown> show(int n);
   [[nodiscard]] Result<Frame> read(int n);
+  [[nodiscard]] bool has_changed() const { return seeker && !(state_of(info.path) == file); }
 };
 
 FrameSource::State::FileState FrameSource::State::state_of(const fs::path& path) {
@@ -106,22 +120,42 @@ Result<void> FrameSource::State::open(libav::Demuxer demuxer) {
   return {};
 }
 
-Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bool>* cancel, Quantisers quantisers) {
+Result<void> FrameSource::State::open_images(const SequenceTiming& timing) {
+  const Result<ImageSequence> sequence = listed_sequence(info.path, timing);
+  if (!sequence) return fail(sequence.error());
+  stills.emplace(sequence->files, quantisers, cancel);
+  const Result<libav::StillFrames::Found> first = stills->find(0);
+  if (!first) return fail(first.error());
+  // All are damaged: the first says what with.
+  if (first->image == nullptr) return fail(libav::decoded_still(sequence->files.front(), false).error());
+  info = libav::sequence_info_of(info.path, *sequence, *first->image);
+  return libav::check_orientation(first->image->orientation, info.layout);
+}
+
+Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bool>* cancel, Quantisers quantisers,
+                                      const SequenceTiming& timing) {
   return guarded([&]() -> Result<FrameSource> {
     // Once `cancel` is set, FFmpeg's readers act as if the file ended: any error may follow from that.
     const auto failed = [&](const Error& error) -> tl::unexpected<Error> {
       if (cancel != nullptr && cancel->load()) return libav::interrupted();
       return fail(libav::named(error, path));
     };
-    Result<libav::Demuxer> demuxer = libav::Demuxer::open(path, cancel);
-    if (!demuxer) return failed(demuxer.error());
     auto state = std::make_unique<State>();
-    state->info.path = path;
-    state->file = State::state_of(path);
+    state->info.path = path.has_filename() ? path : path.parent_path();  // "images/" is "images"
     state->cancel = cancel;
     state->quantisers = quantisers == Quantisers::read;
+    if (is_image_sequence(path)) {
+      if (const Result<void> opened = state->open_images(timing); !opened) return failed(opened.error());
+      return FrameSource(std::move(state));
+    }
+    Result<libav::Demuxer> demuxer = libav::Demuxer::open(path, cancel);
+    if (!demuxer) return failed(demuxer.error());
+    state->file = State::state_of(path);
     const Result<void> opened = state->open(std::move(*demuxer));
     if (!opened) return failed(opened.error());
+    if (timing.frame_rate_hz > 0 || !timing.times_file.empty())
+      state->info.warnings.push_back(
+          {path.string(), "is a video and has times of its own; those given for a sequence of images are not used"});
     return FrameSource(std::move(state));
   });
 }
@@ -135,22 +169,38 @@ const VideoInfo& FrameSource::info() const {
   return state_->info;
 }
 
-Result<Frame> FrameSource::State::read(int n) {
-  const std::string where = fmt::format("{}: frame {}", info.path.string(), n);
+Result<FrameSource::State::Shown> FrameSource::State::show(int n) {
+  if (stills) {
+    const Result<libav::StillFrames::Found> found = stills->find(n);
+    if (!found) return fail(found.error());
+    if (found->image == nullptr) return Shown{};
+    return Shown{found->image->frame.get(), found->n, found->image->orientation, found->image->quantisers,
+                 stills->file(found->n)};
+  }
   const Result<FrameSeeker::Found> found = seeker->find(n);
-  if (!found) return fail(libav::named(found.error(), info.path));
-  if (found->image == nullptr) return fail(where, "is damaged, and so are all others");
-  const AVFrame& image = *found->image->frame;
-  const cv::Size size = libav::oriented(cv::Size(image.width, image.height), orientation);
+  if (!found) return fail(found.error());
+  if (found->image == nullptr) return Shown{};
+  return Shown{found->image->frame.get(), found->n, orientation, found->image->quantisers, info.path};
+}
+
+Result<Frame> FrameSource::State::read(int n) {
+  const Result<Shown> shown = show(n);
+  if (!shown) return fail(libav::named(shown.error(), info.path));
+  const std::string where = stills ? shown->file.string() : fmt::format("{}: frame {}", info.path.string(), n);
+  if (shown->image == nullptr)
+    return fail(fmt::format("{}: frame {}", info.path.string(), n), "is damaged, and so are all others");
+  const AVFrame& image = *shown->image;
+  const cv::Size stored_px(image.width, image.height);
+  const cv::Size size = libav::oriented(stored_px, shown->orientation);
   if (size != info.size_px)
     return fail(where, fmt::format("the image's size changes from {} to {}", image_size_text(info.size_px),
                                    image_size_text(size)));
-  Result<Frame> frame = libav::frame_of(image, info.layout, info.color);
+  Result<Frame> frame = libav::frame_of(image, {.layout = info.layout, .bit_depth = info.bit_depth}, info.color);
   if (!frame) return fail(where, frame.error().what);
-  if (!(orientation == libav::Orientation{})) frame = libav::oriented(*frame, orientation);
-  frame->quantisers = libav::oriented(found->image->quantisers, cv::Size(image.width, image.height), orientation);
+  if (!(shown->orientation == libav::Orientation{})) frame = libav::oriented(*frame, shown->orientation);
+  frame->quantisers = libav::oriented(shown->quantisers, stored_px, shown->orientation);
   frame->time_s = info.times_s[static_cast<size_t>(n)];
-  frame->damaged = found->n != n;
+  frame->damaged = shown->n != n;
   return frame;
 }
 
@@ -160,7 +210,7 @@ Result<Frame> FrameSource::read(int n) {
   // After a cancellation the result may be incomplete.
   if (state_->cancel != nullptr && state_->cancel->load()) return libav::interrupted();
   // Checked after reading: the result may mix the old and the new file.
-  if (!(State::state_of(state_->info.path) == state_->file))
+  if (state_->has_changed())
     return fail(state_->info.path.string(), "changed while it was being read; start again when nothing writes to it",
                 ErrorKind::cannot_read);
   return frame;

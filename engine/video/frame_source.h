@@ -10,6 +10,7 @@
 
 #include "base/result.h"
 #include "video/frame.h"
+#include "video/image_sequence.h"
 
 namespace sigs {
 
@@ -18,6 +19,7 @@ struct VideoInfo {
   std::filesystem::path path;
   cv::Size size_px;
   PixelLayout layout = PixelLayout::yuv420;
+  int bit_depth = 8;  // of the frames: 8 to 16, as the footage has
   ColorInfo color;
   std::vector<double> times_s;  // presentation time of each frame, in order, 0 for the first
   int frame_rate_num = 25;      // nominal rate; where the rate varies, times_s has the exact times
@@ -25,10 +27,10 @@ struct VideoInfo {
   int pixel_aspect_num = 1;  // sample aspect ratio
   int pixel_aspect_den = 1;
   bool variable_frame_rate = false;
-  std::string codec;         // "h264"
-  std::string pixel_format;  // as the decoder names it: "yuv420p10le"
-  std::string conversion;    // how other formats are converted to 8-bit planes; empty: samples are taken as they are
-  std::string container;     // "mov,mp4,..."
+  std::string codec;              // "h264"
+  std::string pixel_format;       // as the decoder names it: "yuv420p10le"
+  std::string conversion;         // how other formats are converted to planes; empty: samples are taken as they are
+  std::string container;          // "mov,mp4,..."
   long long declared_frames = 0;  // number of frames that the header states; 0: none
   std::vector<Warning> warnings;  // "header declares 444 frames, 68 are there"
 
@@ -38,21 +40,25 @@ struct VideoInfo {
 // Whether frames come with the quantisers that the codec has used for them (Frame::quantisers).
 enum class Quantisers { leave_out, read };
 
-// Random access to the frames of a video. Numbers count the frames in order of presentation from 0 and are exact: frame
-// n is the n-th image that decoding the whole file from the start gives, whatever the codec, container or seek table.
+// Random access to the frames of a video, or of a sequence of images (video/image_sequence.h). Numbers count the frames
+// in order of presentation from 0 and are exact: frame n is the n-th image that decoding the whole file from the start
+// gives, whatever the codec, container or seek table.
 class FrameSource {
  public:
-  // Reads the container's packets once to build the index. Frames are decoded only as far as the format requires.
+  // Reads the container's packets once to build the index. Frames are decoded only as far as the format requires. Of a
+  // sequence of images the files are listed and the first is decoded; later ones are opened when they are read.
   //   cancel  while it is true, opening and reading soon end with the error interrupted; null, or outlives the
   //           source
   //   quantisers  read: frames have their quantisers where the stream states them (states_quantisers() in
   //           video/frame_quantisers.h). The samples are the same; codecs with references between images are decoded
   //           by one thread
-  // Errors: cannot_read (missing, not a regular file, not a video, a playlist), bad_data (no frame can be decoded
-  // without damage), interrupted.
+  //   timing  of a sequence of images; for a video a warning where it states something
+  // Errors: cannot_read (missing, not a regular file, not a video, a playlist, a folder without images), bad_data (no
+  // frame can be decoded without damage, a number of a sequence is missing), interrupted.
   [[nodiscard]] static Result<FrameSource> open(const std::filesystem::path& path,
                                                 const std::atomic<bool>* cancel = nullptr,
-                                                Quantisers quantisers = Quantisers::leave_out);
+                                                Quantisers quantisers = Quantisers::leave_out,
+                                                const SequenceTiming& timing = {});
 
   FrameSource(FrameSource&&) noexcept;
   FrameSource& operator=(FrameSource&&) noexcept;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/threads.h"
+#include "video/bit_depth.h"
 
 namespace sigs {
 
@@ -19,8 +20,13 @@ constexpr std::size_t kFramesAhead = 8;  // enough for a method that collects so
 
 }  // namespace
 
-cv::Mat luma_of(const Frame& frame) {
-  if (frame.layout != PixelLayout::rgb) return frame.planes[0];
+cv::Mat luma_of(const Frame& footage) {
+  Frame frame = footage;
+  if (frame.layout != PixelLayout::rgb) {
+    frame.layout = PixelLayout::gray;  // only luma is rounded
+    return with_bit_depth(frame, 8).planes[0];
+  }
+  frame = with_bit_depth(frame, 8);
   cv::Mat luma(frame.size_px(), CV_8UC1);
   for (int y = 0; y < luma.rows; ++y) {
     const uchar* const red = frame.planes[0].ptr<uchar>(y);

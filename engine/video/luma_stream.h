@@ -12,8 +12,9 @@
 
 namespace sigs {
 
-// The luma of a frame, CV_8UC1. Of footage with luma: plane 0 itself, whose samples are shared. Of RGB: the weighted
-// sum of ITU-R BT.709, full range, with weights rounded to 1/256.
+// The luma of a frame, CV_8UC1, that of more bits rounded (with_bit_depth). Of footage with luma: plane 0 itself, whose
+// samples are shared where it has 8 bits. Of RGB: the weighted sum of ITU-R BT.709, full range, with weights rounded to
+// 1/256.
 [[nodiscard]] cv::Mat luma_of(const Frame& frame);
 
 // The frames of the footage that are used: first, first + every, ..., `count` of them.

@@ -1,61 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "video/video_writer.h"
 
-#include <fmt/format.h>
-
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "base/ensure.h"
-#include "base/image_codecs.h"
 #include "base/result.h"
 #include "base/threads.h"
-#include "video/frame.h"
+#include "video/image_folder.h"
 #include "video/libav/video_file.h"
+#include "video/y4m_file.h"
 
 namespace sigs {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// What is written as PNG: one channel for gray, else BGR.
-cv::Mat png_image(const Frame& frame) {
-  cv::Mat image = bgr_of(frame);
-  if (frame.layout == PixelLayout::gray) cv::extractChannel(image, image, 0);
-  return image;
-}
-
-// Writes one image as folder/frame_000123.png: 8-bit gray for gray footage (as full range), else 8-bit RGB.
-// Error write_failed.
-Result<void> write_png(const fs::path& folder, const Frame& frame, int number) {
-  const fs::path path = folder / fmt::format("frame_{:06}.png", number);
-  std::vector<uchar> bytes;
-  try {
-    image_codecs::imencode(".png", png_image(frame), bytes);
-  } catch (const cv::Exception& problem) {
-    return fail(path.string(), "cannot be written as PNG: " + problem.err, ErrorKind::write_failed);
-  }
-  std::ofstream out(path, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    return fail(path.string(), fmt::format("could not be written: {}", std::strerror(errno)), ErrorKind::write_failed);
-  return {};
-}
-
-}  // namespace
-
 struct VideoWriter::State {
   fs::path path;
   VideoFormat format;
-  std::optional<libav::VideoFile> file;  // empty: a folder of images
+  std::optional<libav::VideoFile> file;  // empty: another one
+  std::optional<Y4mFile> y4m;            // empty: another one, or a folder of images
   bool finished = false;
 };
 
@@ -63,16 +29,39 @@ Result<VideoWriter> VideoWriter::open(const fs::path& path, const VideoFormat& f
   auto state = std::make_unique<State>();
   state->path = path;
   state->format = format;
-  if (format.codec == VideoCodec::png) {
+  if (writes_images(format.codec)) {
     std::error_code code;
     if (!fs::is_directory(path, code))
       return fail(path.string(), "no such folder to write images into", ErrorKind::cannot_create);
     return VideoWriter(std::move(state));
   }
+  if (format.container == Container::y4m) {
+    Result<OutputStream> out = OutputStream::create(path);
+    if (!out) return fail(out.error());
+    return open_stream(std::move(*out), format);
+  }
   Result<libav::VideoFile> file = guarded([&] { return libav::VideoFile::create(path, format); });
   if (!file) return fail(file.error());
   state->file.emplace(std::move(*file));
   return VideoWriter(std::move(state));
+}
+
+Result<VideoWriter> VideoWriter::open_stream(OutputStream out, const VideoFormat& format) {
+  auto state = std::make_unique<State>();
+  state->path = out.name();
+  state->format = format;
+  return guarded([&]() -> Result<VideoWriter> {
+    if (format.container == Container::y4m) {
+      Result<Y4mFile> file = Y4mFile::begin(std::move(out), format);
+      if (!file) return fail(file.error());
+      state->y4m.emplace(std::move(*file));
+    } else {
+      Result<libav::VideoFile> file = libav::VideoFile::create(std::move(out), format);
+      if (!file) return fail(file.error());
+      state->file.emplace(std::move(*file));
+    }
+    return VideoWriter(std::move(state));
+  });
 }
 
 VideoWriter::VideoWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -91,7 +80,11 @@ void VideoWriter::warm_up() {
 
 Result<void> VideoWriter::write(const Frame& frame, int number) {
   ENSURE(!state_->finished);
-  return guarded([&] { return state_->file ? state_->file->write(frame) : write_png(state_->path, frame, number); });
+  return guarded([&] {
+    if (state_->file) return state_->file->write(frame);
+    if (state_->y4m) return state_->y4m->write(frame);
+    return write_numbered_image(state_->path, state_->format, frame, number);
+  });
 }
 
 Result<void> VideoWriter::write_blank(double time_s, int number) {
@@ -99,14 +92,67 @@ Result<void> VideoWriter::write_blank(double time_s, int number) {
   return guarded([&] {
     if (state_->file) return state_->file->write_blank(time_s);
     const VideoFormat& format = state_->format;
-    return write_png(state_->path, blank_frame(format.layout, format.size_px, format.color), number);
+    Frame blank = blank_frame(format.layout, format.size_px, format.color, format.bit_depth);
+    if (state_->y4m) return state_->y4m->write(blank);
+    return write_numbered_image(state_->path, format, blank, number);
   });
 }
 
 Result<void> VideoWriter::finish() {
   ENSURE(!state_->finished);
   state_->finished = true;
-  return guarded([this] { return state_->file ? state_->file->finish() : Result<void>(); });
+  return guarded([this] {
+    if (state_->y4m) return state_->y4m->finish();
+    return state_->file ? state_->file->finish() : Result<void>();
+  });
+}
+
+int max_bit_depth(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::ffv1:
+    case VideoCodec::png:
+    case VideoCodec::tiff:
+    case VideoCodec::raw:
+      return 16;
+    case VideoCodec::hevc:
+    case VideoCodec::av1:
+      return 12;
+    case VideoCodec::h264:
+      return 10;
+    case VideoCodec::mjpeg:
+    case VideoCodec::jpeg:
+      break;
+  }
+  return 8;
+}
+
+const char* name_of(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::ffv1:
+      return "ffv1";
+    case VideoCodec::h264:
+      return "h264";
+    case VideoCodec::hevc:
+      return "hevc";
+    case VideoCodec::av1:
+      return "av1";
+    case VideoCodec::mjpeg:
+      return "mjpeg";
+    case VideoCodec::png:
+      return "png";
+    case VideoCodec::tiff:
+      return "tiff";
+    case VideoCodec::jpeg:
+      return "jpeg";
+    case VideoCodec::raw:
+      return "raw";
+  }
+  return "";
+}
+
+int max_crf(VideoCodec codec) {
+  if (codec == VideoCodec::av1) return 63;
+  return codec == VideoCodec::h264 || codec == VideoCodec::hevc ? 51 : 0;
 }
 
 const char* extension_of(Container container) {
@@ -117,6 +163,10 @@ const char* extension_of(Container container) {
       return "mp4";
     case Container::avi:
       return "avi";
+    case Container::nut:
+      return "nut";
+    case Container::y4m:
+      return "y4m";
   }
   return "";
 }

@@ -5,22 +5,27 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
+#include "base/output_stream.h"
 #include "base/result.h"
 #include "video/frame.h"
 
 namespace sigs {
 
-enum class VideoCodec { ffv1, h264, mjpeg, png };
-enum class Container { mkv, mp4, avi };
+// png, tiff and jpeg: numbered images; raw: uncompressed.
+enum class VideoCodec { ffv1, h264, hevc, av1, mjpeg, png, tiff, jpeg, raw };
+enum class Container { mkv, mp4, avi, nut, y4m };
 
 // What is written, and into which file format.
 struct VideoFormat {
   VideoCodec codec = VideoCodec::ffv1;
-  Container container = Container::mkv;  // png: a folder of numbered images instead
-  int crf = 18;                          // h264: 0 (lossless) to 51
+  Container container = Container::mkv;  // images: of no meaning
+  int jpeg_quality = 95;                 // jpeg: 1 to 100
+  int crf = 18;                          // h264, hevc: 0 (lossless) to 51; av1: 0 (lossless) to 63
   int threads = 1;                       // of the encoder; the bytes do not depend on their number
   cv::Size size_px;
   PixelLayout layout = PixelLayout::yuv420;
+  int bit_depth = 8;       // of the frames
+  int max_bit_depth = 16;  // frames of more bits are rounded to this many
   ColorInfo color;
   int frame_rate_num = 25;  // nominal rate; frames carry their own times
   int frame_rate_den = 1;
@@ -28,14 +33,18 @@ struct VideoFormat {
   int pixel_aspect_den = 1;
 };
 
-// Writes frames to a file or, for png, to a folder. The bytes depend on the format and the frames alone: no dates, no
-// machine, no thread count. The caller gives the file its final name (base/staged_outputs.h).
+// Writes frames to a file, to a stream or, as images, to a folder. The bytes depend on the format and the frames alone:
+// no dates, no machine, no thread count. The caller gives the file its final name (base/staged_outputs.h).
 class VideoWriter {
  public:
-  //   path  the file to write, whatever its extension; for png the folder, which must exist
+  //   path  the file to write, whatever its extension; for images the folder, which must exist
   // Errors: usage (codec and container do not go together, as ffv1 and mp4; the codec cannot store the size),
   // unavailable (no such encoder), cannot_create.
   [[nodiscard]] static Result<VideoWriter> open(const std::filesystem::path& path, const VideoFormat& format);
+
+  // The same to a pipe: each frame leaves the process as soon as it is encoded. Containers nut and y4m.
+  // Further errors: interrupted.
+  [[nodiscard]] static Result<VideoWriter> open_stream(OutputStream out, const VideoFormat& format);
 
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) noexcept;
@@ -44,9 +53,9 @@ class VideoWriter {
   // Prepares in advance what the first images would have to wait for. Optional: the bytes are the same without it.
   void warm_up();
 
-  // Writes the next frame. Its layout and size are those of the format, its time_s is later than that of the frame
-  // before.
-  //   number  names the image of a png sequence: frame_000123.png
+  // Writes the next frame. Its layout, depth and size are those of the format, its time_s is later than that of the
+  // frame before.
+  //   number  names the image of a sequence: frame_000123.png
   // Errors: write_failed (disk full), bad_data (the time is not later).
   [[nodiscard]] Result<void> write(const Frame& frame, int number);
 
@@ -63,7 +72,18 @@ class VideoWriter {
   std::unique_ptr<State> state_;
 };
 
-// The extension of a container's file name, without the dot: "mkv", "mp4", "avi".
+// The most bits of a sample that a codec stores: ffv1, png, tiff, raw 16; hevc, av1 12; h264 10; mjpeg, jpeg 8. Deeper
+// frames are rounded to it. Footage of a depth that the codec lacks (9 bits, 14 bits) is stored with the next higher
+// one that it has.
+[[nodiscard]] int max_bit_depth(VideoCodec codec);
+
+// "h264".
+[[nodiscard]] const char* name_of(VideoCodec codec);
+
+// The highest crf of a codec: 51 for h264 and hevc, 63 for av1; 0 for codecs without one.
+[[nodiscard]] int max_crf(VideoCodec codec);
+
+// The extension of a container's file name, without the dot: "mkv", "mp4", "avi", "nut", "y4m".
 [[nodiscard]] const char* extension_of(Container container);
 
 }  // namespace sigs

@@ -216,7 +216,7 @@ class Project:
 
     def __setitem__(self, key: str, value: Any) -> None:
         """Sets a field. Arrays become lists. Raises UsageError: no such field, a value of the wrong type."""
-        self._inside.assign(f"{key}={json.dumps(_plain(value))}")
+        self._inside.assign(key, json.dumps(_plain(value)))
 
     def fields(self) -> dict[str, Field]:
         """All fields, by key, with unit, range and help."""

@@ -13,14 +13,14 @@ namespace sigs::python {
 namespace py = pybind11;
 
 FrameIterator::FrameIterator(const ProjectObject& project, const std::optional<FrameRange>& frames, int jobs) {
-  auto made = std::make_unique<Stream>();
+  const auto made = std::make_shared<Stream>();
   made->jobs = jobs;
   const Project copy = project.project();
   made->stream.emplace(
       made->opener.wait_for([&](const std::atomic<bool>* cancel) { return FrameStream::open(copy, frames, cancel); }));
   range_ = made->stream->range();
   warnings_ = made->stream->warnings();
-  stream_ = ProcessBound<Stream>(std::move(made));
+  stream_ = ProcessBound<Stream>(made);
 }
 
 FrameIterator::~FrameIterator() {
@@ -29,11 +29,8 @@ FrameIterator::~FrameIterator() {
 
 void FrameIterator::close() {
   const py::gil_scoped_release released;
-  Stream* const stream = stream_.get();
-  if (stream == nullptr) {
-    stream_.reset();
-    return;
-  }
+  const std::shared_ptr<Stream> stream = stream_.get();
+  if (stream == nullptr) return;
   const std::lock_guard lock(stream->turn);
   stream->stream.reset();
   stream->ended = true;
@@ -43,7 +40,8 @@ std::shared_ptr<FrameObject> FrameIterator::next() {
   if (stream_.is_inherited())
     throw Raised(
         {"frames", "belong to the process that this one was forked from; call frames() here", ErrorKind::usage});
-  Stream& stream = *stream_.get();
+  const std::shared_ptr<Stream> kept = stream_.get();
+  Stream& stream = *kept;
   Result<std::optional<ComposedFrame>> frame = [&]() -> Result<std::optional<ComposedFrame>> {
     const py::gil_scoped_release released;
     const std::lock_guard lock(stream.turn);

@@ -14,8 +14,8 @@ template <class T>
 class ProcessBound {
  public:
   ProcessBound() = default;
-  explicit ProcessBound(std::unique_ptr<T> object) : object_(std::move(object)), process_(getpid()) {}
-  ProcessBound(ProcessBound&& other) noexcept : object_(std::move(other.object_)), process_(other.process_) {}
+  explicit ProcessBound(std::shared_ptr<T> object) : object_(std::move(object)), process_(getpid()) {}
+  ProcessBound(ProcessBound&&) = delete;
   ProcessBound& operator=(ProcessBound&& other) noexcept {
     reset();
     object_ = std::move(other.object_);
@@ -24,23 +24,22 @@ class ProcessBound {
   }
   ~ProcessBound() { reset(); }
 
-  // Null where there is none, or where it belongs to another process.
-  [[nodiscard]] T* get() const { return is_ours() ? object_.get() : nullptr; }
+  // Null where there is none, or where it belongs to another process. Whoever uses it keeps it meanwhile: another
+  // thread may reset this.
+  [[nodiscard]] std::shared_ptr<T> get() const { return is_ours() ? object_ : nullptr; }
 
   // Whether it was made by the process that this one was forked from.
   [[nodiscard]] bool is_inherited() const { return object_ != nullptr && !is_ours(); }
 
   void reset() {
-    if (is_ours())
-      object_.reset();
-    else
-      static_cast<void>(object_.release());
+    if (object_ != nullptr && !is_ours()) new std::shared_ptr<T>(object_);  // never destroyed
+    object_.reset();
   }
 
  private:
   [[nodiscard]] bool is_ours() const { return process_ == getpid(); }
 
-  std::unique_ptr<T> object_;
+  std::shared_ptr<T> object_;
   pid_t process_ = 0;
 };
 

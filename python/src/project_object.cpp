@@ -62,10 +62,14 @@ py::list ProjectObject::fields() const {
   return list;
 }
 
-void ProjectObject::assign(const std::string& assignment) {
+void ProjectObject::assign(const std::string& key, const std::string& json) {
   Project changed = project_;
-  if (Result<void> set = set_field(changed, assignment); !set)
-    throw Raised({assignment, std::move(set.error().what), set.error().kind});
+  const std::vector<Field> fields = fields_of(changed);
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.key == key; });
+  if (found == fields.end()) throw Raised(no_such_key(fields, key));
+  const Json value = value_or_raise(parsed_json(json, key, ErrorKind::usage));
+  if (std::string wrong = put_json(value, *found); !wrong.empty())
+    throw Raised({key, std::move(wrong), ErrorKind::usage});
   keep_places(project_, changed);
   project_ = std::move(changed);
 }
@@ -111,15 +115,15 @@ void ProjectObject::remove_intruder(std::size_t intruder) {
   project_.intruders.erase(project_.intruders.begin() + static_cast<std::ptrdiff_t>(intruder));
 }
 
-RenderThread& ProjectObject::renderer() {
+std::shared_ptr<RenderThread> ProjectObject::renderer() {
   if (renderer_.get() == nullptr || renderer_.get()->is_spent())
-    renderer_ = ProcessBound<RenderThread>(std::make_unique<RenderThread>());
-  return *renderer_.get();
+    renderer_ = ProcessBound<RenderThread>(std::make_shared<RenderThread>());
+  return renderer_.get();
 }
 
 RenderThread::Opened ProjectObject::opened() {
   const Project project = project_;  // other threads may change it while this one waits
-  return renderer().open(project);
+  return renderer()->open(project);
 }
 
 std::shared_ptr<FrameObject> ProjectObject::render(int frame, const std::optional<PoseTuple>& camera,
@@ -128,7 +132,7 @@ std::shared_ptr<FrameObject> ProjectObject::render(int frame, const std::optiona
   if (camera) poses.camera = pose_of(*camera);
   for (const auto& [index, pose] : intruders) poses.intruders.push_back({index, pose_of(pose)});
   const Project project = project_;
-  return std::make_shared<FrameObject>(renderer().render(project, frame, poses));
+  return std::make_shared<FrameObject>(renderer()->render(project, frame, poses));
 }
 
 namespace {
@@ -184,7 +188,7 @@ void add_project_class(py::module_& module) {
           py::arg("path"), py::arg("overwrite"), "Writes the project file.")
       .def("value", &ProjectObject::value, py::arg("key"), "A field's value as JSON text.")
       .def("fields", &ProjectObject::fields, "All fields, each as a dict.")
-      .def("assign", &ProjectObject::assign, py::arg("assignment"), "Sets a field by a text 'key=JSON'.")
+      .def("assign", &ProjectObject::assign, py::arg("key"), py::arg("json"), "Sets a field to a JSON text.")
       .def("problems", &problems_of, "What validation finds: tuples (field, what, kind).")
       .def("intruder_count", [](const ProjectObject& object) { return object.project().intruders.size(); })
       .def("waypoints", &ProjectObject::waypoints, py::arg("intruder"), "Arrays: frames [n], positions_m [n, 3].")

@@ -31,7 +31,7 @@ class ProjectObject {
 
   [[nodiscard]] std::string value(const std::string& key) const;  // JSON; raises usage for a key that there is not
   [[nodiscard]] pybind11::list fields() const;
-  void assign(const std::string& assignment);  // as set_field()
+  void assign(const std::string& key, const std::string& json);  // raises usage, as for a value of the wrong type
 
   // Times in frames (NaN: none) and positions [n, 3] in metres of an intruder's waypoints.
   [[nodiscard]] pybind11::tuple waypoints(std::size_t intruder) const;
@@ -46,7 +46,7 @@ class ProjectObject {
   void close() { renderer_.reset(); }  // frees the decoder and OpenGL; the next call makes them anew
 
  private:
-  [[nodiscard]] RenderThread& renderer();
+  [[nodiscard]] std::shared_ptr<RenderThread> renderer();
   [[nodiscard]] IntruderSettings& intruder_at(std::size_t index);
 
   Project project_;

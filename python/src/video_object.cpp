@@ -17,7 +17,7 @@ namespace sigs::python {
 namespace py = pybind11;
 
 VideoObject::VideoObject(std::filesystem::path path) : path_(std::move(path)) {
-  info_ = opened().source->info();
+  info_ = opened()->source->info();
 }
 
 VideoObject::~VideoObject() {
@@ -25,22 +25,22 @@ VideoObject::~VideoObject() {
   opened_.reset();
 }
 
-VideoObject::Opened& VideoObject::opened() {
+std::shared_ptr<VideoObject::Opened> VideoObject::opened() {
   if (opened_.get() == nullptr || opened_.get()->thread.was_cancelled()) {
-    auto made = std::make_unique<Opened>();
+    const auto made = std::make_shared<Opened>();
     made->source.emplace(
         made->thread.wait_for([&](const std::atomic<bool>* cancel) { return FrameSource::open(path_, cancel); }));
-    opened_ = ProcessBound<Opened>(std::move(made));
+    opened_ = ProcessBound<Opened>(made);
   }
-  return *opened_.get();
+  return opened_.get();
 }
 
 Frame VideoObject::read(int n) {
   const int count = info_.frame_count();
   if (n < -count || n >= count)
     throw py::index_error("frame " + std::to_string(n) + ": the video has frames 0 to " + std::to_string(count - 1));
-  Opened& opened = this->opened();
-  return opened.thread.wait_for([&](const std::atomic<bool>*) { return opened.source->read(n < 0 ? n + count : n); });
+  const std::shared_ptr<Opened> kept = opened();
+  return kept->thread.wait_for([&](const std::atomic<bool>*) { return kept->source->read(n < 0 ? n + count : n); });
 }
 
 namespace {

@@ -32,7 +32,7 @@ class VideoObject {
     JobThread thread;  // outlives the source, which looks at its flag
     std::optional<FrameSource> source;
   };
-  [[nodiscard]] Opened& opened();
+  [[nodiscard]] std::shared_ptr<Opened> opened();
 
   std::filesystem::path path_;
   VideoInfo info_;

@@ -164,12 +164,20 @@ TEST_CASE("a full disk exits with status 74 and leaves no file") {
 TEST_CASE("an unsupported pair of codec and container exits with status 78 before anything is written") {
   const TinyProject tiny;
   check_refused(tiny, 78, "export.video.container: mp4 cannot hold ffv1", "--codec ffv1 --container mp4");
+  check_refused(tiny, 78, "export.video.container: avi cannot hold hevc", "--codec hevc --container avi");
+  check_refused(tiny, 78, "export.video.container: avi cannot hold av1", "--codec av1 --container avi");
+}
+
+TEST_CASE("a crf beyond the codec's range is refused") {
+  const TinyProject tiny;
+  check_refused(tiny, 78, "export.video.crf: is 52; of h264 and hevc 51 is the worst", "--codec hevc --crf 52");
 }
 
 TEST_CASE("h264 of an odd size is named by its field before anything is written") {
   const TinyProject tiny(10, {63, 48});
   check_refused(tiny, 78, "p.json: export.video.codec: h264 needs an even width and height, the footage is 63x48",
                 "--codec h264");
+  check_refused(tiny, 78, "hevc needs an even width", "--codec hevc");
   const Run run = run_sigs("check " + tiny.project() + " --set export.video.codec=h264");
   CHECK(run.status == 78);
 }

@@ -21,7 +21,7 @@ using namespace sigs::test;
 TEST_CASE("an unknown command is answered with a list of the known ones") {
   const Run run = run_sigs("exprt p.json");
   CHECK(run.status == 64);
-  CHECK(run.err == "error: exprt: no such command; there are export, frame, mask, occluder, dataset, evaluate, check, info, telemetry, ego-motion, appearance, path, compare, encounter and encounter-model\n");
+  CHECK(run.err == "error: exprt: no such command; there are export, frame, mask, occluder, dataset, evaluate, check, info, telemetry, ego-motion, appearance, calibrate, path, compare, encounter and encounter-model\n");
   const Run inner = run_sigs("evaluate trck clip.xml");
   CHECK(inner.status == 64);
   CHECK(inner.err == "error: evaluate trck: no such command; there are track and detect\n");
@@ -33,7 +33,7 @@ TEST_CASE("standard output is refused as an output, and no folder named - is cre
   const TinyProject tiny;
   const std::string here = "cd '" + tiny.file("").string() + "' && ";
   const std::string sigs = (build_dir() / "sigs").string();
-  for (const char* command : {" export p.json", " frame p.json --frame 2", " mask clip.mkv"}) {
+  for (const char* command : {" export p.json --masks png", " frame p.json --frame 2", " mask clip.mkv"}) {
     CAPTURE(command);
     CHECK(std::system((here + sigs + command + " --out - 2>err.txt").c_str()) == 64 * 256);
     CHECK(has(read_text(tiny.file("err.txt")).value(), "standard output"));

@@ -38,7 +38,8 @@ class Labelled {
 const std::map<std::string, std::string> kNotMerged{
     {"xml", "its <footage> is one for the whole file"},
     {"voc", "its images lie in one folder, and those of two videos have the same names"},
-    {"cvat", "its tracks are those of one video"}};
+    {"cvat", "its tracks are those of one video"},
+    {"jsonl", "its lines do not say which video they are of"}};
 
 }  // namespace
 

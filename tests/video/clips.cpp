@@ -57,7 +57,7 @@ Samples samples_of(const Frame& frame) {
   Samples samples;
   for (const cv::Mat& plane : frame.planes)
     for (int y = 0; y < plane.rows; ++y)
-      samples.insert(samples.end(), plane.ptr<uchar>(y), plane.ptr<uchar>(y) + plane.cols);
+      samples.insert(samples.end(), plane.ptr<uchar>(y), plane.ptr<uchar>(y) + plane.cols * plane.elemSize());
   return samples;
 }
 
@@ -132,9 +132,10 @@ bool make_clip(const std::string& options, const std::filesystem::path& path, co
   return run_ffmpeg("-f lavfi -i \"" + image + "\" -threads 1 " + options + " \"" + path.string() + "\"");
 }
 
-Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorInfo& color) {
+Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorInfo& color, int bit_depth) {
   Frame frame;
   frame.layout = layout;
+  frame.bit_depth = bit_depth;
   frame.color = color;
   frame.time_s = number / 25.0;
   const cv::Size step = chroma_step(layout);
@@ -143,13 +144,18 @@ Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorIn
     const cv::Size size = is_chroma ? cv::Size((size_px.width + step.width - 1) / step.width,
                                                (size_px.height + step.height - 1) / step.height)
                                     : size_px;
-    cv::Mat plane(size, CV_8UC1);
+    cv::Mat plane(size, bit_depth > 8 ? CV_16UC1 : CV_8UC1);
     for (int y = 0; y < size.height; ++y)
-      for (int x = 0; x < size.width; ++x)
-        plane.at<uchar>(y, x) = static_cast<uchar>(
-            40 + 20 * i + (3 * x + 2 * y + 5 * number) % 120 +
-            static_cast<int>(
-                grain(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(3 * number + i)) % 16));
+      for (int x = 0; x < size.width; ++x) {
+        const uint32_t noise =
+            grain(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(3 * number + i));
+        const int code = 40 + 20 * i + (3 * x + 2 * y + 5 * number) % 120 + static_cast<int>(noise % 16);
+        if (bit_depth > 8)
+          plane.at<ushort>(y, x) =
+              static_cast<ushort>(code << (bit_depth - 8) | (noise >> 8) % (1U << (bit_depth - 8)));
+        else
+          plane.at<uchar>(y, x) = static_cast<uchar>(code);
+      }
     frame.planes[static_cast<size_t>(i)] = plane;
   }
   return frame;
@@ -159,7 +165,7 @@ void write_clip(const std::filesystem::path& path, const VideoFormat& format, in
   Result<VideoWriter> writer = VideoWriter::open(path, format);
   if (!writer) FAIL(writer.error().text());
   for (int n = 0; n < count; ++n) {
-    Frame frame = test_frame(format.layout, format.size_px, n, format.color);
+    Frame frame = test_frame(format.layout, format.size_px, n, format.color, format.bit_depth);
     frame.time_s = static_cast<double>(n) * format.frame_rate_den / format.frame_rate_num;
     const Result<void> written = writer->write(frame, n);
     if (!written) FAIL(written.error().text());

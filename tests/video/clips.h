@@ -21,12 +21,12 @@ inline constexpr std::array kLayouts{PixelLayout::gray, PixelLayout::yuv420, Pix
 // Whether one of the warnings contains a text.
 [[nodiscard]] bool warns(const VideoInfo& info, const std::string& what);
 
-// All samples of an image, plane after plane without gaps.
+// All samples of an image, plane after plane without gaps; of more than 8 bits two bytes each, the lower one first.
 using Samples = std::vector<uint8_t>;
 [[nodiscard]] Samples samples_of(const Frame& frame);
 
 // Every image that FFmpeg's libraries give when they decode the file from the start with one thread: the truth for
-// reading. Only for planar 8-bit formats, whose bytes are the samples.
+// reading. Only for planar formats of 8 bits or little-endian words, whose bytes are the samples.
 struct WholeDecode {
   std::vector<Samples> images;
   std::vector<double> times_s;  // of each image as FFmpeg guesses it, from the first
@@ -49,7 +49,9 @@ struct PacketPlace {
 [[nodiscard]] bool run_ffmpeg(const std::string& arguments);
 
 // An image with structure and noise, different for every number; the same on every machine.
-[[nodiscard]] Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorInfo& color = {});
+// Of more than 8 bits the lower bits are noise, too.
+[[nodiscard]] Frame test_frame(PixelLayout layout, cv::Size size_px, int number, const ColorInfo& color = {},
+                               int bit_depth = 8);
 
 // Writes count test frames at the format's nominal rate. The writer's errors fail the test.
 void write_clip(const std::filesystem::path& path, const VideoFormat& format, int count);

@@ -87,51 +87,6 @@ TEST_CASE("every 8-bit format gives its own samples whether packed or planar") {
   }
 }
 
-TEST_CASE("deeper samples are rounded to the nearest 8-bit code of the same range") {
-  const Kind kinds[] = {
-      {"yuv420p10le", "", PixelLayout::yuv420, "", "yuv420p10le to 8 bits, rounded"},
-      {"yuv422p12le", "", PixelLayout::yuv422, "", "yuv422p12le to 8 bits, rounded"},
-      {"yuv444p16le", "", PixelLayout::yuv444, "", "yuv444p16le to 8 bits, rounded"},
-      {"gray10le", "", PixelLayout::gray, "", "gray10le to 8 bits, rounded"},
-  };
-  for (const Kind& kind : kinds) {
-    CAPTURE(std::string(kind.pixel_format));
-    const TemporaryFolder folder;
-    const auto path = folder / "a.mkv";
-    const std::string name = kind.pixel_format;
-    if (!make_clip("-c:v ffv1 -level 3 -color_range tv -pix_fmt " + name, path,
-                   "testsrc2=size=50x38:rate=25:duration=0.2,format=yuv444p16le,gblur=sigma=3"))
-      continue;
-    FrameSource source = opened(path);
-    CHECK(source.info().layout == kind.layout);
-    CHECK(source.info().conversion == kind.conversion);
-    const Samples words = raw_of(path, kind.pixel_format, folder);
-    const int depth = std::stoi(name.substr(name.find_last_of("py") + 1));
-    Samples truth(words.size() / 2);
-    for (size_t i = 0; i < truth.size(); ++i) {
-      const int word = words[2 * i] | words[2 * i + 1] << 8;
-      truth[i] = static_cast<uint8_t>(std::min(255.0, std::floor(word / std::pow(2.0, depth - 8) + 0.5)));
-    }
-    const Result<Frame> frame = source.read(0);
-    REQUIRE(frame.has_value());
-    CHECK(largest_difference(samples_of(*frame), truth) == 0);
-  }
-}
-
-TEST_CASE("full range keeps white and neutral chroma when the depth is reduced") {
-  const TemporaryFolder folder;
-  if (!make_clip("-c:v ffv1 -level 3 -pix_fmt yuv444p10le -color_range pc", folder / "a.mkv",
-                 "color=white:size=32x32:rate=25:duration=0.2,format=yuv444p10le,lutyuv=y=1023:u=512:v=1023"))
-    return;
-  FrameSource source = opened(folder / "a.mkv");
-  CHECK(source.info().color.range == ColorRange::full);
-  const Result<Frame> frame = source.read(0);
-  REQUIRE(frame.has_value());
-  CHECK(frame->planes[0].at<uchar>(3, 3) == 255);
-  CHECK(frame->planes[1].at<uchar>(3, 3) == 128);
-  CHECK(frame->planes[2].at<uchar>(3, 3) == 255);
-}
-
 TEST_CASE("formats without a layout of their own are converted to the nearest") {
   const Kind kinds[] = {
       {"yuv411p", "-c:v ffv1", PixelLayout::yuv422, "yuv422p", "yuv411p to yuv422p through swscale"},

@@ -63,7 +63,7 @@ TEST_CASE("FFV1 gives back every sample of every layout and size") {
 }
 
 TEST_CASE("the lossy codecs keep a colour in every layout container range and matrix") {
-  for (const VideoCodec codec : {VideoCodec::h264, VideoCodec::mjpeg})
+  for (const VideoCodec codec : {VideoCodec::h264, VideoCodec::hevc, VideoCodec::av1, VideoCodec::mjpeg})
     for (const Container container : {Container::mkv, Container::mp4, Container::avi})
       for (const PixelLayout layout : kLayouts)
         for (const auto& [range, matrix] :
@@ -71,6 +71,8 @@ TEST_CASE("the lossy codecs keep a colour in every layout container range and ma
           CAPTURE(static_cast<int>(codec));
           CAPTURE(static_cast<int>(container));
           CAPTURE(static_cast<int>(layout));
+          const bool is_new = codec == VideoCodec::hevc || codec == VideoCodec::av1;
+          if (is_new && container == Container::avi) continue;
           const TemporaryFolder folder;
           VideoFormat format = tagged_format(codec, container, layout, {96, 64});
           format.color.range = range;
@@ -108,6 +110,8 @@ TEST_CASE("the bytes depend on neither the run nor the threads") {
   for (const auto& [codec, container] :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::ffv1, Container::avi},
         std::pair{VideoCodec::h264, Container::mkv}, std::pair{VideoCodec::h264, Container::mp4},
+        std::pair{VideoCodec::hevc, Container::mkv}, std::pair{VideoCodec::hevc, Container::mp4},
+        std::pair{VideoCodec::av1, Container::mkv}, std::pair{VideoCodec::av1, Container::mp4},
         std::pair{VideoCodec::mjpeg, Container::mkv}, std::pair{VideoCodec::mjpeg, Container::mp4},
         std::pair{VideoCodec::mjpeg, Container::avi}}) {
     CAPTURE(static_cast<int>(codec));
@@ -115,7 +119,7 @@ TEST_CASE("the bytes depend on neither the run nor the threads") {
     const TemporaryFolder folder;
     VideoFormat format = tagged_format(codec, container, PixelLayout::yuv420, {176, 144});
     std::vector<std::vector<uint8_t>> files;
-    for (const int threads : {1, 1, 2, 3}) {
+    for (const int threads : {1, 1, 2, 4}) {
       format.threads = threads;
       write_clip(folder / "a", format, 24);
       files.push_back(bytes_of(folder / "a"));
@@ -131,13 +135,17 @@ TEST_CASE("the bytes depend on neither the run nor the threads") {
 TEST_CASE("colour range, matrix, primaries, transfer function and chroma site are preserved") {
   for (const auto& [codec, container] :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mkv},
-        std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::h264, Container::avi}})
+        std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::h264, Container::avi},
+        std::pair{VideoCodec::hevc, Container::mkv}, std::pair{VideoCodec::hevc, Container::mp4},
+        std::pair{VideoCodec::av1, Container::mkv}, std::pair{VideoCodec::av1, Container::mp4}})
     for (const ColorRange range : {ColorRange::limited, ColorRange::full})
       for (const ColorMatrix matrix : {ColorMatrix::bt601, ColorMatrix::bt709, ColorMatrix::bt2020})
         for (const ChromaSite site : {ChromaSite::left, ChromaSite::center, ChromaSite::top_left}) {
           CAPTURE(static_cast<int>(codec));
           CAPTURE(static_cast<int>(container));
           CAPTURE(static_cast<int>(site));
+          // AV1's own header has no number for midway; Matroska has.
+          if (codec == VideoCodec::av1 && container == Container::mp4 && site == ChromaSite::center) continue;
           const TemporaryFolder folder;
           VideoFormat format = tagged_format(codec, container, PixelLayout::yuv420, {64, 48});
           format.color.range = range;
@@ -164,7 +172,8 @@ TEST_CASE("4:2:2 states its chroma site too: motion JPEG midway, video at the le
 }
 
 TEST_CASE("colours that the footage leaves unstated stay unstated") {
-  for (const VideoCodec codec : {VideoCodec::ffv1, VideoCodec::h264}) {
+  for (const VideoCodec codec : {VideoCodec::ffv1, VideoCodec::h264, VideoCodec::hevc, VideoCodec::av1}) {
+    CAPTURE(static_cast<int>(codec));
     const TemporaryFolder folder;
     VideoFormat format = tagged_format(codec, Container::mkv, PixelLayout::yuv420, {64, 48});
     format.color = {};
@@ -172,7 +181,8 @@ TEST_CASE("colours that the footage leaves unstated stay unstated") {
     write_clip(folder / "a", format, 2);
     const ColorInfo color = opened(folder / "a").info().color;
     CHECK(!color.matrix_stated);
-    CHECK(!color.range_stated);
+    // The streams of HEVC and AV1 always state a range: limited where nothing else is known.
+    format.color.range_stated = codec == VideoCodec::hevc || codec == VideoCodec::av1;
     CHECK(color == format.color);
   }
 }
@@ -180,6 +190,7 @@ TEST_CASE("colours that the footage leaves unstated stay unstated") {
 TEST_CASE("rate, pixel aspect and size are preserved") {
   for (const auto& [codec, container] :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mp4},
+        std::pair{VideoCodec::hevc, Container::mp4}, std::pair{VideoCodec::av1, Container::mp4},
         std::pair{VideoCodec::mjpeg, Container::avi}})
     for (const auto& [num, den] :
          {std::pair{30000, 1001}, std::pair{24000, 1001}, std::pair{25, 1}, std::pair{15, 2}}) {
@@ -207,7 +218,9 @@ TEST_CASE("rate, pixel aspect and size are preserved") {
 TEST_CASE("uneven frame times are preserved in Matroska and MP4 and begin at zero") {
   for (const auto& [codec, container] :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mkv},
-        std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::mjpeg, Container::mp4}}) {
+        std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::hevc, Container::mkv},
+        std::pair{VideoCodec::hevc, Container::mp4}, std::pair{VideoCodec::av1, Container::mkv},
+        std::pair{VideoCodec::av1, Container::mp4}, std::pair{VideoCodec::mjpeg, Container::mp4}}) {
     CAPTURE(static_cast<int>(codec));
     CAPTURE(static_cast<int>(container));
     const TemporaryFolder folder;

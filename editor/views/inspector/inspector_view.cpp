@@ -13,6 +13,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
+#include "scene/opened_project.h"
 
 namespace sigs::editor {
 
@@ -62,10 +63,10 @@ void draw_compositing(const ViewContext& context, FieldRows& rows) {
 }
 
 void draw_export(const ViewContext& context, FieldRows& rows) {
-  const bool is_h264 = context.project().output.codec == CodecChoice::h264;
+  const bool has_crf = max_crf(video_codec_of(context.project().output.codec)) > 0;
   rows.rows("export.", [&](const Field& field) {
     RowOptions look;
-    if (field.key == "export.video.crf" && !is_h264) look.off_because = "Counts for h264 alone.";
+    if (field.key == "export.video.crf" && !has_crf) look.off_because = "Counts for h264, hevc and av1 alone.";
     if (field.key == "export.labels") look.names = {"xml"};
     if (field.key == "export.encounter") look.names.assign(kWellClearNames.begin(), kWellClearNames.end());
     return look;

@@ -12,12 +12,16 @@ struct Encoding {
   const char* encoder = "";  // FFmpeg's name
   AVPixelFormat pixel_format = AV_PIX_FMT_NONE;
   PixelLayout layout = PixelLayout::yuv420;  // of the stored image
+  int bit_depth = 8;                         // of the stored image
   ColorInfo color;                           // of the stored image
 };
 
-// FFV1 stores every layout as it is. H.264 stores gray as 4:2:0 with neutral chroma, since few players support its gray
-// profile, and RGB as 4:4:4 BT.709. MJPEG is what every reader of JPEG expects: full range, BT.601, chroma midway.
+// FFV1 stores every layout as it is. H.264, HEVC and AV1 store gray as 4:2:0 with neutral chroma, since few players
+// support their gray profiles, and RGB as 4:4:4 BT.709. MJPEG is what every reader of JPEG expects: full range, BT.601,
+// chroma midway. The depth is the frames' one (at most format.max_bit_depth), else the next higher that the encoder has
+// for the layout, else its highest.
 // Error usage: the codec cannot be put into the container, or cannot store the size.
+// Error unavailable: FFmpeg was built without the encoder, or it has no format of this layout.
 [[nodiscard]] Result<Encoding> encoding_for(const VideoFormat& format);
 
 // The frame as the encoding stores it. It shares the samples where nothing changes.

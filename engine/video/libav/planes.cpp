@@ -18,6 +18,7 @@ extern "C" {
 }
 
 #include "base/ensure.h"
+#include "video/bit_depth.h"
 #include "video/chroma.h"
 
 namespace sigs::libav {
@@ -47,7 +48,7 @@ std::optional<PixelLayout> same_layout(const AVPixFmtDescriptor& format) {
   return std::nullopt;
 }
 
-// Whether samples can be picked one by one: whole bytes, or whole 16-bit words of this machine's byte order.
+// Whether samples can be picked one by one: whole bytes, or whole 16-bit words.
 bool can_pick(const AVPixFmtDescriptor& format) {
   const std::optional<PixelLayout> layout = same_layout(format);
   if ((format.flags & kSpecialFlags) != 0 || !layout) return false;
@@ -55,9 +56,14 @@ bool can_pick(const AVPixFmtDescriptor& format) {
   const int depth = format.comp[0].depth;
   for (int i = 0; i < plane_count(*layout); ++i)
     if (format.comp[i].depth != depth) return false;
-  if (depth == 8) return true;
-  const bool big_endian = (format.flags & AV_PIX_FMT_FLAG_BE) != 0;
-  return depth > 8 && depth <= 16 && big_endian == (std::endian::native == std::endian::big);
+  return depth >= 8 && depth <= 16;
+}
+
+// Of floating-point and Bayer images 8 bits are taken: swscale's conversions of them to more are no better.
+int nearest_depth(const AVPixFmtDescriptor& format) {
+  constexpr uint64_t kEightBitFlags = AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_FLOAT;
+  if ((format.flags & kEightBitFlags) != 0) return 8;
+  return std::clamp(format.comp[0].depth, 8, 16);
 }
 
 PixelLayout nearest_layout(const AVPixFmtDescriptor& format) {
@@ -69,34 +75,10 @@ PixelLayout nearest_layout(const AVPixFmtDescriptor& format) {
   return PixelLayout::yuv422;
 }
 
-AVPixelFormat plain_format(PixelLayout layout) {
-  switch (layout) {
-    case PixelLayout::gray:
-      return AV_PIX_FMT_GRAY8;
-    case PixelLayout::yuv420:
-      return AV_PIX_FMT_YUV420P;
-    case PixelLayout::yuv422:
-      return AV_PIX_FMT_YUV422P;
-    case PixelLayout::yuv444:
-      return AV_PIX_FMT_YUV444P;
-    case PixelLayout::rgb:
-      break;
-  }
-  return AV_PIX_FMT_RGB24;
-}
-
-// Deeper codes to 8 bits within the same range. Limited range: a code of d bits is the 8-bit one times 2^(d - 8).
-// Full range: 0..2^d - 1 becomes 0..255, chroma about its own middle.
-std::vector<uchar> rounding_table(int depth, bool is_chroma, ColorRange range) {
-  const double top = (1 << depth) - 1;
-  const double middle = is_chroma ? 1 << (depth - 1) : 0;
-  const double scale = range == ColorRange::full ? 255 / top : 1.0 / (1 << (depth - 8));
-  std::vector<uchar> table(size_t{1} << depth);
-  for (size_t code = 0; code < table.size(); ++code) {
-    const double value = (static_cast<double>(code) - middle) * scale + (is_chroma ? 128 : 0);
-    table[code] = static_cast<uchar>(std::clamp(value + 0.5, 0.0, 255.0));
-  }
-  return table;
+// What swscale converts other formats to: RGB in packed formats, which it knows best.
+AVPixelFormat plain_format(PixelLayout layout, int bit_depth) {
+  if (layout == PixelLayout::rgb) return bit_depth == 8 ? AV_PIX_FMT_RGB24 : AV_PIX_FMT_RGB48;
+  return pixel_format_of(layout, bit_depth);
 }
 
 const uchar* sample_row(const AVFrame& image, const AVComponentDescriptor& component, int y) {
@@ -116,34 +98,52 @@ cv::Mat picked_bytes(const AVFrame& image, const AVComponentDescriptor& componen
   return plane;
 }
 
-cv::Mat picked_words(const AVFrame& image, const AVComponentDescriptor& component, cv::Size size,
-                     const std::vector<uchar>& table) {
-  cv::Mat plane(size, CV_8UC1);
-  const size_t mask = table.size() - 1;
+uint16_t word_at(const uchar* in, bool swap) {
+  const unsigned low = in[swap ? 1 : 0];
+  const unsigned high = in[swap ? 0 : 1];
+  return static_cast<uint16_t>(std::endian::native == std::endian::big ? low << 8 | high : high << 8 | low);
+}
+
+// Where every sample is a word of its own, in this machine's byte order, and nothing else is in it.
+bool is_plain(const AVComponentDescriptor& component, bool swap) {
+  return component.step == 2 && component.shift == 0 && !swap;
+}
+
+cv::Mat picked_words(const AVFrame& image, const AVComponentDescriptor& component, cv::Size size, bool swap) {
+  cv::Mat plane(size, CV_16UC1);
+  const auto mask = static_cast<unsigned>(max_code(component.depth));
   for (int y = 0; y < size.height; ++y) {
     const uchar* in = sample_row(image, component, y);
-    uchar* out = plane.ptr<uchar>(y);
-    for (int x = 0; x < size.width; ++x, in += component.step) {
-      uint16_t word = 0;
-      std::memcpy(&word, in, sizeof word);
-      out[x] = table[(word >> component.shift) & mask];
+    ushort* const out = plane.ptr<ushort>(y);
+    if (is_plain(component, swap)) {
+      std::memcpy(out, in, static_cast<size_t>(size.width) * sizeof *out);
+      for (int x = 0; x < size.width; ++x) out[x] = static_cast<ushort>(out[x] & mask);
+    } else {
+      for (int x = 0; x < size.width; ++x)
+        out[x] = static_cast<ushort>(unsigned{word_at(in + x * component.step, swap)} >> component.shift & mask);
     }
   }
   return plane;
 }
 
+// Whether the words of a format have the other byte order than this machine's.
+bool has_swapped_words(const AVPixFmtDescriptor& format) {
+  const bool big_endian = (format.flags & AV_PIX_FMT_FLAG_BE) != 0;
+  return big_endian != (std::endian::native == std::endian::big);
+}
+
+cv::Size plane_size(PixelLayout layout, int plane, cv::Size size_px) {
+  return plane > 0 && layout != PixelLayout::rgb ? chroma_size(layout, size_px) : size_px;
+}
+
 Frame picked(const AVFrame& image, const AVPixFmtDescriptor& format, PixelLayout layout, const ColorInfo& color) {
-  Frame frame{.layout = layout, .color = color};
+  Frame frame{.layout = layout, .bit_depth = format.comp[0].depth, .color = color};
   const cv::Size size(image.width, image.height);
-  const ColorRange range = layout == PixelLayout::rgb ? ColorRange::full : color.range;
+  const bool swap = has_swapped_words(format);
   for (int i = 0; i < plane_count(layout); ++i) {
-    const AVComponentDescriptor& component = format.comp[i];
-    const bool is_chroma = i > 0 && layout != PixelLayout::rgb;
-    const cv::Size plane_size = is_chroma ? chroma_size(layout, size) : size;
-    frame.planes[static_cast<size_t>(i)] =
-        component.depth == 8
-            ? picked_bytes(image, component, plane_size)
-            : picked_words(image, component, plane_size, rounding_table(component.depth, is_chroma, range));
+    const cv::Size of_plane = plane_size(layout, i, size);
+    frame.planes[static_cast<size_t>(i)] = frame.bit_depth == 8 ? picked_bytes(image, format.comp[i], of_plane)
+                                                                : picked_words(image, format.comp[i], of_plane, swap);
   }
   return frame;
 }
@@ -171,9 +171,9 @@ void keep_range(SwsContext& scaler, ColorRange range) {
   sws_setColorspaceDetails(&scaler, coefficients, full, coefficients, full, 0, 1 << 16, 1 << 16);
 }
 
-Result<FramePtr> scaled(const AVFrame& image, PixelLayout layout, ColorRange range) {
+Result<FramePtr> scaled(const AVFrame& image, const Conversion& wanted, ColorRange range) {
   FramePtr plain = new_frame();
-  plain->format = plain_format(layout);
+  plain->format = plain_format(wanted.layout, wanted.bit_depth);
   plain->width = image.width;
   plain->height = image.height;
   if (av_frame_get_buffer(plain.get(), 0) < 0) throw std::bad_alloc();
@@ -182,7 +182,7 @@ Result<FramePtr> scaled(const AVFrame& image, PixelLayout layout, ColorRange ran
                                         SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT, nullptr,
                                         nullptr, nullptr));
   if (scaler == nullptr)
-    return fail("", fmt::format("the pixel format {} cannot be converted to 8-bit planes",
+    return fail("", fmt::format("the pixel format {} cannot be converted to planes of samples",
                                 av_get_pix_fmt_name(static_cast<AVPixelFormat>(image.format))));
   keep_range(*scaler, range);
   sws_scale(scaler.get(), image.data, image.linesize, 0, image.height, plain->data, plain->linesize);
@@ -196,7 +196,8 @@ void release_plane(void* plane, uint8_t* /*samples*/) {
 // A buffer that keeps the plane's samples alive until FFmpeg drops the last reference to it.
 AVBufferRef* buffer_of(const cv::Mat& plane) {
   auto held = std::make_unique<cv::Mat>(plane);
-  const size_t bytes = static_cast<size_t>(plane.rows - 1) * plane.step + static_cast<size_t>(plane.cols);
+  const size_t bytes =
+      static_cast<size_t>(plane.rows - 1) * plane.step + static_cast<size_t>(plane.cols) * plane.elemSize();
   AVBufferRef* share = av_buffer_create(plane.data, bytes, release_plane, held.get(), AV_BUFFER_FLAG_READONLY);
   if (share == nullptr) throw std::bad_alloc();
   static_cast<void>(held.release());
@@ -205,28 +206,56 @@ AVBufferRef* buffer_of(const cv::Mat& plane) {
 
 }  // namespace
 
+AVPixelFormat pixel_format_of(PixelLayout layout, int bit_depth, bool packed_rgb) {
+  if (layout == PixelLayout::rgb && bit_depth == 8 && packed_rgb) return AV_PIX_FMT_0RGB32;
+  const std::string bits = bit_depth == 8 ? "" : std::to_string(bit_depth);
+  switch (layout) {
+    case PixelLayout::gray:
+      return av_get_pix_fmt(("gray" + bits).c_str());
+    case PixelLayout::yuv420:
+      return av_get_pix_fmt(("yuv420p" + bits).c_str());
+    case PixelLayout::yuv422:
+      return av_get_pix_fmt(("yuv422p" + bits).c_str());
+    case PixelLayout::yuv444:
+      return av_get_pix_fmt(("yuv444p" + bits).c_str());
+    case PixelLayout::rgb:
+      break;
+  }
+  return av_get_pix_fmt(("gbrp" + bits).c_str());
+}
+
+int bit_depth_of(AVPixelFormat format) {
+  return descriptor_of(format).comp[0].depth;
+}
+
 Conversion conversion_of(AVPixelFormat pixel_format) {
   const AVPixFmtDescriptor& format = descriptor_of(pixel_format);
-  Conversion conversion{.layout = nearest_layout(format)};
+  Conversion conversion{.layout = nearest_layout(format), .bit_depth = nearest_depth(format)};
+  // FFmpeg lacks some depths of some layouts; 16 bits it has of all.
+  if (plain_format(conversion.layout, conversion.bit_depth) == AV_PIX_FMT_NONE && !can_pick(format))
+    conversion.bit_depth = 16;
+  if (conversion.layout == PixelLayout::rgb && conversion.bit_depth > 8 && !can_pick(format)) conversion.bit_depth = 16;
   const bool has_alpha = (format.flags & AV_PIX_FMT_FLAG_ALPHA) != 0 && (format.flags & AV_PIX_FMT_FLAG_PAL) == 0;
   if (pixel_format == AV_PIX_FMT_PAL8)
     conversion.text = "pal8 to RGB through its palette";
   else if (!can_pick(format))
-    conversion.text =
-        fmt::format("{} to {} through swscale", format.name, av_get_pix_fmt_name(plain_format(conversion.layout)));
-  else if (format.comp[0].depth > 8)
-    conversion.text = fmt::format("{} to 8 bits, rounded", format.name);
+    conversion.text = fmt::format("{} to {} through swscale", format.name,
+                                  av_get_pix_fmt_name(plain_format(conversion.layout, conversion.bit_depth)));
   if (has_alpha) conversion.text += conversion.text.empty() ? "opacity is left out" : "; opacity is left out";
   return conversion;
 }
 
-Result<Frame> frame_of(const AVFrame& image, PixelLayout layout, const ColorInfo& color) {
-  const AVPixFmtDescriptor& format = descriptor_of(static_cast<AVPixelFormat>(image.format));
-  if (can_pick(format) && nearest_layout(format) == layout) return picked(image, format, layout, color);
-  if (image.format == AV_PIX_FMT_PAL8 && layout == PixelLayout::rgb) return looked_up(image, color);
-  const Result<FramePtr> plain = scaled(image, layout, color.range);
+Result<Frame> frame_of(const AVFrame& image, const Conversion& wanted, const ColorInfo& color) {
+  const auto pixel_format = static_cast<AVPixelFormat>(image.format);
+  const AVPixFmtDescriptor& format = descriptor_of(pixel_format);
+  if (image.format == AV_PIX_FMT_PAL8 && wanted.layout == PixelLayout::rgb && wanted.bit_depth == 8)
+    return looked_up(image, color);
+  const Conversion own = conversion_of(pixel_format);
+  if (can_pick(format) && own.layout == wanted.layout && own.bit_depth == wanted.bit_depth)
+    return picked(image, format, wanted.layout, color);
+  const Result<FramePtr> plain = scaled(image, wanted, color.range);
   if (!plain) return fail(plain.error());
-  return picked(**plain, descriptor_of(plain_format(layout)), layout, color);
+  return picked(**plain, descriptor_of(plain_format(wanted.layout, wanted.bit_depth)), wanted.layout, color);
 }
 
 void fill(AVFrame& image, const Frame& frame) {
@@ -234,13 +263,15 @@ void fill(AVFrame& image, const Frame& frame) {
   for (int i = 0; i < frame.plane_count(); ++i) {
     const AVComponentDescriptor& component = format.comp[i];
     const cv::Mat& plane = frame.planes[static_cast<size_t>(i)];
+    const auto sample_bytes = static_cast<int>(plane.elemSize());
     for (int y = 0; y < plane.rows; ++y) {
       const uchar* in = plane.ptr<uchar>(y);
       uchar* out = const_cast<uchar*>(sample_row(image, component, y));
-      if (component.step == 1)
-        std::memcpy(out, in, static_cast<size_t>(plane.cols));
+      if (component.step == sample_bytes)
+        std::memcpy(out, in, static_cast<size_t>(plane.cols) * plane.elemSize());
       else
-        for (int x = 0; x < plane.cols; ++x) out[x * component.step] = in[x];
+        for (int x = 0; x < plane.cols; ++x)
+          std::memcpy(out + x * component.step, in + x * sample_bytes, plane.elemSize());
     }
   }
 }
@@ -249,7 +280,9 @@ bool can_wrap_planes(AVPixelFormat format) {
   const AVPixFmtDescriptor& descriptor = descriptor_of(format);
   for (int i = 0; i < descriptor.nb_components; ++i) {
     const AVComponentDescriptor& component = descriptor.comp[i];
-    if (component.plane != i || component.step != 1 || component.offset != 0 || component.depth != 8) return false;
+    const int sample_bytes = component.depth > 8 ? 2 : 1;
+    if (component.plane != i || component.step != sample_bytes || component.offset != 0 || component.shift != 0)
+      return false;
   }
   return true;
 }

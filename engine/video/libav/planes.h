@@ -9,26 +9,34 @@
 
 namespace sigs::libav {
 
-// The samples of FFmpeg's images as 8-bit planes, and back.
+// The samples of FFmpeg's images as planes of 8 to 16 bits, and back.
 
-// The 8-bit layout nearest to a decoder's pixel format, and a description of how the samples are converted; empty where
-// they are not.
+// The layout and depth nearest to a decoder's pixel format, and a description of how the samples are converted; empty
+// where they are not.
 struct Conversion {
   PixelLayout layout = PixelLayout::yuv420;
+  int bit_depth = 8;
   std::string text{};
 };
 [[nodiscard]] Conversion conversion_of(AVPixelFormat format);
 
-// The image's samples as 8-bit planes of the given layout. 8-bit formats keep every sample, packed or planar. Deeper
-// ones are rounded to the nearest 8-bit code of the same range. All others go through swscale.
-// Error bad_data where swscale does not know the format.
-[[nodiscard]] Result<Frame> frame_of(const AVFrame& image, PixelLayout layout, const ColorInfo& color);
+// The image's samples as planes of the conversion's layout and depth. Integer formats of 8 to 16 bits keep every
+// sample, packed or planar, of either byte order. All others go through swscale.
+// Errors bad_data: the image's format has another layout or depth than `wanted`; swscale does not know the format.
+[[nodiscard]] Result<Frame> frame_of(const AVFrame& image, const Conversion& wanted, const ColorInfo& color);
 
-// Copies the frame's samples into a writable image, whose pixel format has 8 bits per sample and the frame's layout.
+// The planar pixel format with a layout and depth, of this machine's byte order; packed 32 bits of RGB for 8-bit RGB
+// where `packed_rgb`. AV_PIX_FMT_NONE where FFmpeg has none.
+[[nodiscard]] AVPixelFormat pixel_format_of(PixelLayout layout, int bit_depth, bool packed_rgb = false);
+
+// The bits of a format's samples.
+[[nodiscard]] int bit_depth_of(AVPixelFormat format);
+
+// Copies the frame's samples into a writable image, whose pixel format has the frame's depth and layout.
 void fill(AVFrame& image, const Frame& frame);
 
-// Whether images of this format can use a frame's planes as they are: 8 bits per sample, each component in a plane of
-// its own.
+// Whether images of this format can use a frame's planes as they are: 8 bits or 16-bit words for each sample, each
+// component in a plane of its own, in the order of a frame's planes.
 [[nodiscard]] bool can_wrap_planes(AVPixelFormat format);
 
 // Makes the image refer to the frame's samples without copying them. They live at least as long as the image and every

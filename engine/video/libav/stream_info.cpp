@@ -69,12 +69,12 @@ bool is_image(const Demuxer& demuxer) {
   return name.starts_with("image2") || name.ends_with("_pipe");
 }
 
-// "frame_%03d.png" of "frame_017.png", as FFmpeg names a sequence.
-std::string sequence_pattern(const std::filesystem::path& path) {
+// "frame_%03d.png" of "frame_017.png", by which a sequence of images is named.
+std::filesystem::path sequence_pattern(const std::filesystem::path& path) {
   const std::string stem = path.stem().string();
   const std::size_t digits = stem.size() - (stem.find_last_not_of("0123456789") + 1);  // npos + 1 is 0
-  return fmt::format("{}%0{}d{}", stem.substr(0, stem.size() - digits), std::max<std::size_t>(digits, 1),
-                     path.extension().string());
+  return path.parent_path() / fmt::format("{}%0{}d{}", stem.substr(0, stem.size() - digits),
+                                          std::max<std::size_t>(digits, 1), path.extension().string());
 }
 
 void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& table, const FrameOrder& order) {
@@ -87,26 +87,17 @@ void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& ta
   if (order.times_are_nominal)
     warn("the container tells no usable times; frames are spaced evenly at the nominal rate");
   if (is_image(demuxer) && info.frame_count() == 1)
-    warn(
-        fmt::format("is one image, so the footage has one frame; of a sequence make a video first: ffmpeg -framerate "
-                    "25 -i {} -c:v ffv1 sequence.mkv",
-                    sequence_pattern(info.path.filename())));
-}
-
-void set_oriented(VideoInfo& info, cv::Size stored_px, const Orientation& orientation) {
-  if (orientation == Orientation{}) return;
-  const OrientedSite site = oriented_site(info.color.chroma_site, info.layout, stored_px, orientation);
-  info.color.chroma_site = site.site;
-  info.warnings.push_back(
-      {info.path.string(),
-       fmt::format("is {}, as the file asks{}", description_of(orientation),
-                   site.exact ? "" : "; its chroma is taken as midway between pixels, half a pixel beside")});
+    warn(fmt::format("is one image, so the footage has one frame; name a sequence by its pattern, {}, or by its folder",
+                     sequence_pattern(info.path).string()));
 }
 
 }  // namespace
 
 Result<Orientation> orientation_of(const AVStream& stream) {
-  const int32_t* matrix = display_matrix(stream);
+  return orientation_of(display_matrix(stream));
+}
+
+Result<Orientation> orientation_of(const int32_t* matrix) {
   if (matrix == nullptr) return Orientation{};
   // x' = a x + c y, y' = b x + d y
   const int64_t a = matrix[0];
@@ -194,6 +185,16 @@ AVRational frame_rate_of(const Demuxer& demuxer) {
   return rate.num > 0 && rate.den > 0 ? rate : AVRational{25, 1};
 }
 
+void set_oriented(VideoInfo& info, cv::Size stored_px, const Orientation& orientation) {
+  if (orientation == Orientation{}) return;
+  const OrientedSite site = oriented_site(info.color.chroma_site, info.layout, stored_px, orientation);
+  info.color.chroma_site = site.site;
+  info.warnings.push_back(
+      {info.path.string(),
+       fmt::format("is {}, as the file asks{}", description_of(orientation),
+                   site.exact ? "" : "; its chroma is taken as midway between pixels, half a pixel beside")});
+}
+
 VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxer, const PacketTable& table,
                         const FrameOrder& order, const AVFrame& first, const Orientation& orientation) {
   const AVStream& stream = demuxer.stream();
@@ -204,6 +205,7 @@ VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxe
   info.path = path;
   info.size_px = oriented(cv::Size(first.width, first.height), orientation);
   info.layout = conversion.layout;
+  info.bit_depth = conversion.bit_depth;
   info.color = reading.color;
   info.times_s = order.times_s;
   const AVRational rate = frame_rate_of(demuxer);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -30,6 +31,9 @@ struct Orientation {
 // Error bad_data where it is a rotation by other than right angles.
 [[nodiscard]] Result<Orientation> orientation_of(const AVStream& stream);
 
+// The same of a display matrix itself, nine numbers; null: there is none.
+[[nodiscard]] Result<Orientation> orientation_of(const int32_t* matrix);
+
 // Error bad_data where the layout does not allow the orientation: a transposed 4:2:2 would be 4:4:0.
 [[nodiscard]] Result<void> check_orientation(const Orientation& orientation, PixelLayout layout);
 
@@ -48,6 +52,10 @@ struct OrientedSite {
 
 // "rotated by 90 degrees clockwise", "mirrored left to right"; empty: as it is stored.
 [[nodiscard]] std::string description_of(const Orientation& orientation);
+
+// Sets the chroma site of an image that is turned upright, and adds a warning that it is.
+//   stored_px  its size before
+void set_oriented(VideoInfo& info, cv::Size stored_px, const Orientation& orientation);
 
 // Nominal frame rate; 25/1 where the file states none.
 [[nodiscard]] AVRational frame_rate_of(const Demuxer& demuxer);

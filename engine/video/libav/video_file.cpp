@@ -28,8 +28,34 @@ const char* muxer_of(Container container) {
       return "mp4";
     case Container::avi:
       return "avi";
+    case Container::nut:
+      return "nut";
+    case Container::y4m:
+      break;  // y4m_file.h writes it
   }
   return "";
+}
+
+constexpr int kStreamBuffer_bytes = 1 << 16;
+
+// Called by FFmpeg with bytes of the container.
+int write_to_stream(void* below, uint8_t* bytes, int count) {
+  auto& stream = *static_cast<StreamBelow*>(below);
+  if (stream.error) return AVERROR(EIO);
+  const Result<void> written = stream.out.write({reinterpret_cast<const char*>(bytes), static_cast<size_t>(count)});
+  if (written) return count;
+  stream.error = written.error();
+  return AVERROR(EIO);
+}
+
+AVIOContext* buffer_above(StreamBelow& stream) {
+  auto* const buffer = static_cast<unsigned char*>(av_malloc(kStreamBuffer_bytes));
+  if (buffer == nullptr) throw std::bad_alloc();
+  AVIOContext* const above =
+      avio_alloc_context(buffer, kStreamBuffer_bytes, 1, &stream, nullptr, write_to_stream, nullptr);
+  if (above != nullptr) return above;
+  av_free(buffer);
+  throw std::bad_alloc();
 }
 
 // Matroska has milliseconds, AVI frames. In MP4 a whole number of ticks is one nominal frame, and a tick is 1/60000 s
@@ -49,7 +75,12 @@ bool is_done_at_once(VideoCodec codec) {
 }  // namespace
 
 void OutputCloser::operator()(AVFormatContext* context) const {
-  avio_closep(&context->pb);
+  if ((context->flags & AVFMT_FLAG_CUSTOM_IO) != 0 && context->pb != nullptr) {
+    av_freep(&context->pb->buffer);
+    avio_context_free(&context->pb);
+  } else {
+    avio_closep(&context->pb);
+  }
   avformat_free_context(context);
 }
 
@@ -61,9 +92,33 @@ Result<VideoFile> VideoFile::create(const fs::path& path, const VideoFormat& for
   ENSURE(format.frame_rate_num > 0 && format.frame_rate_den > 0);
   const Result<Encoding> encoding = encoding_for(format);
   if (!encoding) return fail(named(encoding.error(), path));
-  VideoFile file(path, format, *encoding);
-  if (const Result<void> begun = file.begin(); !begun) return fail(named(begun.error(), path));
+  return begun(VideoFile(path, format, *encoding));
+}
+
+Result<VideoFile> VideoFile::create(OutputStream out, const VideoFormat& format) {
+  silence();
+  ENSURE(format.frame_rate_num > 0 && format.frame_rate_den > 0);
+  const Result<Encoding> encoding = encoding_for(format);
+  if (!encoding) return fail(named(encoding.error(), out.name()));
+  VideoFile file(out.name(), format, *encoding);
+  file.stream_ = std::make_unique<StreamBelow>(StreamBelow{std::move(out), {}});
+  return begun(std::move(file));
+}
+
+Result<VideoFile> VideoFile::begun(VideoFile file) {
+  if (const Result<void> done = file.begin(); !done) return fail(named(done.error(), file.path_));
   return file;
+}
+
+Result<void> VideoFile::open_output() {
+  if (stream_ != nullptr) {
+    output_->pb = buffer_above(*stream_);
+    output_->pb->seekable = 0;
+    output_->flags |= AVFMT_FLAG_CUSTOM_IO | AVFMT_FLAG_FLUSH_PACKETS;
+    return {};
+  }
+  const int opened = avio_open(&output_->pb, url_of(path_).c_str(), AVIO_FLAG_WRITE);
+  return opened < 0 ? fail("", "cannot be created: " + text_of(opened), ErrorKind::cannot_create) : Result<void>();
 }
 
 Result<void> VideoFile::begin() {
@@ -79,11 +134,13 @@ Result<void> VideoFile::begin() {
   AVStream* stream = avformat_new_stream(context, nullptr);
   if (stream == nullptr || avcodec_parameters_from_context(stream->codecpar, encoder_.get()) < 0)
     throw std::bad_alloc();
+  // Apple's players need the tag hvc1, which says that the codec's parameters are in the header alone.
+  if (format_.codec == VideoCodec::hevc && format_.container == Container::mp4)
+    stream->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
   stream->time_base = tick_;
   stream->avg_frame_rate = encoder_->framerate;
   stream->sample_aspect_ratio = encoder_->sample_aspect_ratio;
-  if (const int opened = avio_open(&context->pb, url_of(path_).c_str(), AVIO_FLAG_WRITE); opened < 0)
-    return fail("", "cannot be created: " + text_of(opened), ErrorKind::cannot_create);
+  if (const Result<void> opened = open_output(); !opened) return opened;
   return check(avformat_write_header(context, nullptr));
 }
 
@@ -115,7 +172,7 @@ FramePtr VideoFile::av_frame_of(const Frame& frame) const {
 }
 
 Result<void> VideoFile::write(const Frame& frame) {
-  ENSURE(frame.layout == format_.layout && frame.size_px() == format_.size_px);
+  ENSURE(frame.layout == format_.layout && frame.bit_depth == format_.bit_depth && frame.size_px() == format_.size_px);
   const Result<int64_t> stamp = next_stamp(frame.time_s);
   if (!stamp) return fail(stamp.error());
   const FramePtr image = av_frame_of(frame);
@@ -126,7 +183,7 @@ Result<void> VideoFile::write(const Frame& frame) {
 Result<void> VideoFile::write_blank(double time_s) {
   prepare_blanks();
   if (!blank_.empty()) return put_known(blank_, time_s);
-  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
+  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color, format_.bit_depth);
   frame.time_s = time_s;
   return write(frame);
 }
@@ -134,7 +191,7 @@ Result<void> VideoFile::write_blank(double time_s) {
 // All images are keyframes in FFV1 as it is set up here, so that the same image always gives the same packet.
 void VideoFile::prepare_blanks() {
   if (std::exchange(blanks_are_prepared_, true) || format_.codec != VideoCodec::ffv1) return;
-  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color);
+  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color, format_.bit_depth);
   blank_ = packet_alone(frame);
 }
 
@@ -188,11 +245,16 @@ Result<void> VideoFile::finish() {
   if (const Result<void> written = check(av_write_trailer(output_.get())); !written) return written;
   avio_flush(output_->pb);
   if (const Result<void> flushed = check(0); !flushed) return flushed;
-  return check(avio_closep(&output_->pb));
+  return close_output();
+}
+
+Result<void> VideoFile::close_output() {
+  return stream_ == nullptr ? check(avio_closep(&output_->pb)) : stream_->out.close();
 }
 
 // The result of a call of the muxer. A full disk may be reported only by the buffer below it.
 Result<void> VideoFile::check(int result) const {
+  if (stream_ != nullptr && stream_->error) return fail(*stream_->error);
   if (result >= 0 && output_->pb != nullptr) result = output_->pb->error;
   if (result >= 0) return {};
   check_memory(result);

@@ -6,13 +6,20 @@
 #include <optional>
 #include <vector>
 
+#include "base/output_stream.h"
 #include "base/result.h"
 #include "video/libav/encoding.h"
 #include "video/libav/handles.h"
 
 namespace sigs::libav {
 
-// Closes the file and frees the context.
+// An output stream below a container, with the first error of writing to it.
+struct StreamBelow {
+  OutputStream out;
+  std::optional<Error> error;
+};
+
+// Closes the file, or frees the buffer above a stream, and frees the context.
 struct OutputCloser {
   void operator()(AVFormatContext* context) const;
 };
@@ -24,6 +31,9 @@ class VideoFile {
  public:
   // Creates the file and writes the container's header.
   [[nodiscard]] static Result<VideoFile> create(const std::filesystem::path& path, const VideoFormat& format);
+
+  // The same to a stream, whose bytes leave the process with each packet.
+  [[nodiscard]] static Result<VideoFile> create(OutputStream out, const VideoFormat& format);
 
   // Encodes in advance what write_blank() repeats. Optional: the bytes are the same without it.
   void warm_up() { prepare_blanks(); }
@@ -38,7 +48,9 @@ class VideoFile {
  private:
   VideoFile(std::filesystem::path path, VideoFormat format, Encoding encoding);
 
+  [[nodiscard]] static Result<VideoFile> begun(VideoFile file);
   [[nodiscard]] Result<void> begin();
+  [[nodiscard]] Result<void> open_output();
   // The time stamp of a frame, in ticks from the first one.
   [[nodiscard]] Result<int64_t> next_stamp(double time_s);
   // The frame as FFmpeg's image, without a copy of its samples where the codec allows it.
@@ -49,13 +61,15 @@ class VideoFile {
   [[nodiscard]] Result<void> put(AVPacket& packet);
   [[nodiscard]] Result<void> put_known(const std::vector<uint8_t>& packet, double time_s);
   [[nodiscard]] Result<void> check(int result) const;
+  [[nodiscard]] Result<void> close_output();
   [[nodiscard]] tl::unexpected<Error> encoding_failed(int error) const;
 
   std::filesystem::path path_;
   VideoFormat format_;
   Encoding encoding_;
-  AVRational tick_{1, 1};  // unit of the time stamps that the encoder is given, s
-  OutputPtr output_;       // the container
+  AVRational tick_{1, 1};                // unit of the time stamps that the encoder is given, s
+  std::unique_ptr<StreamBelow> stream_;  // none: a file. It outlives the container, which writes to it
+  OutputPtr output_;                     // the container
   CodecPtr encoder_;
   PacketPtr packet_ = new_packet();  // for encoded packets, reused
   bool blanks_are_prepared_ = false;

@@ -15,7 +15,8 @@ using sigs::test::TinyProject;
 TEST_CASE("the files that an export will write are known in advance, for every choice") {
   const TinyProject tiny(2);
   Project project = read_project(tiny.project()).value().project;
-  for (const CodecChoice codec : {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png})
+  for (const CodecChoice codec : {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::hevc, CodecChoice::av1,
+                                  CodecChoice::mjpeg, CodecChoice::png})
     for (const MasksChoice masks : {MasksChoice::none, MasksChoice::video, MasksChoice::png})
       for (const bool labels : {false, true}) {
         project.output.codec = codec;

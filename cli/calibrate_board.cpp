@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/image_codecs.h"
+#include "base/paths.h"
+#include "base/staged_outputs.h"
+#include "base/text.h"
+#include "calibration/board_footage.h"
+#include "calibration/board_plot.h"
+#include "calibration/board_report.h"
+#include "calibration/view_selection.h"
+#include "cli/calibrate_options.h"
+#include "cli/options.h"
+#include "cli/process.h"
+#include "cli/progress.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedOutput {
+  const char* option;
+  const fs::path* path;
+};
+
+std::vector<NamedOutput> outputs_of(const CalibrateOptions& options) {
+  std::vector<NamedOutput> named;
+  for (const NamedOutput& one :
+       {NamedOutput{"--out", &options.out}, NamedOutput{"--plot", &options.plot}, NamedOutput{"--json", &options.json}})
+    if (!one.path->empty()) named.push_back(one);
+  return named;
+}
+
+// Before anything is read. Errors usage, cannot_create.
+Result<void> check_names(const CalibrateOptions& options) {
+  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
+    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
+  const std::vector<NamedOutput> named = outputs_of(options);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const std::string option = std::string(named[i].option) + " " + named[i].path->string();
+    for (std::size_t k = 0; k < i; ++k)
+      if (canonical_name(*named[i].path) == canonical_name(*named[k].path))
+        return fail(option, std::string("is where ") + named[k].option + " goes", ErrorKind::usage);
+    if (const Result<void> kept = check_inputs_not_overwritten({*named[i].path}, options.inputs); !kept)
+      return fail(option, kept.error().what, ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+Result<CalibrationBoard> board_of(const CalibrateOptions& options) {
+  CalibrationBoard board;
+  if (options.corners.empty())
+    return fail("--corners", "is missing: the inner corners in a row and in a column, as 9x6", ErrorKind::usage);
+  const Result<cv::Size> corners = size_of_option(options.corners);
+  if (!corners) return fail("--corners", options.corners + " is no size such as 9x6", ErrorKind::usage);
+  board.corners = *corners;
+  if (options.square_m == 0) return fail("--square-m", "is missing: the side of a square, metres", ErrorKind::usage);
+  board.square_m = options.square_m;
+  if (options.board == "charuco") {
+    board.kind = BoardKind::charuco;
+    if (options.marker_m == 0) return fail("--marker-m", "is missing: the side of a marker, metres", ErrorKind::usage);
+    if (options.dictionary.empty())
+      return fail("--dictionary", "is missing: the markers' dictionary, as DICT_4X4_50", ErrorKind::usage);
+    board.marker_m = options.marker_m;
+    const Result<int> dictionary = dictionary_of(options.dictionary);
+    if (!dictionary) return fail(dictionary.error());
+    board.dictionary = *dictionary;
+  } else if (options.marker_m != 0 || !options.dictionary.empty()) {
+    return fail(options.marker_m != 0 ? "--marker-m" : "--dictionary", "goes with --board charuco", ErrorKind::usage);
+  }
+  if (const Result<void> good = check_board(board); !good) return fail(good.error());
+  return board;
+}
+
+ModelWanted wanted_of(const std::string& model) {
+  if (model == "pinhole") return ModelWanted::pinhole;
+  if (model == "brown-conrady") return ModelWanted::brown_conrady;
+  return model == "fisheye" ? ModelWanted::fisheye : ModelWanted::automatic;
+}
+
+Error nothing_found(const CalibrateOptions& options, const BoardFootage& footage) {
+  const std::string where = options.inputs.size() == 1 ? options.inputs.front().string() : "";
+  if (!footage.seen_instead.empty())
+    return {where, fmt::format("no {} with --corners {} in any of {}, but {}", options.board, options.corners,
+                               count_text(footage.searched, "frame"), footage.seen_instead)};
+  return {where, fmt::format("no board found in any of {}; is it --corners {} inner corners, one less than squares?",
+                             count_text(footage.searched, "frame"), options.corners)};
+}
+
+Result<BoardFootage> found_in(const CalibrateOptions& options, const CalibrationBoard& board) {
+  Progress progress(progress_style(options.progress));
+  const BoardSearch search{.progress = [&](int done, int total) { progress.update(done, total); },
+                           .cancel = &interrupt_flag()};
+  Result<BoardFootage> found = board_footage(options.inputs, board, search);
+  progress.end();
+  if (!found) return found;
+  for (const Warning& warning : found->warnings) print_warning(warning);
+  if (found->views.empty()) return fail(nothing_found(options, *found));
+  return found;
+}
+
+Result<BoardCalibration> calibrated(const CalibrateOptions& options, const CalibrationBoard& board) {
+  Result<BoardFootage> found = found_in(options, board);
+  if (!found) return fail(found.error());
+  const std::size_t seen = found->views.size();
+  const ViewSelection selection = selected_views(std::move(found->views), board, found->size_px);
+  Result<BoardCalibration> calibration =
+      calibrate_views(selection.views, board, found->size_px, wanted_of(options.model));
+  if (!calibration) return calibration;
+  if (options.progress != "none")
+    std::fprintf(stderr, "board found in %zu of %s; %d too blurred, %d alike, %d do not agree; %s used\n", seen,
+                 count_text(found->searched, "frame").c_str(), selection.blurred, selection.alike,
+                 static_cast<int>(calibration->views.size()) - calibration->views_used(),
+                 count_text(calibration->views_used(), "view").c_str());
+  return calibration;
+}
+
+Result<void> write_bytes(const fs::path& path, std::string_view bytes) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) return fail(path.string(), "could not be written", ErrorKind::write_failed);
+  return {};
+}
+
+std::string bytes_of(const char* option, const BoardCalibration& calibration, const CalibrationBoard& board) {
+  if (option == std::string_view("--out")) return calibration_xml(calibration_text_of(calibration, board));
+  if (option == std::string_view("--json")) return board_report_json(calibration, board);
+  std::vector<uchar> png;
+  image_codecs::imencode(".png", board_plot(calibration), png);
+  return {png.begin(), png.end()};
+}
+
+}  // namespace
+
+Result<void> calibrate_with_board(const CalibrateOptions& options) {
+  if (const Result<void> named = check_names(options); !named) return named;
+  const Result<CalibrationBoard> board = board_of(options);
+  if (!board) return fail(board.error());
+  defer_interrupts();
+  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  std::vector<fs::path> staged;
+  for (const NamedOutput& output : outputs_of(options)) {
+    const Result<fs::path> added = outputs.add_file(*output.path);
+    if (!added) return fail(added.error());
+    staged.push_back(*added);
+  }
+  const Result<BoardCalibration> calibration = calibrated(options, *board);
+  if (!calibration) return fail(calibration.error());
+  for (const Warning& warning : calibration->warnings) print_warning(warning);
+  const std::vector<NamedOutput> named = outputs_of(options);
+  for (std::size_t i = 0; i < named.size(); ++i)
+    if (const Result<void> done = write_bytes(staged[i], bytes_of(named[i].option, *calibration, *board)); !done)
+      return fail(outputs.with_final_names(done.error()));
+  if (const Result<void> done = outputs.commit(); !done) return done;
+  std::fputs(board_report_text(*calibration).c_str(), stdout);
+  return {};
+}
+
+}  // namespace sigs::cli

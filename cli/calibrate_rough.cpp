@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/image_codecs.h"
+#include "base/paths.h"
+#include "base/pose.h"
+#include "base/staged_outputs.h"
+#include "calibration/rough_calibration.h"
+#include "calibration/rough_plot.h"
+#include "cli/calibrate_options.h"
+#include "cli/options.h"
+#include "cli/process.h"
+#include "cli/progress.h"
+#include "telemetry/read_track.h"
+
+namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RoughInputs {
+  std::optional<Track> log;
+  fs::path log_file;  // empty: the footage itself
+};
+
+// The log that is named, else the one that the footage carries, if it does.
+Result<RoughInputs> inputs_of(const CalibrateOptions& options) {
+  RoughInputs inputs{.log = std::nullopt, .log_file = options.log};
+  const bool is_named = !options.log.empty();
+  Result<Track> log = read_track(is_named ? options.log : options.inputs[0], {.cancel = &interrupt_flag()});
+  if (!log && (is_named || log.error().kind == ErrorKind::interrupted)) return fail(log.error());
+  if (!log) return inputs;
+  for (const Warning& warning : log->warnings) print_warning(warning);
+  inputs.log = std::move(*log);
+  return inputs;
+}
+
+Result<RoughCalibration> found_in(const CalibrateOptions& options) {
+  Result<FrameSource> footage = FrameSource::open(options.inputs[0], &interrupt_flag());
+  if (!footage) return fail(footage.error());
+  for (const Warning& warning : footage->info().warnings) print_warning(warning);
+  const Result<RoughInputs> inputs = inputs_of(options);
+  if (!inputs) return fail(inputs.error());
+  RoughSettings settings{.max_frames = options.max_frames};
+  if (options.fov_deg) settings.given_field_rad = rad_of_deg(*options.fov_deg);
+  Progress progress(progress_style(options.progress));
+  const RoughControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+                             .cancel = &interrupt_flag()};
+  Result<RoughCalibration> found =
+      rough_calibration(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);
+  progress.end();
+  return found;
+}
+
+// The places of the outputs while they are written; empty: not asked for.
+struct RoughOutputs {
+  fs::path calibration, plot, json;
+};
+
+Result<RoughOutputs> begun(StagedOutputs& outputs, const CalibrateOptions& options) {
+  if (options.inputs.size() != 1)
+    return fail("INPUT", "is one video where there is no --board; there are " + std::to_string(options.inputs.size()),
+                ErrorKind::usage);
+  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
+    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
+  std::vector<fs::path> inputs{options.inputs[0]};
+  if (!options.log.empty()) inputs.push_back(options.log);
+  RoughOutputs staged;
+  for (const auto& [path, place] :
+       {std::pair(&options.out, &staged.calibration), {&options.plot, &staged.plot}, {&options.json, &staged.json}}) {
+    if (path->empty()) continue;
+    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{*path}, inputs); !kept)
+      return fail(path->string(), kept.error().what, ErrorKind::cannot_create);
+    const Result<fs::path> added = outputs.add_file(*path);
+    if (!added) return fail(added.error());
+    *place = *added;
+  }
+  return staged;
+}
+
+Result<void> write_text_file(const StagedOutputs& outputs, const fs::path& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) return fail(outputs.with_final_names({path.string(), "could not be written", ErrorKind::write_failed}));
+  return {};
+}
+
+Result<void> write_all(StagedOutputs& outputs, const RoughOutputs& staged, const RoughCalibration& found) {
+  const Result<CalibrationText> text = calibration_text(found);
+  if (!text) return fail(text.error());
+  if (const auto written = write_text_file(outputs, staged.calibration, calibration_xml(*text)); !written)
+    return written;
+  if (!staged.json.empty())
+    if (const auto written = write_text_file(outputs, staged.json, json_of(found)); !written) return written;
+  if (!staged.plot.empty() && !image_codecs::imwrite(staged.plot.string(), rough_plot(found)))
+    return fail(outputs.with_final_names({staged.plot.string(), "could not be written", ErrorKind::write_failed}));
+  return outputs.commit();
+}
+
+}  // namespace
+
+void add_rough_options(CLI::App& command, CalibrateOptions& options) {
+  command.add_option("--log", options.log, "without a board: a log with the camera's rates; else the video's own")
+      ->option_text("FILE")
+      ->check(not_empty());
+  command
+      .add_option("--fov", options.fov_deg, "without a board: the horizontal field of view, where it is known; degrees")
+      ->option_text("DEG")
+      ->check(from_to(1, 300));
+  command.add_option("--max-frames", options.max_frames, "without a board: look at no more frames than these")
+      ->option_text("N")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1000000));
+}
+
+Result<void> calibrate_roughly(const CalibrateOptions& options) {
+  defer_interrupts();
+  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  const Result<RoughOutputs> staged = begun(outputs, options);
+  if (!staged) return fail(staged.error());
+  const Result<RoughCalibration> found = found_in(options);
+  if (!found) return fail(found.error());
+  for (const Warning& warning : found->warnings) print_warning(warning);
+  if (const Result<void> written = write_all(outputs, *staged, *found); !written) return written;
+  for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
+  std::fprintf(stderr, "rough: %s\n", summary_of(*found).c_str());
+  return {};
+}
+
+}  // namespace sigs::cli

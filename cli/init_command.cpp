@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "cli/commands.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "cli/options.h"
+#include "cli/process.h"
+#include "first_project/first_project.h"
+
+namespace sigs::cli {
+
+namespace {
+
+struct InitOptions {
+  FirstProjectOptions project;
+  double fov_deg = 0;
+};
+
+Result<void> init(const InitOptions& options, bool has_fov) {
+  FirstProjectOptions project = options.project;
+  if (has_fov) project.horizontal_fov_deg = options.fov_deg;
+  defer_interrupts();
+  const Result<FirstProject> made = make_first_project(project, {.progress = {}, .cancel = &interrupt_flag()});
+  if (!made) return fail(made.error());
+  for (const Warning& warning : made->warnings) print_warning(warning);
+  for (const FirstProjectNote& note : made->notes)
+    std::fprintf(stderr, "%s: %s: %s\n", note.is_guess ? "guessed" : "found", note.field.c_str(), note.text.c_str());
+  const std::string file = made->project.file.string();
+  std::printf("%s\n", file.c_str());
+  std::fprintf(stderr, "next: sigs check %s; sigs export %s --out out; sigs-editor %s\n", file.c_str(), file.c_str(),
+               file.c_str());
+  return {};
+}
+
+}  // namespace
+
+Command add_init_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand("init", "make a first project from a video");
+  const auto options = std::make_shared<InitOptions>();
+  command->add_option("VIDEO", options->project.video, "the footage")->required()->check(not_empty());
+  CLI::Option* const calibration =
+      command->add_option("--calibration", options->project.calibration, "the camera's calibration file")
+          ->option_text("FILE")
+          ->check(not_empty());
+  CLI::Option* const fov = command->add_option("--fov", options->fov_deg, "horizontal field of view, in degrees")
+                               ->option_text("DEG")
+                               ->check(from_to(1, 359));
+  fov->excludes(calibration);
+  command->add_option("--model", options->project.model, "the intruder's model (obj); default: a light aircraft")
+      ->option_text("FILE")
+      ->check(not_empty());
+  command->add_option("--out", options->project.out, "the project file; default: NAME/NAME.json")
+      ->option_text("PROJECT.json")
+      ->check(output_path());
+  command->add_option("--name", options->project.name, "the project's name; default: that of the file")
+      ->option_text("NAME");
+  command->add_flag("--force", options->project.overwrite, "replace files that are there already");
+  return [options, fov] { return init(*options, fov->count() > 0); };
+}
+
+}  // namespace sigs::cli

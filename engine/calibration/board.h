@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace sigs {
+
+enum class BoardKind {
+  chessboard,
+  charuco,  // a chessboard with ArUco markers in its white squares: part of it is enough to be recognised
+};
+
+// A flat board with corners at known places. All lengths share one unit, and only the distance of the board depends on
+// it: the lens does not.
+struct CalibrationBoard {
+  BoardKind kind = BoardKind::chessboard;
+  cv::Size corners{9, 6};  // inner corners in a row and in a column: one less than squares
+  double square_m = 0.025;
+  double marker_m = 0.018;  // charuco: side of a marker
+  int dictionary = 0;       // charuco: number of the dictionary in cv::aruco
+
+  [[nodiscard]] int corner_count() const { return corners.area(); }
+
+  // Corner `id` in metres on the board, counted row by row from 0; z is 0.
+  [[nodiscard]] cv::Point2d corner_m(int id) const {
+    return {square_m * (id % corners.width), square_m * (id / corners.width)};
+  }
+};
+
+// What is seen of the board in one frame. Corners that are not seen are left out.
+struct BoardView {
+  std::string name;                // of the frame, for people: "frame 120", "left/0001.png"
+  std::vector<int> ids;            // of the corners, ascending
+  std::vector<cv::Point2d> at_px;  // where they are, as many; pixels as in base/image.h
+  double edge_px = 0;              // width of the board's edges, 10 to 90 %: how blurred the view is
+
+  [[nodiscard]] std::size_t size() const { return ids.size(); }
+};
+
+// Checks that such a board exists and can be looked for. Errors (usage) name what is wrong: fewer than 3 corners a
+// side, more than 100, a marker that is not smaller than its square, a dictionary with too few markers.
+[[nodiscard]] Result<void> check_board(const CalibrationBoard& board);
+
+// The number of a dictionary by its name in OpenCV, "DICT_4X4_50". Error usage, which lists the names.
+[[nodiscard]] Result<int> dictionary_of(std::string_view name);
+[[nodiscard]] std::string dictionary_name(int dictionary);
+
+}  // namespace sigs

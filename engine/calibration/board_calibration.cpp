@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/board_calibration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "base/pose.h"
+#include "base/text.h"
+#include "base/threads.h"
+#include "calibration/calibration_warnings.h"
+#include "calibration/model_choice.h"
+#include "calibration/robust_fit.h"
+
+namespace sigs {
+
+namespace {
+
+constexpr int kViewsForEight = 12;
+
+std::vector<FitModel> models_of(ModelWanted wanted, std::size_t views) {
+  std::vector<FitModel> models;
+  const auto add = [&](FitModel model, std::initializer_list<ModelWanted> by) {
+    if (std::ranges::find(by, wanted) != by.end()) models.push_back(model);
+  };
+  using enum ModelWanted;
+  add(FitModel::pinhole, {automatic, pinhole});
+  add(FitModel::brown_conrady_5, {automatic, brown_conrady});
+  add(FitModel::kannala_brandt, {automatic, fisheye});
+  if (views >= kViewsForEight) add(FitModel::brown_conrady_8, {automatic, brown_conrady});
+  return models;
+}
+
+// The views that count are those of the model that three tenths of them fit best: with a model that is too simple
+// those at the image's border would be left out.
+std::optional<RobustFit> agreed_fit(std::span<const FitModel> models, std::span<const FitView> views,
+                                    const LensFit& start) {
+  std::optional<RobustFit> best;
+  double best_px = 0;
+  for (const FitModel model : models) {
+    std::optional<RobustFit> fit = robust_fit(model, views, start);
+    if (!fit) continue;
+    std::vector<double> errors = fit->agreement.error_px;
+    std::ranges::sort(errors);
+    const double error_px = errors[(errors.size() - 1) * 3 / 10];
+    if (best && error_px >= best_px) continue;
+    best_px = error_px;
+    best = std::move(fit);
+  }
+  return best;
+}
+
+// A model with what it leaves, fitted to the views that count.
+struct FittedModel {
+  CalibratedModel model;
+  LensFit fit;
+  std::vector<double> squares;  // held out
+};
+
+std::optional<FittedModel> fitted_model(FitModel model, std::span<const FitView> counting, const LensFit& reference) {
+  LensFit fit{.model = model, .poses = reference.poses};
+  double angle_rad = 0;
+  for (std::size_t v = 0; v < counting.size(); ++v)
+    for (const Eigen::Vector3d& on_board : counting[v].on_board_m) {
+      const Eigen::Vector3d p = reference.poses[v] * on_board;
+      angle_rad = std::max(angle_rad, std::atan2(p.head<2>().norm(), p.z()));
+    }
+  fit.intrinsics = converted(reference, model, angle_rad);
+  fit = refined(counting, std::move(fit), all_free(model), {.iterations = 100});
+  if (!std::isfinite(fit.cost) || !Lens::make(lens_of(model, fit.intrinsics))) return std::nullopt;
+  FittedModel fitted{.model = {.model = model, .lens = lens_of(model, fit.intrinsics)},
+                     .squares = held_out_squares(counting, fit)};
+  const Eigen::VectorXd sd = standard_deviations(counting, fit);
+  fitted.model.sd.assign(sd.begin(), sd.end());
+  fitted.model.held_out_px = held_out_px(fitted.squares);
+  std::vector<Eigen::Vector2d> all;
+  for (std::size_t v = 0; v < counting.size(); ++v) {
+    const std::vector<Eigen::Vector2d> off = residuals_px(model, fit.intrinsics, fit.poses[v], counting[v]);
+    for (std::size_t i = 0; i < off.size(); ++i)
+      fitted.model.residuals.push_back(
+          {{counting[v].at_px[i].x(), counting[v].at_px[i].y()}, {off[i].x(), off[i].y()}});
+    all.insert(all.end(), off.begin(), off.end());
+  }
+  fitted.model.rms_px = rms_px(all);
+  fitted.fit = std::move(fit);
+  return fitted;
+}
+
+// The reference with the poses of the views that count alone.
+LensFit counting_poses(const RobustFit& reference) {
+  LensFit fit = reference.fit;
+  fit.poses.clear();
+  for (std::size_t v = 0; v < reference.fit.poses.size(); ++v)
+    if (reference.agreement.view[v]) fit.poses.push_back(reference.fit.poses[v]);
+  return fit;
+}
+
+std::size_t choice(std::span<const FittedModel> fitted) {
+  std::size_t chosen = 0;
+  for (std::size_t i = 1; i < fitted.size(); ++i)
+    if (is_clearly_better(fitted[i].squares, fitted[chosen].squares)) chosen = i;
+  return chosen;
+}
+
+CalibratedView view_of(const BoardView& seen, const FitView& view, const RobustFit& reference, std::size_t v,
+                       const LensFit& chosen, const BoardPose& pose) {
+  const auto left_out = std::ranges::count(reference.agreement.corner[v], false);
+  const double facing = std::abs((pose.turn * Eigen::Vector3d::UnitZ()).z());
+  FitView counting;
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (reference.agreement.view[v] && !reference.agreement.corner[v][i]) continue;
+    counting.on_board_m.push_back(view.on_board_m[i]);
+    counting.at_px.push_back(view.at_px[i]);
+  }
+  return {.name = seen.name,
+          .corners = static_cast<int>(seen.size()),
+          .corners_left_out = static_cast<int>(left_out),
+          .is_used = reference.agreement.view[v],
+          .error_px = rms_px(residuals_px(chosen.model, chosen.intrinsics, pose, counting)),
+          .edge_px = seen.edge_px,
+          .tilt_deg = deg_of_rad(std::acos(std::min(1.0, facing))),
+          .distance_m = pose.at_m.norm()};
+}
+
+std::vector<CalibratedView> views_of(const std::vector<BoardView>& seen, std::span<const FitView> views,
+                                     const RobustFit& reference, const LensFit& chosen) {
+  std::vector<CalibratedView> all;
+  std::size_t next = 0;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const bool is_used = reference.agreement.view[v];
+    const BoardPose pose = is_used ? chosen.poses[next++] : reference.fit.poses[v];
+    all.push_back(view_of(seen[v], views[v], reference, v, chosen, pose));
+  }
+  return all;
+}
+
+Error too_few(std::size_t views) {
+  return {"", fmt::format("the board was found in {} sharp views that differ; show it in 15 or more positions, tilted, "
+                          "near and far, in all parts of the image",
+                          views)};
+}
+
+Result<BoardCalibration> calibrated(const std::vector<BoardView>& seen, const CalibrationBoard& board, cv::Size size_px,
+                                    ModelWanted wanted) {
+  constexpr std::size_t kFewest = 3;
+  if (seen.size() < kFewest) return fail(too_few(seen.size()));
+  std::vector<FitView> views;
+  for (const BoardView& view : seen) views.push_back(fit_view_of(view, board));
+  const std::optional<LensFit> start = first_fit(views, size_px);
+  const std::vector<FitModel> models = models_of(wanted, views.size());
+  const std::optional<RobustFit> reference = start ? agreed_fit(models, views, *start) : std::nullopt;
+  if (!reference)
+    return fail("", "no lens fits the views: is the board flat and not moving, are --corners and --model right?");
+  const std::vector<FitView> counting = agreeing(views, reference->agreement);
+  std::vector<FittedModel> fitted;
+  for (const FitModel model : models) {
+    if (model == FitModel::brown_conrady_8 && counting.size() < kViewsForEight) continue;
+    std::optional<FittedModel> one = fitted_model(model, counting, counting_poses(*reference));
+    if (one) fitted.push_back(std::move(*one));
+  }
+  if (fitted.empty()) return fail("", "no lens fits the views: is --model right?");
+  BoardCalibration calibration{.size_px = size_px, .chosen = choice(fitted)};
+  calibration.views = views_of(seen, views, *reference, fitted[calibration.chosen].fit);
+  for (FittedModel& one : fitted) calibration.models.push_back(std::move(one.model));
+  calibration.warnings = calibration_warnings(calibration);
+  return calibration;
+}
+
+}  // namespace
+
+int BoardCalibration::views_used() const {
+  return static_cast<int>(std::ranges::count_if(views, [](const CalibratedView& view) { return view.is_used; }));
+}
+
+Result<BoardCalibration> calibrate_views(const std::vector<BoardView>& views, const CalibrationBoard& board,
+                                         cv::Size size_px, ModelWanted wanted) {
+  return guarded([&] { return calibrated(views, board, size_px, wanted); });
+}
+
+}  // namespace sigs

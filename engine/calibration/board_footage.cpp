@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "calibration/board_footage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "base/image.h"
+#include "base/image_codecs.h"
+#include "base/input_file.h"
+#include "base/paths.h"
+#include "base/text.h"
+#include "base/threads.h"
+#include "calibration/board_detection.h"
+#include "video/luma_stream.h"
+
+namespace sigs {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int kBatch = 8;           // images searched side by side
+constexpr int kLooksForOthers = 4;  // images in which another board is looked for
+constexpr int kLargestImage_px = 1 << 28;
+
+struct Candidate {
+  std::string name;
+  cv::Mat luma;
+};
+
+// Searches images in batches, and keeps what is found in their order.
+class Searcher {
+ public:
+  Searcher(const CalibrationBoard& board, const BoardSearch& search) : board_(board), search_(search) {}
+
+  [[nodiscard]] bool is_cancelled() const { return search_.cancel != nullptr && *search_.cancel; }
+
+  // An image of another size than the first is left out.
+  void add(Candidate candidate) {
+    if (found_.size_px.empty()) found_.size_px = candidate.luma.size();
+    if (candidate.luma.size() != found_.size_px) {
+      if (others_++ == 0) other_ = fmt::format("{} is {}", candidate.name, image_size_text(candidate.luma.size()));
+      return;
+    }
+    batch_.push_back(std::move(candidate));
+    if (batch_.size() == kBatch) search_batch();
+  }
+
+  void tell(int done, int total) const {
+    if (search_.progress) search_.progress(done, total);
+  }
+
+  BoardFootage finished() {
+    search_batch();
+    if (others_ > 0)
+      found_.warnings.push_back(
+          {other_, fmt::format("the first image is {}: {} of another size left out; calibrate each size by itself",
+                               image_size_text(found_.size_px), count_text(others_, "image"))});
+    return std::move(found_);
+  }
+
+ private:
+  void search_batch() {
+    std::vector<std::optional<BoardView>> views(batch_.size());
+    const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    parallel_for(static_cast<int>(batch_.size()), threads, [&](int i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (!is_cancelled()) views[at] = found_board(batch_[at].luma, board_);
+    });
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      ++found_.searched;
+      if (views[i]) {
+        views[i]->name = batch_[i].name;
+        found_.views.push_back(std::move(*views[i]));
+      } else if (found_.views.empty() && found_.seen_instead.empty() && looked_++ < kLooksForOthers) {
+        found_.seen_instead = other_board_in(batch_[i].luma, board_);
+      }
+    }
+    batch_.clear();
+  }
+
+  const CalibrationBoard& board_;
+  const BoardSearch& search_;
+  BoardFootage found_;
+  std::vector<Candidate> batch_;
+  int others_ = 0;  // images of another size
+  std::string other_;
+  int looked_ = 0;
+};
+
+Error stopped() {
+  return {"", "interrupted", ErrorKind::interrupted};
+}
+
+Result<void> search_video(const fs::path& path, const BoardSearch& search, Searcher& searcher) {
+  Result<FrameSource> footage = FrameSource::open(path, search.cancel);
+  if (!footage) return fail(footage.error());
+  const int count = footage->info().frame_count();
+  const int group = (count + search.most_searched - 1) / std::max(1, search.most_searched);
+  LumaStream stream(*footage, {.first = 0, .every = 1, .count = count});
+  std::optional<LumaFrame> best;
+  double best_detail = -1;
+  while (std::optional<Result<LumaFrame>> next = stream.next()) {
+    if (!*next) return fail(next->error());
+    LumaFrame frame = std::move(**next);
+    const int number = frame.number;
+    const double detail = group > 1 ? detail_of(frame.luma) : 0;
+    if (!frame.damaged && detail > best_detail) {
+      best_detail = detail;
+      best = std::move(frame);
+    }
+    if ((number + 1) % group == 0 || number + 1 == count) {
+      if (best) searcher.add({fmt::format("frame {}", best->number), best->luma.clone()});
+      best.reset();
+      best_detail = -1;
+    }
+    searcher.tell(number + 1, count);
+    if (searcher.is_cancelled()) return fail(stopped());
+  }
+  return {};
+}
+
+Result<cv::Mat> luma_of_image(const fs::path& path) {
+  if (const Result<void> there = check_input_file(path, "image"); !there) return fail(there.error());
+  if (const std::optional<cv::Size> size_px = image_size_px(path); size_px)
+    if (static_cast<double>(size_px->width) * size_px->height > kLargestImage_px)
+      return fail(path.string(), fmt::format("is {}: too large", image_size_text(*size_px)));
+  try {
+    cv::Mat luma = image_codecs::imread(path.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    if (!luma.empty()) return luma;
+  } catch (const cv::Exception&) {
+    if (is_out_of_memory()) throw;
+  }
+  return fail(path.string(), "is no image that can be read");
+}
+
+Result<void> search_images(const std::vector<fs::path>& paths, Searcher& searcher) {
+  int done = 0;
+  for (const fs::path& path : paths) {
+    Result<cv::Mat> luma = luma_of_image(path);
+    if (!luma) return fail(luma.error());
+    searcher.add({path.filename().string(), std::move(*luma)});
+    searcher.tell(++done, static_cast<int>(paths.size()));
+    if (searcher.is_cancelled()) return fail(stopped());
+  }
+  return {};
+}
+
+Result<std::vector<fs::path>> images_in(const fs::path& folder) {
+  Result<std::vector<fs::path>> paths = folder_contents(folder);
+  if (!paths) return fail(paths.error());
+  std::erase_if(*paths, [](const fs::path& path) { return !is_image_name(path); });
+  if (paths->empty()) return fail(folder.string(), "no images in this folder", ErrorKind::cannot_read);
+  return paths;
+}
+
+Result<BoardFootage> found_in(const std::vector<fs::path>& inputs, const CalibrationBoard& board,
+                              const BoardSearch& search) {
+  Searcher searcher(board, search);
+  std::vector<fs::path> images;
+  for (const fs::path& input : inputs) {
+    if (is_image_name(input)) {
+      images.push_back(input);
+    } else if (is_folder(input)) {
+      const Result<std::vector<fs::path>> more = images_in(input);
+      if (!more) return fail(more.error());
+      images.insert(images.end(), more->begin(), more->end());
+    } else if (const Result<void> done = search_video(input, search, searcher); !done) {
+      return fail(done.error());
+    }
+  }
+  if (const Result<void> done = search_images(images, searcher); !done) return fail(done.error());
+  BoardFootage found = searcher.finished();
+  if (searcher.is_cancelled()) return fail(stopped());
+  return found;
+}
+
+}  // namespace
+
+bool is_image_name(const fs::path& path) {
+  static constexpr std::array<std::string_view, 8> kExtensions{".png",  ".jpg", ".jpeg", ".tif",
+                                                               ".tiff", ".bmp", ".webp", ".pgm"};
+  return std::ranges::find(kExtensions, lower_extension(path)) != kExtensions.end();
+}
+
+Result<BoardFootage> board_footage(const std::vector<fs::path>& inputs, const CalibrationBoard& board,
+                                   const BoardSearch& search) {
+  return guarded([&] { return found_in(inputs, board, search); });
+}
+
+}  // namespace sigs

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "calibration/rough_fit.h"
+#include "calibration/rough_tracks.h"
+#include "telemetry/track.h"
+
+namespace sigs {
+
+// The lens by a gyroscope: how far the image moves for a known turn.
+struct GyroAnswer {
+  RoughAnswer answer;
+  std::string source;   // of the rates in the log: "GPMF GYRO"
+  double offset_s = 0;  // time of the log less that of the footage
+  double offset_sd_s = 0;
+  double correlation = 0;  // of the turns seen and recorded
+};
+
+// First the offset and a first focal length by the correlation of turns seen and recorded (ego_motion/time_offset.h);
+// then focal length, distortion, offset and the axes of the gyroscope by least squares over single features: a feature
+// is followed from one frame to one before it and one after it, and the sum of both misses is made small, from which
+// all that moves evenly meanwhile cancels: the aircraft's own travel, the gyroscope's bias. Refused where the log has
+// no rates, the turns seen do not follow it (stabilised footage, another flight), or the camera turns too little.
+[[nodiscard]] GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const DistortionPrior& prior);
+
+}  // namespace sigs

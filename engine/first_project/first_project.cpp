@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "first_project/first_project.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "base/paths.h"
+#include "base/pose.h"
+#include "base/text.h"
+#include "first_project/first_camera.h"
+#include "first_project/first_flight.h"
+#include "first_project/first_log.h"
+#include "first_project/first_look.h"
+#include "first_project/first_model.h"
+#include "scene/camera_track.h"
+#include "scene/opened_project.h"
+#include "scene/scene_parts.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kLongestSpan_s = 60;  // an encounter lasts about that long
+constexpr const char* kModelFolder = "light-aircraft";
+
+// A path as the project names it: relative to its folder, so that both can be moved together.
+std::string relative_to(const fs::path& file, const fs::path& project_file) {
+  const fs::path from = canonical_path(project_file.parent_path());
+  const fs::path path = canonical_name(file).lexically_relative(from);
+  return path.empty() ? canonical_name(file).string() : path.generic_string();
+}
+
+// The frames that are used: all, or the middle minute of a long clip.
+struct UsedFrames {
+  FrameRange range;
+  std::optional<FirstProjectNote> note;
+};
+
+UsedFrames used_frames(const FootageShape& footage) {
+  const int last = static_cast<int>(footage.times_s.size()) - 1;
+  const double length_s = footage.times_s.back();
+  UsedFrames used{.range = {0, last}, .note = {}};
+  if (length_s <= kLongestSpan_s * 1.5) return used;
+  const double begin_s = (length_s - kLongestSpan_s) / 2;
+  const auto frame_near = [&](double time_s) {
+    return std::clamp(static_cast<int>(std::floor(frame_at_time(footage, time_s))), 0, last);
+  };
+  used.range = {frame_near(begin_s), frame_near(begin_s + kLongestSpan_s)};
+  used.note = FirstProjectNote{
+      .field = "footage.first_frame",
+      .text = fmt::format("frames {} to {}: the middle minute of {}; footage.first_frame and last_frame change it",
+                          used.range.first, used.range.last, clock_text(length_s)),
+      .is_guess = true};
+  return used;
+}
+
+std::string stem_of(const fs::path& file) {
+  std::string stem = file.stem().string();
+  while (!stem.empty() && stem.front() == '.') stem.erase(0, 1);
+  return stem.empty() ? "project" : stem;
+}
+
+Result<void> check_options(const FirstProjectOptions& options) {
+  if (!options.calibration.empty() && options.horizontal_fov_deg)
+    return fail("calibration", "states the field of view; give it or a field of view, not both", ErrorKind::usage);
+  if (!options.out.empty() && lower_extension(options.out) != ".json")
+    return fail(options.out.string(), "a project file ends in .json", ErrorKind::usage);
+  const std::string wrong = options.name.empty() ? "" : wrong_with_file_name(options.name);
+  return wrong.empty() ? Result<void>() : fail("name", wrong, ErrorKind::usage);
+}
+
+// All that is made on the way from the video to the project.
+class Planning {
+ public:
+  Planning(const FirstProjectOptions& options, const FirstProjectControl& control)
+      : options_(options), control_(control) {}
+
+  Result<FirstProject> planned() {
+    if (const Result<void> sound = check_options(options_); !sound) return fail(sound.error());
+    step("reading the video");
+    Result<FrameSource> source = FrameSource::open(options_.video, control_.cancel);
+    if (const Result<void> on = check_interrupt(control_.cancel); !on) return fail(on.error());
+    if (!source) return fail(source.error());
+    const VideoInfo info = source->info();
+    footage_ = shape_of(info);
+    name_project();
+    if (const Result<void> done = set_camera(info); !done) return fail(done.error());
+    if (const Result<void> done = look(*source); !done) return fail(done.error());
+    if (const Result<void> done = set_intruder(); !done) return fail(done.error());
+    step("");
+    first_.warnings.insert(first_.warnings.begin(), info.warnings.begin(), info.warnings.end());
+    add_notes_file();
+    return std::move(first_);
+  }
+
+ private:
+  void step(const std::string& next) {
+    constexpr int kSteps = 4;
+    if (control_.progress) control_.progress(steps_done_, kSteps, next);
+    ++steps_done_;
+  }
+
+  Project& project() { return first_.project; }
+  [[nodiscard]] fs::path beside(const std::string& suffix) const {
+    const fs::path& file = first_.project.file;
+    return file.parent_path() / (stem_of(file) + suffix);
+  }
+  void note(FirstProjectNote note) { first_.notes.push_back(std::move(note)); }
+
+  void name_project() {
+    const std::string name = !options_.name.empty()  ? options_.name
+                             : !options_.out.empty() ? stem_of(options_.out)
+                                                     : stem_of(options_.video);
+    const fs::path out = options_.out.empty() ? fs::path(name) / (name + ".json") : options_.out;
+    project().file = canonical_name(out);
+    project().name = name;
+    project().footage.video = relative_to(options_.video, project().file);
+    const UsedFrames used = used_frames(footage_);
+    range_ = used.range;
+    if (!used.note) return;
+    project().footage.first_frame = range_.first;
+    project().footage.last_frame = range_.last;
+    note(*used.note);
+  }
+
+  Result<void> set_camera(const VideoInfo& info) {
+    step("reading the flight log");
+    Result<FirstLog> log = log_of_video(options_.video, control_.cancel);
+    if (!log) return fail(log.error());
+    log_ = *std::move(log);
+    Result<FirstCamera> camera = first_camera(options_, info, log_.lens);
+    if (!camera) return fail(camera.error());
+    camera_ = camera->camera;
+    note(camera->note);
+    if (camera->calibration_text.empty()) {
+      project().footage.calibration = relative_to(options_.calibration, project().file);
+    } else {
+      const fs::path file = beside(".calibration.xml");
+      first_.files.push_back({.path = file, .content = camera->calibration_text, .copy_of = {}});
+      project().footage.calibration = file.filename().string();
+    }
+    const std::string log_path = log_.file.empty() ? "" : relative_to(log_.file, project().file);
+    for (FirstProjectNote& track : set_track(log_, log_path, footage_, range_, project())) note(std::move(track));
+    return {};
+  }
+
+  // The scene as far as it is known. The log fits: set_track() has tried it.
+  Scene scene() {
+    Scene scene = bare_scene(project(), footage_);
+    scene.camera = *camera_;
+    scene.first_frame = range_.first;
+    scene.last_frame = range_.last;
+    if (project().camera.track.file.empty()) {
+      take_camera_flight(scene, steady_flight(project()));
+    } else if (OrProblem<CameraFlight> flight = flight_by_log(project(), *log_.track, footage_, range_)) {
+      take_camera_flight(scene, *std::move(flight));
+    }
+    return scene;
+  }
+
+  Result<void> look(FrameSource& source) {
+    step("looking at the footage");
+    const Result<FirstLook> look = first_look(source, scene(), control_.cancel);
+    if (!look) return fail(look.error());
+    if (look->roll_rad) {
+      const auto rounded_deg = [](double rad) { return std::round(10 * deg_of_rad(rad)) / 10; };
+      project().camera.roll_deg = rounded_deg(*look->roll_rad);
+      project().camera.pitch_deg = rounded_deg(*look->pitch_rad);
+      note(
+          {.field = "camera.attitude_deg",
+           .text = fmt::format("roll {}, pitch {}: by the horizon in a few frames; `sigs ego-motion` finds each "
+                               "frame's attitude",
+                               number_text(*project().camera.roll_deg, 1), number_text(*project().camera.pitch_deg, 1)),
+           .is_guess = true});
+    } else if (!scene().horizon_is_known) {
+      note({.field = "camera.attitude_deg",
+            .text = "not known: no horizon was found in the footage; the camera counts as level",
+            .is_guess = true});
+    }
+    note(set_light(*look, project()));
+    return {};
+  }
+
+  Result<void> set_intruder() {
+    step("placing the intruder");
+    SceneFiles files;
+    Result<FirstModel> model = options_.model.empty() ? sample_model(files) : users_model(options_.model, files);
+    if (!model) return fail(model.error());
+    if (const Result<void> placed = set_model_file(*model); !placed) return placed;
+    FirstFlight flight = first_flight(scene(), model->model);
+    first_.visibility = flight.visibility;
+    IntruderSettings intruder{.name = "intruder", .category = model->category, .model = model->settings};
+    intruder.trajectory.waypoints = std::move(flight.waypoints);
+    project().intruders = {std::move(intruder)};
+    project().camera.position_m.z -= flight.raise_m;
+    note({.field = "camera.position_m",
+          .text = fmt::format("{} m above the ground", number_text(-project().camera.position_m.z, 0)),
+          .is_guess = true});
+    first_.notes.insert(first_.notes.end(), model->notes.begin(), model->notes.end());
+    note(flight.note);
+    first_.warnings.insert(first_.warnings.end(), model->warnings.begin(), model->warnings.end());
+    return {};
+  }
+
+  // The sample is copied, so that the project does not depend on where SIGS is installed.
+  Result<void> set_model_file(FirstModel& model) {
+    if (!options_.model.empty()) {
+      model.settings.file = relative_to(options_.model, project().file);
+      return {};
+    }
+    model.settings.file = (fs::path(kModelFolder) / model.file.filename()).generic_string();
+    const Result<std::vector<FirstProjectFile>> copies =
+        copied_model(model.file, project().file.parent_path() / kModelFolder);
+    if (!copies) return fail(copies.error());
+    first_.files.insert(first_.files.end(), copies->begin(), copies->end());
+    return {};
+  }
+
+  // What was decided, as a text beside the project.
+  void add_notes_file() {
+    std::string text = fmt::format("What is in {}, and why. \"guessed\" is what to look at first.\n\n",
+                                   project().file.filename().string());
+    for (const FirstProjectNote& note : first_.notes)
+      text += fmt::format("{}{}\n    {}\n", note.field, note.is_guess ? " (guessed)" : "", note.text);
+    first_.files.push_back({.path = beside(".notes.txt"), .content = text, .copy_of = {}});
+  }
+
+  const FirstProjectOptions& options_;
+  const FirstProjectControl& control_;
+  FirstProject first_;
+  FootageShape footage_;
+  FrameRange range_;
+  FirstLog log_;
+  std::optional<Camera> camera_;
+  int steps_done_ = 0;
+};
+
+}  // namespace
+
+Result<FirstProject> planned_first_project(const FirstProjectOptions& options, const FirstProjectControl& control) {
+  return Planning(options, control).planned();
+}
+
+}  // namespace sigs

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "labels/json_lines.h"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <string>
+
+#include "base/pose.h"
+#include "labels/label_writing.h"
+#include "support/comma_locale.h"
+#include "support/files.h"
+#include "support/test_data.h"
+
+namespace sigs::test {
+
+using namespace labels;
+
+namespace {
+
+using Values = std::map<std::string, std::string>;
+
+IntruderTruth everything(int id, const std::string& name) {
+  IntruderTruth truth = visible_intruder(id, {301, 0, 41, 13});
+  truth.name = name;
+  truth.position_m = {899.2345678, -250.1, -20.00000049};
+  truth.attitude = {rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)};
+  truth.visible_fraction = 2.0 / 3;
+  truth.amodal_box = Box{300.62341, -1.8833333, 41.375, 13.02};
+  truth.horizon = HorizonSide::above;
+  truth.place = GeodeticPosition{48.123456789012, 11.5, 612.25};
+  truth.detectability = Detectability{-0.4123456789, 0.447, 7.25};
+  truth.image_formation = {.blur_px = 0.45, .motion_blur_px = 1.5, .visibility_m = 20000};
+  truth.is_distractor = id == 1;
+  truth.encounter = EncounterTruth{.range_rate_mps = -61.23456789,
+                                   .closing_speed_mps = 61.23456789,
+                                   .bearing_rad = rad_of_deg(-12.5),
+                                   .elevation_rad = rad_of_deg(0.3333333333),
+                                   .hmd_m = 12.0000004,
+                                   .vmd_m = -1e8,
+                                   .time_to_closest_approach_s = 1e15,
+                                   .time_to_coaltitude_s = std::numeric_limits<double>::infinity(),
+                                   .of_volumes = {{"dwc-en-route", true, 17.25, 42.123456789},
+                                                  {"nmac", false, std::numeric_limits<double>::infinity(), 0}}};
+  return truth;
+}
+
+FrameTruth whole_frame(const std::string& name) {
+  FrameTruth frame = frame_of(117, {everything(0, name), everything(1, name), invisible_intruder(2)});
+  frame.substituted = true;
+  frame.camera_position_m = {39.123456789, -0.0, -150};
+  frame.camera_attitude = {rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)};
+  frame.camera = {.position_source = "a log",
+                  .attitude_source = name,
+                  .attitude_sd_rad = glm::dvec3(0.001, 0.002, 0.1),
+                  .place = GeodeticPosition{-33.9, 151.2, 100}};
+  return frame;
+}
+
+// Attributes of an element and of those in it, by their path. Elements of one name are numbered.
+void collect(const pugi::xml_node& node, const std::string& path, Values& values) {
+  for (const pugi::xml_attribute attribute : node.attributes()) values[path + attribute.name()] = attribute.value();
+  std::map<std::string, int> numbers;
+  for (const pugi::xml_node child : node.children()) {
+    const std::string name = child.name();
+    const bool is_listed = name == "intruder" || name == "well_clear";
+    const std::string number = is_listed ? std::to_string(numbers[name]++) + "." : "";
+    collect(child, path + name + "." + number, values);
+  }
+}
+
+// The text of each value as it stands in the line, so that digits are compared. Lists have the singular's name.
+void collect(const nlohmann::json& json, const std::string& path, Values& values) {
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_array())
+      for (std::size_t i = 0; i < value.size(); ++i)
+        collect(value[i], path + (key == "intruders" ? "intruder" : key) + "." + std::to_string(i) + ".", values);
+    else if (value.is_object())
+      collect(value, path + key + ".", values);
+    else
+      values[path + key] = value.is_string() ? value.get<std::string>() : value.dump();
+  }
+}
+
+LabelSequence three_intruders() {
+  LabelSequence clip = synthetic_sequence(117, 117, {"airplane", "drone", "bird"});
+  clip.volumes = {"dwc-en-route", "nmac"};
+  return clip;
+}
+
+double as_number(const std::string& text) {
+  return std::stod(text);
+}
+
+}  // namespace
+
+TEST_CASE("a line of JSON has every attribute of the XML file's frame, and nothing else but three") {
+  const CommaLocale comma;
+  for (const std::string& name : special_names()) {
+    const TemporaryFolder folder;
+    write_labels("xml", folder / "l.xml", three_intruders(), {whole_frame(name)});
+    write_labels("jsonl", folder / "l.jsonl", three_intruders(), {whole_frame(name)});
+    pugi::xml_document document;
+    REQUIRE(document.load_file((folder / "l.xml").c_str()));
+    Values xml;
+    collect(document.child("sigs").child("frame"), "", xml);
+    const std::vector<std::string> lines = lines_of(folder / "l.jsonl");
+    REQUIRE(lines.size() == 1);
+    Values json;
+    collect(nlohmann::json::parse(lines.front()), "", json);
+    CHECK(json.erase("width") + json.erase("height") == 2);
+    for (const char* const id : {"0", "1", "2"}) CHECK(json.erase(std::string("intruder.") + id + ".category") == 1);
+    // The camera's position and attitude are attributes of one element there, <distance m> is distance_m here.
+    Values expected;
+    for (const auto& [path, value] : xml) {
+      std::string key = path;
+      if (key.starts_with("camera.") && key.find('.', 7) == std::string::npos) {
+        const std::string last = key.substr(7);
+        if (last == "x_m" || last == "y_m" || last == "z_m") key = "camera.position." + last;
+        if (last == "roll_deg" || last == "pitch_deg" || last == "yaw_deg") key = "camera.attitude." + last;
+      }
+      if (key.ends_with("distance.m")) key.replace(key.size() - 10, 10, "distance_m");
+      expected[key] = value;
+    }
+    CHECK(expected.size() > 90);
+    for (const auto& [key, value] : expected) {
+      REQUIRE_MESSAGE(json.contains(key), key);
+      const bool is_number = value.find_first_not_of("0123456789.-") == std::string::npos && value != name;
+      if (is_number)
+        CHECK_MESSAGE(as_number(json[key]) == as_number(value), key);
+      else
+        CHECK_MESSAGE(json[key] == value, key);
+      json.erase(key);
+    }
+    CHECK(json.empty());
+  }
+}
+
+TEST_CASE("the digits of a line's numbers are those of the XML file") {
+  const std::string line = json_line_of(whole_frame("x"), three_intruders());
+  for (const char* const piece :
+       {"\"x_m\":899.234568,", "\"z_m\":-20}", "\"yaw_deg\":-180}", "\"visible_fraction\":0.666667,", "\"x\":300.6234,",
+        "\"latitude_deg\":48.123456789,", "\"vmd_m\":-100000000,", "\"y_m\":0,"})
+    CHECK_MESSAGE(line.find(piece) != std::string::npos, piece);
+  CHECK(line.find("coaltitude") == std::string::npos);
+  CHECK(line.back() == '\n');
+  CHECK(line.find('\n') == line.size() - 1);
+}
+
+TEST_CASE("a stream has each line at once, and the lines of the file") {
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  JsonLinesStream stream(OutputStream::of_descriptor(ends[1], "pipe").value(), three_intruders());
+  ::close(ends[1]);
+  const TemporaryFolder folder;
+  FrameTruth second = whole_frame("b");
+  second.index = 118;
+  write_labels("jsonl", folder / "l.jsonl", three_intruders(), {whole_frame("a"), second});
+  const std::vector<std::string> lines = lines_of(folder / "l.jsonl");
+  REQUIRE(lines.size() == 2);
+  std::vector<FrameTruth> frames{whole_frame("a"), second};
+  for (std::size_t i = 0; i < 2; ++i) {
+    REQUIRE(stream.write(frames[i]));
+    std::string bytes(8000, '\0');
+    bytes.resize(static_cast<std::size_t>(::read(ends[0], bytes.data(), bytes.size())));
+    CHECK(bytes == lines[i] + "\n");
+  }
+  REQUIRE(stream.finish({}));
+  char byte = 0;
+  CHECK(::read(ends[0], &byte, 1) == 0);
+  ::close(ends[0]);
+}
+
+}  // namespace sigs::test
