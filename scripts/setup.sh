@@ -2,8 +2,9 @@
 # Installs the packages that SIGS needs, on Debian 12 or Ubuntu 24.04, and builds it. Sourced by demo.sh and test.sh.
 #   sigs_install programs         the packages to build and run the two programs
 #   sigs_install programs tests   and those for tests and measurements
+#   sigs_install programs package and those for the Python module and the Debian packages
 #   sigs_build PRESET [cmake options] [-- targets]
-# On its own, scripts/setup.sh installs both lists and builds nothing.
+# On its own, scripts/setup.sh installs all lists and builds nothing.
 set -euo pipefail
 
 sigs_packages_programs=(
@@ -14,12 +15,18 @@ sigs_packages_programs=(
   pybind11-dev python3-dev python3-numpy
   libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
 )
+# For the Debian packages (scripts/package.sh).
+sigs_packages_package=(
+  dpkg-dev file gzip
+)
 # doctest; Embree for the reference renderer; FFmpeg's, GeographicLib's and libxml2's programs as independent checks; Xvfb and xdotool for the
-# window; gnuplot for plots of reports; Slurm for a dataset made by an array job; Python's tools for the wheel and types.
+# window; gnuplot for plots of reports; Slurm for a dataset made by an array job; Python's tools for the wheel and types;
+# man, zsh and desktop-file-validate for what is installed.
 sigs_packages_tests=(
   doctest-dev libembree-dev ffmpeg geographiclib-tools libxml2-utils xvfb xdotool gnuplot-nox
   slurmctld slurmd slurm-client munge
   python3-build python3-venv python3-pip mypy
+  man-db zsh desktop-file-utils
 )
 
 sigs_as_root() {
@@ -65,4 +72,4 @@ sigs_build() {
 }
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-[ "${BASH_SOURCE[0]}" != "$0" ] || sigs_install programs tests
+[ "${BASH_SOURCE[0]}" != "$0" ] || sigs_install programs tests package
