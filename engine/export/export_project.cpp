@@ -110,6 +110,15 @@ void warn_of_missing_images(const ExportSettings& output, const ExportControl& c
                          names)});
 }
 
+void warn_of_even_times(const Project& project, const VideoInfo& footage, const ExportControl& control,
+                        ExportReport& report) {
+  if (project.output.container == ContainerChoice::y4m && footage.variable_frame_rate)
+    say(control, report,
+        {project.file.string() + ": export.video.container",
+         "y4m has no times, and the footage's frames are not evenly spaced: readers see them at the nominal rate; the "
+         "container nut keeps the times"});
+}
+
 Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
   const Stopwatch watch;
   const Project& project = request.project;
@@ -124,6 +133,7 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
   ExportReport report;
   report.visibilities.assign(scene.intruders.size(), {.frames = range->last - range->first + 1});
   for (const Warning& warning : opened->warnings) say(control, report, warning);
+  warn_of_even_times(project, video, control, report);
   Result<ExportFiles> files = ExportFiles::open(request, video, scene, *range, control.cancel);
   if (!files) return fail(files.error());
   {

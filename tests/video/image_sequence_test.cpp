@@ -160,17 +160,6 @@ TEST_CASE("images of 16 bits keep their samples, as OpenCV reads them") {
   }
 }
 
-TEST_CASE("an image of another kind among the others is named") {
-  const TemporaryFolder folder;
-  write_images(folder / "a", "%d.png", 0, 3);
-  REQUIRE(cv::imwrite((folder / "a/2.png").string(), cv::Mat(kImageSize, CV_8UC1, cv::Scalar(9))));
-  FrameSource source = opened(folder / "a");
-  const Result<Frame> frame = source.read(2);
-  REQUIRE_FALSE(frame);
-  CHECK(frame.error().kind == ErrorKind::bad_data);
-  CHECK(error_says(frame.error(), "2.png"));
-}
-
 TEST_CASE("damaged images are substituted by the last intact one before them") {
   const TemporaryFolder folder;
   for (const char* const pattern : {"%d.png", "%d.tiff", "%d.jpg"}) {
