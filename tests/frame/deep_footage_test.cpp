@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kDeepFrames = 4;
-constexpr cv::Size kDeepSize(160, 120);
+const cv::Size kDeepSize(160, 120);
 
 bool ffmpeg(const std::string& arguments) {
   if (std::system(("ffmpeg -nostdin -hide_banner -loglevel quiet -y " + arguments).c_str()) == 0) return true;
@@ -120,6 +120,7 @@ TEST_CASE("footage of 10 and 12 bits keeps the bits that ffmpeg decodes wherever
 
 TEST_CASE("the composite of deep footage is that of its 8-bit copy, to the step of 8 bits") {
   Scenario scenario(kDeepSize, kDeepFrames);
+  write_footage(scenario.path("deep.mkv"), kDeepSize, kDeepFrames, PixelLayout::yuv420);
   prepare_deep(scenario);
   const Scene scene = scenario.opened();
   const Frame eight = grainy_frame(kDeepSize, 1);
