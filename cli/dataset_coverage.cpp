@@ -5,10 +5,11 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
+
 #include <string_view>
 #include <utility>
 
+#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
@@ -46,7 +47,7 @@ Result<void> report_coverage(const Coverage& coverage, const std::string& title,
     std::string bytes;
     if (is_plot) {
       std::vector<unsigned char> png;
-      cv::imencode(".png", coverage_plot(coverage, title), png);
+      image_codecs::imencode(".png", coverage_plot(coverage, title), png);
       bytes.assign(png.begin(), png.end());
     } else {
       bytes = coverage_json(coverage, title);

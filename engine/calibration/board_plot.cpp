@@ -195,7 +195,7 @@ void draw_by_radius(cv::Mat image, const BoardCalibration& calibration) {
     for (const cv::Point2d& point : lines.back()) most = std::max(most, point.y);
   }
   // A model that misses by much would press the others to the axis.
-  most = std::clamp(1.1 * most, 1e-3, 5 * std::max(calibration.best().rms_px, 1e-3));
+  most = std::clamp(1.1 * most, 1e-3, 3 * std::max(calibration.best().rms_px, 1e-3));
   Chart chart(image, {0, 0, largest_px, most}, false);
   chart.draw_frame("rms of the residuals [px]", "", "distance from the principal point [px]");
   int x = kLeft_px;
@@ -217,16 +217,13 @@ void draw_views(cv::Mat image, const BoardCalibration& calibration) {
   const double most = 2.5 * largest;
   const auto count = static_cast<double>(calibration.views.size());
   Chart chart(image, {0, 0, count, most}, false);
-  chart.draw_frame("error of each view [px]; dots: width of its edges / 10",
-                   "blue: used; red: not used, cut off where larger", "view");
+  chart.draw_frame("error of each view [px]", "blue: used; red: not used, cut off where larger", "view");
   for (std::size_t i = 0; i < calibration.views.size(); ++i) {
     const CalibratedView& view = calibration.views[i];
     const double error = std::isfinite(view.error_px) ? std::min(view.error_px, most) : most;
     const auto left = static_cast<double>(i);
     cv::rectangle(chart.image(), cv::Rect(cv::Point(chart.at(left + 0.15, error)), cv::Point(chart.at(left + 0.85, 0))),
                   view.is_used ? kArrow : kOut, cv::FILLED);
-    if (view.edge_px / 10 < most)
-      cv::circle(chart.image(), chart.at(left + 0.5, view.edge_px / 10), 2, kInk, cv::FILLED, cv::LINE_AA);
   }
 }
 

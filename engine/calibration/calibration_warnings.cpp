@@ -20,7 +20,7 @@ constexpr int kEnoughViews = 10;
 constexpr double kUncertainFocal = 0.005;
 constexpr double kTilted_deg = 15;
 constexpr int kTiltedViews = 3;
-constexpr double kCornerShare = 0.25;  // of the image's sides: how far a corner of the image reaches
+constexpr double kCornerShare = 0.2;  // of the image's sides: how far a corner of the image reaches
 
 using Texts = std::vector<std::string>;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace sigs {
 
@@ -52,14 +53,20 @@ double held_out_px(std::span<const double> squares) {
 
 bool is_clearly_better(std::span<const double> squares, std::span<const double> than_these) {
   constexpr double kGain = 0.02;
+  constexpr double kSmallest_px2 = 1e-8;  // beneath it errors are those of the solver
   if (!(held_out_px(squares) < (1 - kGain) * held_out_px(than_these))) return false;
-  const auto count = static_cast<double>(squares.size());
+  std::vector<double> gains;
+  for (std::size_t v = 0; v < squares.size(); ++v) {
+    const double gain = std::log(std::max(than_these[v], kSmallest_px2) / std::max(squares[v], kSmallest_px2));
+    if (std::isfinite(gain)) gains.push_back(gain);
+  }
+  if (gains.size() < 2) return true;  // the other cannot have these views
+  const auto count = static_cast<double>(gains.size());
   double mean = 0;
-  for (std::size_t v = 0; v < squares.size(); ++v) mean += (than_these[v] - squares[v]) / count;
+  for (const double gain : gains) mean += gain / count;
   double variance = 0;
-  for (std::size_t v = 0; v < squares.size(); ++v)
-    variance += std::pow(than_these[v] - squares[v] - mean, 2) / std::max(1.0, count - 1);
-  return !std::isfinite(mean) || mean > 2 * std::sqrt(variance / count);
+  for (const double gain : gains) variance += std::pow(gain - mean, 2) / (count - 1);
+  return mean > 2 * std::sqrt(variance / count);
 }
 
 }  // namespace sigs

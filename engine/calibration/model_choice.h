@@ -18,8 +18,9 @@ namespace sigs {
 // Root of their mean.
 [[nodiscard]] double held_out_px(std::span<const double> squares);
 
-// Whether the second is clearly better: its held-out error is smaller by 2 % or more, and the mean difference of the
-// views' squares is more than twice its standard error.
+// Whether the second is clearly better: its held-out error is smaller by 2 % or more, and the mean logarithm of the
+// views' ratios is more than twice its standard error. (Differences would be ruled by the few views of which a model
+// that is too simple misses most.)
 [[nodiscard]] bool is_clearly_better(std::span<const double> squares, std::span<const double> than_these);
 
 }  // namespace sigs
