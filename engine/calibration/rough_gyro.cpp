@@ -22,10 +22,11 @@ constexpr double kFirstFocal = 0.8;  // of the image's width
 constexpr int kFirstRounds = 4;
 constexpr double kLeastCorrelation = 0.85;
 constexpr double kSpan_s = 0.2;  // from the middle frame to either side
-constexpr int kMiddles = 400;    // frames from which features are followed
+constexpr int kMiddles = 240;    // frames from which features are followed
 constexpr int kParts = 12;
 constexpr int kLeastFeatures = 20;
-constexpr int kRounds = 10;
+constexpr std::size_t kFeaturesEach = 60;
+constexpr int kRounds = 8;
 constexpr double kLeastScale_px = 0.05;
 constexpr double kLeastRelative = 0.008;  // the scale of cheap gyroscopes
 constexpr double kStabilized_rad = 0.0017;
@@ -80,7 +81,9 @@ std::vector<Triple> triples_of(const PixelTracks& tracks, double readout_s) {
     const TrackedFrame& before = tracks.frames[static_cast<std::size_t>(b)];
     const TrackedFrame& after = tracks.frames[static_cast<std::size_t>(a)];
     if (before.is_repeated || after.is_repeated) continue;
-    for (const Feature& feature : middle.features) {
+    const std::size_t stride = middle.features.size() / kFeaturesEach + 1;
+    for (std::size_t f = 0; f < middle.features.size(); f += stride) {
+      const Feature& feature = middle.features[f];
       const Feature* const first = feature_of(before, feature.id);
       const Feature* const last = feature_of(after, feature.id);
       if (first == nullptr || last == nullptr) continue;
@@ -260,6 +263,7 @@ GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const Disto
                                         "gimbal, another flight, or hardly a turn",
                                         offset->correlation));
     lens.focal_px *= std::clamp(offset->slope, 0.3, 3.0);
+    if (std::abs(offset->slope - 1) < 0.03) break;
   }
   const GyroFit fit(tracks, rates, *offset, gyro_alignment(turns, rates, *offset), log.readout_s.value_or(0), prior);
   if (fit.triples() < kLeastFeatures * kParts) return refused(found, "too few features can be followed");

@@ -141,7 +141,7 @@ LinesAnswer LinesRoad::answer() const {
   found.sd = std::hypot(std::sqrt(sum2 / kDraws), kLeastSd);
   if (found.agree < kLeastShare * found.lines)
     found.reason =
-        fmt::format("{} of {} long edges stay bent whatever the distortion", found.lines - found.agree, found.lines);
+        fmt::format("{} of {} long edges stay curved whatever the distortion", found.lines - found.agree, found.lines);
   else if (found.sd > kLargestSd)
     found.reason = fmt::format("{} long edges leave the distortion open: {:.2f} +- {:.2f}", found.lines,
                                found.distortion, found.sd);

@@ -31,7 +31,7 @@ class LinesRoad {
 
   // The distortion that straightens most edges best. Edges of one place and direction in the image, in whatever frame,
   // count as one; the standard deviation is by drawing places anew (bootstrap, Efron 1979). Not certain where there are
-  // few, most stay bent, or what is drawn spreads: roads, hills and clouds have edges that bend themselves.
+  // few, most stay curved, or what is drawn spreads: roads, hills and clouds have edges that bend themselves.
   [[nodiscard]] LinesAnswer answer() const;
 
  private:

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kGoProRelative = 0.05;  // 95 %, of the focal length
 constexpr double kDjiRelative = 0.15;    // which crop of the sensor the video uses is not stated
-constexpr double kFilm_mm = 36;
+constexpr double kWidth_mm = 36;
 constexpr int kMaxDepth = 8;
 
 std::optional<double> diagonal_in(std::string_view value, int depth) {
@@ -91,9 +91,9 @@ RoughAnswer stated_lens(const std::filesystem::path& file, cv::Size size_px, con
   }
   if (focal_mm) {
     const double share = std::pow(size_px.width / 2.0 / lens.radius_px(), 2);
-    lens.focal_px = *focal_mm / kFilm_mm * size_px.width / (1 + lens.distortion * share);
+    lens.focal_px = *focal_mm / kWidth_mm * size_px.width / (1 + lens.distortion * share);
     return {.fit = fit_with(lens, prior, kDjiRelative),
-            .reason = fmt::format("a focal length of {:.0f} mm for film 36 mm wide", *focal_mm)};
+            .reason = fmt::format("a focal length of {:.0f} mm for an image 36 mm wide", *focal_mm)};
   }
   return {.fit = std::nullopt, .reason = "the file states none"};
 }

@@ -52,7 +52,7 @@ class Swing {
 
 std::vector<glm::dvec3> points_of(const Camera& camera, const MadeTurns& settings, cv::RNG& chance) {
   const double wide = std::min(field_rad(camera), std::numbers::pi);
-  const auto count = static_cast<int>(200 * 12.57 / (wide * wide * 0.6));
+  const auto count = static_cast<int>(120 * 12.57 / (wide * wide * 0.6));
   std::vector<glm::dvec3> points;
   for (int i = 0; i < count; ++i) {
     const glm::dvec3 direction(chance.gaussian(1), chance.gaussian(1), chance.gaussian(1));

@@ -10,7 +10,7 @@ namespace sigs::test {
 // How a camera turns over points whose directions are known.
 struct MadeTurns {
   unsigned seed = 1;
-  int frames = 300;
+  int frames = 240;
   double rate_hz = 30;
   double pan_rad = 0.5;      // amplitude of slow yaw; a third of it in pitch and roll
   double shake_rad = 0.004;  // amplitude of waves of 3 to 8 Hz about each axis

@@ -22,7 +22,7 @@ RoughLens lens_with(double distortion) {
 
 TEST_CASE("a rough lens takes a pixel to a direction and back to the same pixel") {
   for (const double distortion : {-0.6, -0.2, 0.0, 0.15})
-    for (const Eigen::Vector2d pixel :
+    for (const Eigen::Vector2d& pixel :
          {Eigen::Vector2d(0, 0), Eigen::Vector2d(639.5, 359.5), Eigen::Vector2d(1279, 3)}) {
       const RoughLens lens = lens_with(distortion);
       const auto back = lens.pixel(3.7 * lens.ray(pixel));

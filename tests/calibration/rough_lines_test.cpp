@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "calibration/made_tracks.h"
@@ -11,38 +12,42 @@
 namespace sigs::test {
 namespace {
 
-constexpr cv::Size kImage_px(960, 540);
+const cv::Size kImage_px(640, 360);
 
-// A wall of bright and dark panels, seen through a lens; `bend` bends the edges of the wall itself in one direction.
-cv::Mat wall(const Camera& camera, double roll_rad, double bend) {
-  cv::Mat image(camera.size_px, CV_32F);
-  for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x) {
-      float sum = 0;
-      for (int part = 0; part < 9; ++part) {
-        const auto ray = camera.lens.ray({x + (part % 3 - 1) / 3.0, y + (part / 3 - 1) / 3.0});
-        if (!ray || !(ray->x > 0)) continue;
-        const double u = ray->y / ray->x;
-        const double v = ray->z / ray->x;
-        const double across = std::cos(roll_rad) * u - std::sin(roll_rad) * v;
-        const double down = std::sin(roll_rad) * u + std::cos(roll_rad) * v + bend * across * across;
-        const int panels = static_cast<int>(std::floor(across / 0.31)) + static_cast<int>(std::floor(down / 0.19));
-        sum += panels % 2 == 0 ? 200.0F : 60.0F;
-      }
-      image.at<float>(y, x) = sum / 9;
-    }
-  cv::GaussianBlur(image, image, {}, 0.6);
-  cv::Mat noise(image.size(), CV_32F);
-  cv::RNG chance(7);
-  chance.fill(noise, cv::RNG::NORMAL, 0, 1.5);
-  image += noise;
-  image.convertTo(image, CV_8U);
-  return image;
+// What each pixel sees of a wall at the distance 1: columns and rows of a CV_64FC2.
+cv::Mat_<cv::Vec2d> wall_places(const Camera& camera) {
+  cv::Mat_<cv::Vec2d> places(camera.size_px, cv::Vec2d(0, 0));
+  for (int y = 0; y < places.rows; ++y)
+    for (int x = 0; x < places.cols; ++x)
+      if (const auto ray = camera.lens.ray({x, y}); ray && ray->x > 0)
+        places(y, x) = {ray->y / ray->x, ray->z / ray->x};
+  return places;
 }
 
-LinesAnswer lines_of(const Camera& camera, double bend) {
+// A wall of bright and dark panels, whose borders are straight, rolled.
+cv::Mat wall(const cv::Mat_<cv::Vec2d>& places, double roll_rad) {
+  cv::Mat_<double> image(places.size());
+  const auto panels = [](double at, double width) { return std::tanh(30 * std::sin(std::numbers::pi * at / width)); };
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) {
+      const double u = places(y, x)[0];
+      const double v = places(y, x)[1];
+      const double across = std::cos(roll_rad) * u - std::sin(roll_rad) * v;
+      const double down = std::sin(roll_rad) * u + std::cos(roll_rad) * v;
+      image(y, x) = 130 + 70 * panels(across, 0.31) * panels(down, 0.19);
+    }
+  cv::Mat noise(image.size(), CV_64F);
+  cv::RNG chance(7);
+  chance.fill(noise, cv::RNG::NORMAL, 0, 1.5);
+  cv::Mat rounded;
+  cv::Mat(image + noise).convertTo(rounded, CV_8U);
+  return rounded;
+}
+
+LinesAnswer lines_of(const Camera& camera) {
   LinesRoad road;
-  for (int i = 0; i < 4; ++i) road.add(i, wall(camera, 0.2 * i + 0.05, bend));
+  const cv::Mat_<cv::Vec2d> places = wall_places(camera);
+  for (int i = 0; i < 3; ++i) road.add(i, wall(places, 0.2 * i + 0.05));
   return road.answer();
 }
 
@@ -59,10 +64,10 @@ double division_of(const Camera& camera) {
 }  // namespace
 
 TEST_CASE("straight edges show the distortion of the lens, and none where there is none") {
-  for (const double k1 : {-0.2, -0.08, 0.0, 0.08}) {
+  for (const double k1 : {-0.2, 0.0, 0.08}) {
     CAPTURE(k1);
-    const Camera camera = made_camera(kImage_px, LensModel::brown_conrady, 800, k1);
-    const LinesAnswer found = lines_of(camera, 0);
+    const Camera camera = made_camera(kImage_px, LensModel::brown_conrady, 533, k1);
+    const LinesAnswer found = lines_of(camera);
     REQUIRE_MESSAGE(found.is_certain, found.reason);
     CAPTURE(found.distortion);
     CHECK(std::abs(found.distortion - division_of(camera)) < std::max(0.02, 3 * found.sd));
