@@ -13,7 +13,7 @@ namespace sigs {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoError = std::numeric_limits<double>::infinity();
 constexpr int kSets = 24;
 constexpr std::size_t kSetSize = 3;
 constexpr double kBestShare = 0.4;       // of the views, by which a set is judged
@@ -27,7 +27,7 @@ constexpr double kMostCornersLeftOut = 0.25;
 constexpr int kMostRounds = 8;
 
 double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return kInfinity;
+  if (values.empty()) return kNoError;
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
@@ -102,7 +102,7 @@ double score_of(LensFit& fit, std::span<const FitView> views) {
         pose_seen(fit.model, fit.intrinsics, view, {.huber_px = kFirstHuber_px, .iterations = 10});
     fit.poses.push_back(pose.value_or(BoardPose{}));
     errors_px.push_back(pose ? quantile(lengths(residuals_px(fit.model, fit.intrinsics, *pose, view)), 0.5)
-                             : kInfinity);
+                             : kNoError);
   }
   return quantile(std::move(errors_px), kBestShare);
 }
@@ -152,7 +152,7 @@ Agreement agreement_of(const LensFit& fit, std::span<const FitView> views) {
       ++count;
     }
     left_out.push_back(1 - count / static_cast<double>(view.size()));
-    agreement.error_px.push_back(count > 0 ? std::sqrt(squares / count) : kInfinity);
+    agreement.error_px.push_back(count > 0 ? std::sqrt(squares / count) : kNoError);
   }
   const double most_px = std::max(kSmallError_px, kLargestError * quantile(agreement.error_px, kReferenceShare));
   for (std::size_t v = 0; v < views.size(); ++v)
@@ -195,7 +195,7 @@ int Agreement::view_count() const {
 
 std::optional<LensFit> first_fit(std::span<const FitView> views, cv::Size size_px) {
   std::optional<LensFit> best;
-  double best_px = kInfinity;
+  double best_px = kNoError;
   SetNumbers numbers;
   const int sets = views.size() <= kSetSize ? 1 : kSets;
   for (int i = 0; i < sets; ++i) {

@@ -21,17 +21,17 @@ namespace {
 
 constexpr std::array<int, 4> kGaps{6, 18, 54, 120};  // frames
 constexpr int kStarts = 96;                          // frames from which pairs begin
-constexpr int kParts = 12;                           // of the time in which the image moves
+constexpr int kTurnParts = 12;                           // of the time in which the image moves
 constexpr std::size_t kPairsEach = 4;                // of a part
 constexpr std::size_t kLeastParts = 4;
 constexpr std::size_t kLeastCommon = 30;  // features
 constexpr double kLeastMotion = 0.03;     // of the image's width
-constexpr double kLeastScale_px = 0.1;    // of the reduced image
+constexpr double kTurnLeastScale_px = 0.1;    // of the reduced image
 constexpr int kFields = 14;               // first values tried
 constexpr double kFirstField_rad = 0.12;
 constexpr double kLastField_rad = 2.6;
-constexpr int kRounds = 12;
-constexpr double kLeastRelative = 0.01;  // the lens is not quite of this model, its centre not quite the image's
+constexpr int kTurnRounds = 12;
+constexpr double kTurnLeastRelative = 0.01;  // the lens is not quite of this model, its centre not quite the image's
 constexpr double kFreer = 1.3;           // a homography that misses by so much less is another motion
 constexpr double kLargest_px = 0.8;      // of the reduced image; larger misses are no rotation
 constexpr double kTooOpen = 0.2;         // uncertainty of the focal length
@@ -70,10 +70,10 @@ std::vector<Pair> moving_pairs(const PixelTracks& tracks) {
   const int first = std::min_element(all.begin(), all.end(), by_time)->part;
   const int length = std::max_element(all.begin(), all.end(), by_time)->part - first + 1;
   std::stable_sort(all.begin(), all.end(), [](const Pair& a, const Pair& b) { return a.motion_px > b.motion_px; });
-  std::array<std::size_t, kParts> taken{};
+  std::array<std::size_t, kTurnParts> taken{};
   std::vector<Pair> pairs;
   for (Pair& pair : all) {
-    pair.part = (pair.part - first) * kParts / length;
+    pair.part = (pair.part - first) * kTurnParts / length;
     if (taken[static_cast<std::size_t>(pair.part)]++ < kPairsEach) pairs.push_back(std::move(pair));
   }
   return pairs;
@@ -110,7 +110,7 @@ class TurnFit {
     if (!(start(0) > 0)) return false;
     values_ = start;
     if (!turn_pairs(lens_of(values_))) return false;
-    for (int round = 0; round < kRounds; ++round) step(round + 1 < kRounds);
+    for (int round = 0; round < kTurnRounds; ++round) step(round + 1 < kTurnRounds);
     return values_.allFinite();
   }
 
@@ -213,8 +213,8 @@ class TurnFit {
     std::vector<double> lengths;
     for (const Pair& pair : pairs_)
       for (const PixelPair& f : pair.features) lengths.push_back(miss(lens, pair.after_from_before, f).norm());
-    scale_px_ = scale_of(lengths, kLeastScale_px * step_px_);
-    parts_.assign(kParts, {Eigen::MatrixXd::Zero(2, 2), Eigen::VectorXd::Zero(2)});
+    scale_px_ = scale_of(lengths, kTurnLeastScale_px * step_px_);
+    parts_.assign(kTurnParts, {Eigen::MatrixXd::Zero(2, 2), Eigen::VectorXd::Zero(2)});
     Eigen::Matrix2d normal = known();
     Eigen::Vector2d right(0, (prior_.mean - values_(1)) * known()(1, 1));
     std::vector<Reduced> reduced;
@@ -289,7 +289,7 @@ class TurnFit {
 };
 
 std::size_t parts_in(const std::vector<Pair>& pairs) {
-  std::array<bool, kParts> has{};
+  std::array<bool, kTurnParts> has{};
   for (const Pair& pair : pairs) has[static_cast<std::size_t>(pair.part)] = true;
   return static_cast<std::size_t>(std::count(has.begin(), has.end(), true));
 }
@@ -307,7 +307,7 @@ RoughAnswer lens_by_turn(const PixelTracks& tracks, const DistortionPrior& prior
     return {.fit = std::nullopt,
             .reason = fmt::format("the image does not move as that of a turning camera (rotations miss by {:.1f} px)",
                                   misses.turned_px)};
-  if (misses.turned_px > kFreer * misses.free_px + kLeastScale_px * tracks.step_px)
+  if (misses.turned_px > kFreer * misses.free_px + kTurnLeastScale_px * tracks.step_px)
     return {
         .fit = std::nullopt,
         .reason = fmt::format("the camera travels past what it sees (rotations miss by {:.2f} px, planes by {:.2f})",
@@ -315,7 +315,7 @@ RoughAnswer lens_by_turn(const PixelTracks& tracks, const DistortionPrior& prior
   const std::vector<PartSums> parts = fit.used_parts();
   if (parts.size() < kLeastParts) return {.fit = std::nullopt, .reason = "too little of the footage has a turn"};
   RoughFit found = fit_of([&fit](const Eigen::VectorXd& u) { return fit.lens_of(u); }, fit.values(),
-                          clustered_covariance(parts, fit.known()), static_cast<int>(parts.size()), kLeastRelative);
+                          clustered_covariance(parts, fit.known()), static_cast<int>(parts.size()), kTurnLeastRelative);
   found.residual_px = fit.residual_px();
   if (!(found.relative_uncertainty() < kTooOpen))
     return {.fit = std::nullopt,
