@@ -13,6 +13,7 @@
 #include "cli/options.h"
 #include "export/export_project.h"
 #include "project/validate.h"
+#include "scene/likely_mistakes.h"
 #include "scene/opened_project.h"
 #include "scene/plausibility.h"
 #include "scene/scene.h"
@@ -51,6 +52,8 @@ Result<void> check(const ProjectOptions& options) {
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
   std::vector<Warning> warnings = warnings_of(source->info());
   for (Warning& warning : codec_warnings_of(*project, source->info())) warnings.push_back(std::move(warning));
+  for (Problem& mistake : footage_mistakes(source->info().path))
+    warnings.push_back({project->file.string() + ": " + mistake.field, std::move(mistake.what)});
   if (const Result<void> output = check_output(*project, source->info()); !output) return fail(output.error());
   SceneFiles files;
   const Result<Scene> scene = open_valid_scene(*project, shape_of(source->info()), files);

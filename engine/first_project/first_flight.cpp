@@ -25,6 +25,7 @@ constexpr double kBank_rad = rad_of_deg(35);
 constexpr double kMinSize_px = 20, kMaxSize_px = 60, kSizeShare = 0.03;  // of the image's width
 constexpr double kLeastVisible_px = 2;                                   // what is smaller does not count as in view
 constexpr double kEnough = 0.95;                                         // of the frames
+constexpr double kGood = 0.75;  // from here on, no flight that is nearest at the end is tried
 constexpr double kTurning_rad = rad_of_deg(10);
 constexpr double kGround_m = 30;  // the least height of a flight
 constexpr int kSamples = 25;      // frames at which a flight is judged
@@ -72,14 +73,14 @@ glm::dvec3 aim(const Scene& scene, double middle_s) {
   const auto ray_at = [&](double share) {
     return scene.camera.lens.ray({(size.width - 1) / 2.0, share * (size.height - 1)});
   };
-  constexpr double kUsualShare = 0.42;  // of the image's height, from above
+  constexpr double kUsualShare = 0.36;  // of the image's height, from above
   const std::optional<glm::dvec3> usual = ray_at(kUsualShare);
   std::optional<glm::dvec3> best;
   const std::optional<glm::dvec3> top = ray_at(0.1), bottom = ray_at(0.9);
   if (scene.horizon_is_known && top && bottom) {
-    const double wanted_rad = 0.08 * angle_between(*top, *bottom);
+    const double wanted_rad = 0.14 * angle_between(*top, *bottom);
     double least_rad = rad_of_deg(2) + wanted_rad / 4;
-    for (int row = 12; row <= 75; ++row) {
+    for (int row = 10; row <= 75; ++row) {
       const std::optional<glm::dvec3> ray = ray_at(row / 100.0);
       if (!ray) continue;
       const double off_rad = std::abs(elevation_of(attitude * *ray) - wanted_rad);
@@ -196,6 +197,7 @@ class FlightSearch {
     const double speed_mps = usual_speed_mps(double(size.x));
     Trial best;
     for (const FlightShape& shape : shapes(speed_mps)) {
+      if (shape.approach_rad > 0 && best.is_flyable && best.visible_share >= kGood) break;
       Trial trial = tried(shape);
       const double gain = trial.visible_share - best.visible_share;
       if ((trial.is_flyable && !best.is_flyable && gain > -0.3) || (trial.is_flyable == best.is_flyable && gain > 0.02))

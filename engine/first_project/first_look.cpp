@@ -20,8 +20,10 @@ namespace {
 
 constexpr int kLookFrames = 7;
 constexpr double kSteady_rad = rad_of_deg(4);
+constexpr double kMaxRoll_rad =
+    rad_of_deg(7);  // what is tilted more in all frames is a hillside rather than the horizon
 
-// The frames that are looked at: the middle of the range first in no case, so that a short range has each once.
+// The middles of equal parts of the range.
 std::vector<int> look_frames(const Scene& scene) {
   const int length = scene.last_frame - scene.first_frame + 1;
   const int count = std::min(kLookFrames, length);
@@ -47,7 +49,7 @@ struct Horizons {
     std::size_t near = 0;
     for (std::size_t i = 0; i < rolls_rad.size(); ++i)
       near += std::abs(rolls_rad[i] - roll_rad) < kSteady_rad && std::abs(pitches_rad[i] - pitch_rad) < kSteady_rad;
-    if (2 * near < frames) return;
+    if (2 * near < frames || std::abs(roll_rad) > kMaxRoll_rad) return;
     look.roll_rad = roll_rad;
     look.pitch_rad = pitch_rad;
   }

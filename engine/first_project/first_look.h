@@ -21,8 +21,8 @@ struct FirstLook {
 };
 
 // Looks at up to 7 frames of the scene's range. Damaged ones are left out. The horizon is sought only where the scene
-// does not know it, and is taken where it lies within 4 degrees of the median in at least half of the frames.
-// Errors: those of FrameSource::read().
+// does not know it, and is taken where it lies within 4 degrees of the median in at least half of the frames, and is
+// tilted by at most 7. Errors: those of FrameSource::read().
 [[nodiscard]] Result<FirstLook> first_look(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel);
 
 // Sets the project's light by what was seen; one note for light.kind. Where no sky was seen the light stays.

@@ -58,7 +58,7 @@ struct FirstProject {
   std::vector<Warning> warnings;        // of the files that were read
 };
 
-// Plans the project; nothing is written. Reads the video's index, its log and at most 9 of its frames.
+// Plans the project; nothing is written. Reads the video's index, its log and at most 7 of its frames.
 // Errors: usage (options that contradict each other), cannot_read, bad_data (a calibration for another shape of
 // images, which names both; a model without a size), interrupted.
 [[nodiscard]] Result<FirstProject> planned_first_project(const FirstProjectOptions& options,

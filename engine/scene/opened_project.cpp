@@ -14,6 +14,7 @@
 #include "project/fields.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"
+#include "scene/likely_mistakes.h"
 #include "scene/plausibility.h"
 #include "scene/scene_light.h"
 #include "scene/scene_parts.h"
@@ -136,7 +137,10 @@ std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
   };
   for (const Problem& issue : scene.issues) add(issue);
   for (std::size_t i = 0; i < visibilities.size(); ++i)
-    if (const std::optional<Problem> never = never_visible(visibilities[i], scene.intruders[i].name, i)) add(*never);
+    if (std::optional<Problem> never = never_visible(visibilities[i], scene.intruders[i].name, i)) {
+      if (const std::string where = where_out_of_view(scene, i); !where.empty()) never->what += "; " + where;
+      add(*never);
+    }
   return warnings;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "scene/likely_mistakes.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 #include "scene/visibility.h"
@@ -17,12 +18,13 @@ namespace sigs {
 
 namespace {
 
-constexpr double kOccludesAll = 0.95;                // share of the image: beyond it, the mask is likely inverted
-constexpr int kSamplesOfAll = 200'000;               // of all trajectories together
-constexpr int kMaxSamples = 6000;                    // of each trajectory
-constexpr int kMinSamples = 8;                       // of each trajectory
-constexpr double kUnits_m[] = {1e-3, 1e-2, 0.0254};  // common units of models that are not in metres
-constexpr const char* kUnitNames[] = {"millimetres", "centimetres", "inches"};
+constexpr double kOccludesAll = 0.95;       // share of the image: beyond it, the mask is likely inverted
+constexpr int kSamplesOfAll = 200'000;      // of all trajectories together
+constexpr int kMaxSamples = 6000;           // of each trajectory
+constexpr int kMinSamples = 8;              // of each trajectory
+constexpr double kLongestAeroplane_m = 90;  // An-225: 84 m
+constexpr double kUnits_m[] = {1e-3, 1e-2, 0.0254, 0.3048};  // common units of models that are not in metres
+constexpr const char* kUnitNames[] = {"millimetres", "centimetres", "inches", "feet"};
 constexpr double kUsualLength_m[] = {1, 100};  // of most intruders
 
 // Three significant digits, from 1000 to 1e7 a whole number.
@@ -69,7 +71,8 @@ void check_model(const ModelSettings& settings, const Model& model, const std::s
                  std::vector<Problem>& issues) {
   const glm::vec3 size_m = model.mesh.high_m - model.mesh.low_m;
   const double largest_m = std::max({size_m.x, size_m.y, size_m.z});
-  if (largest_m >= kMinAircraft_m && largest_m <= kMaxAircraft_m) return;
+  const bool may_be_feet = settings.scale == 1 && settings.length_m == 0 && size_m.x > kLongestAeroplane_m;
+  if (largest_m >= kMinAircraft_m && largest_m <= kMaxAircraft_m && !may_be_feet) return;
   const std::string what =
       fmt::format("makes the model {} long and {} wide", length_text(size_m.x), length_text(size_m.y));
   if (settings.length_m > 0) return issues.push_back({key + ".length_m", what});
@@ -185,6 +188,8 @@ std::vector<Problem> plausibility_issues(const Project& project, const Scene& sc
       check_model(project.intruders[i].model, *intruder.model, key + ".model", issues);
     check_flight(scene, intruder, key + ".trajectory", issues);
     if (std::optional<Problem> overshoot = overshoot_issue(project, i, scene)) issues.push_back(*std::move(overshoot));
+    for (Problem& mistake : likely_mistakes(project, i, scene, static_cast<std::size_t>(intruder_of_project[i])))
+      issues.push_back(std::move(mistake));
   }
   return issues;
 }

@@ -84,7 +84,7 @@ void add(Visibility& visibility, const VisibilityEstimate& estimate);
 [[nodiscard]] std::vector<Visibility> estimated_visibilities(const Scene& scene, int max_frames);
 
 // The problem, in the field "intruders[0].trajectory", that an intruder is never visible, with the reasons by number of
-// frames. None where it is visible or no frame was checked.
+// frames, or that it is below 1 px wherever it is. None where it is visible or no frame was checked.
 //   intruder  index in the project's intruders
 [[nodiscard]] std::optional<Problem> never_visible(const Visibility& visibility, const std::string& name,
                                                    std::size_t intruder);

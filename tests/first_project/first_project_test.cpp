@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "base/paths.h"
+#include "first_project/first_project.h"
+#include "project/json.h"
+#include "scene/opened_project.h"
+#include "support/files.h"
+#include "support/process.h"
+#include "support/test_data.h"
+
+using namespace sigs;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path sample_video() {
+  return test::source_dir() / "assets/footage/sample.mp4";
+}
+
+// A clip made by FFmpeg: its options after the input, a test pattern.
+fs::path made_clip(const test::TemporaryFolder& folder, const std::string& pattern, const std::string& options,
+                   const std::string& name = "clip.mp4") {
+  const fs::path file = folder / name;
+  const test::Run run = test::run_together("ffmpeg -v error -y -f lavfi -i testsrc=" + pattern + " " + options + " '" +
+                                           file.string() + "' </dev/null");
+  REQUIRE_MESSAGE(run.status == 0, run.out);
+  return file;
+}
+
+// Makes the project, opens it from its file, and checks what every first project must have.
+FirstProject made_and_opened(const FirstProjectOptions& options, double least_share = 0.5) {
+  const Result<FirstProject> made = make_first_project(options);
+  REQUIRE_MESSAGE(made, (made ? "" : made.error().text()));
+  const Result<ReadProject> read = read_project(made->project.file);
+  REQUIRE(read);
+  CHECK(read->warnings.empty());
+  const Result<OpenedProject> opened = open_project(read->project, nullptr);
+  REQUIRE_MESSAGE(opened, (opened ? "" : opened.error().text()));
+  for (const Problem& issue : opened->scene.issues) CHECK_MESSAGE(false, issue.field << ": " << issue.what);
+  const Visibility seen = estimated_visibilities(opened->scene, 1000).front();
+  CHECK(seen.visible >= least_share * seen.frames_checked);
+  CHECK(seen.largest_px <= 64);
+  CHECK(seen.largest_px >= 12);
+  return *made;
+}
+
+bool notes_guess(const FirstProject& made, const std::string& field) {
+  for (const FirstProjectNote& note : made.notes)
+    if (note.field == field) return note.is_guess;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a clip becomes a project that opens without a problem and has its intruder in view") {
+  const test::TemporaryFolder folder;
+  const FirstProject made = made_and_opened({.video = sample_video(), .out = folder / "a/first.json"}, 0.9);
+  CHECK(made.project.name == "first");
+  CHECK(notes_guess(made, "footage.calibration"));
+  CHECK(fs::exists(folder / "a/light-aircraft/light-aircraft.obj"));
+  CHECK(test::text_of(folder / "a/first.notes.txt").find("guessed") != std::string::npos);
+  CHECK(test::text_of(folder / "a/first.calibration.xml").find("Not measured") != std::string::npos);
+  // Nothing is replaced without being asked for, and then everything is.
+  CHECK(make_first_project({.video = sample_video(), .out = folder / "a/first.json"}).error().kind ==
+        ErrorKind::cannot_create);
+  CHECK(make_first_project({.video = sample_video(), .out = folder / "a/first.json", .overwrite = true}));
+  // A second project shares the model.
+  CHECK(make_first_project({.video = sample_video(), .out = folder / "a/second.json"}));
+}
+
+TEST_CASE("a folder with the video and its project can be moved") {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder / "here");
+  fs::copy_file(sample_video(), folder / "here/clip.mp4");
+  made_and_opened({.video = folder / "here/clip.mp4", .out = folder / "here/clip/clip.json"});
+  fs::rename(folder / "here", folder / "there");
+  const Result<ReadProject> read = read_project(folder / "there/clip/clip.json");
+  REQUIRE(read);
+  CHECK(open_project(read->project, nullptr));
+}
+
+TEST_CASE("the horizontal field of view is as asked for: a pinhole, from 120 degrees on a fisheye") {
+  const test::TemporaryFolder folder;
+  for (const double fov_deg : {5.0, 40.0, 100.0, 150.0, 200.0}) {
+    CAPTURE(fov_deg);
+    const FirstProject made = made_and_opened(
+        {.video = sample_video(), .horizontal_fov_deg = fov_deg, .out = folder / "p.json", .overwrite = true});
+    const Result<Camera> camera = read_calibration(folder / "p.calibration.xml", cv::Size(1280, 960));
+    REQUIRE(camera);
+    const double half_rad = fov_deg * 3.14159265358979 / 360;
+    const double focal = camera->lens.parameters().fx;
+    // The image is 1280 px wide from edge to edge.
+    CHECK(focal == doctest::Approx(fov_deg < 120 ? 640 / std::tan(half_rad) : 640 / half_rad));
+    CHECK(is_fisheye(camera->lens.parameters().model) == (fov_deg >= 120));
+  }
+}
+
+TEST_CASE("a calibration is referred to, checked against the footage, and excludes a field of view") {
+  const test::TemporaryFolder folder;
+  const fs::path calibration = test::source_dir() / "assets/calibrations/sample.xml";
+  const FirstProject made =
+      made_and_opened({.video = sample_video(), .calibration = calibration, .out = folder / "p.json"});
+  CHECK(canonical_path(resolved(made.project, made.project.footage.calibration)) == canonical_path(calibration));
+  CHECK_FALSE(fs::exists(folder / "p.calibration.xml"));
+  const fs::path wide = made_clip(folder, "s=640x360:d=0.2:r=25", "");
+  const Result<FirstProject> other =
+      make_first_project({.video = wide, .calibration = calibration, .out = folder / "q.json"});
+  REQUIRE_FALSE(other);
+  CHECK(other.error().text().find("640") != std::string::npos);
+  CHECK(other.error().text().find("1280") != std::string::npos);
+  CHECK(make_first_project({.video = wide, .calibration = calibration, .horizontal_fov_deg = 70.0}).error().kind ==
+        ErrorKind::usage);
+  CHECK_FALSE(fs::exists(folder / "q.json"));
+}
+
+TEST_CASE(
+    "clips of one frame, of odd size, in 4K, with oblong pixels, on their side and without times become projects") {
+  const test::TemporaryFolder folder;
+  const auto works = [&](const fs::path& clip) {
+    CAPTURE(clip);
+    made_and_opened({.video = clip, .out = folder / "p.json", .overwrite = true});
+  };
+  works(made_clip(folder, "s=640x480:r=25", "-frames:v 1"));
+  works(made_clip(folder, "s=640x480:r=25", "-frames:v 10"));
+  works(made_clip(folder, "s=321x243:r=25", "-frames:v 10 -pix_fmt yuv444p", "odd.mkv"));
+  works(made_clip(folder, "s=3840x2160:r=25", "-frames:v 3 -preset ultrafast"));
+  works(made_clip(folder, "s=720x576:r=25", "-frames:v 10 -vf setsar=16/11"));
+  works(made_clip(folder, "s=480x640:r=25", "-frames:v 10"));
+  works(made_clip(folder, "s=640x480:r=25", "-frames:v 10 -f h264", "bare.h264"));
+}
+
+TEST_CASE("a long clip is used for its middle minute") {
+  const test::TemporaryFolder folder;
+  const FirstProject made = made_and_opened(
+      {.video = made_clip(folder, "s=160x120:r=1:d=600", "-pix_fmt yuv420p"), .out = folder / "p.json"});
+  CHECK(made.project.footage.first_frame == 270);
+  CHECK(made.project.footage.last_frame == 330);
+}
+
+TEST_CASE("real clips become projects; a GoPro's log gives the path, KLV its field of view") {
+  if (!test::has_real_data()) return;
+  const test::TemporaryFolder folder;
+  const FirstProject coast = made_and_opened(
+      {.video = test::real_data() / "video/air_karma_gopro_coast.mp4", .out = folder / "coast.json"}, 0.9);
+  CHECK_FALSE(coast.project.camera.track.file.empty());
+  const FirstProject klv =
+      made_and_opened({.video = test::real_data() / "telemetry/klv/h264_klv.ts", .out = folder / "klv.json"});
+  CHECK(klv.project.camera.track.file.empty());  // the time of its frame 0 is not known
+  CHECK(test::text_of(folder / "klv.calibration.xml").find("tag 16") != std::string::npos);
+}
+
+TEST_CASE("the axes and unit of a user's model are found") {
+  if (!test::has_real_data()) return;
+  const test::TemporaryFolder folder;
+  const fs::path models = test::real_data() / "models";
+  for (const char* const name : {"boeing737-300", "glider-centrair101", "helicopter-dauphin"}) {
+    CAPTURE(name);
+    const FirstProject made = made_and_opened({.video = sample_video(),
+                                               .model = models / name / (std::string(name) + ".obj"),
+                                               .out = folder / "p.json",
+                                               .overwrite = true});
+    CHECK(made.project.intruders.front().model.forward == "-x");
+    CHECK(made.project.intruders.front().model.up == "+y");
+    CHECK(made.project.intruders.front().model.scale == 1);
+  }
+}
+
+TEST_CASE("a request to stop ends the making without a file") {
+  const test::TemporaryFolder folder;
+  const std::atomic<bool> stop = true;
+  const Result<FirstProject> made =
+      make_first_project({.video = sample_video(), .out = folder / "p.json"}, {.progress = {}, .cancel = &stop});
+  REQUIRE_FALSE(made);
+  CHECK(made.error().kind == ErrorKind::interrupted);
+  CHECK_FALSE(fs::exists(folder / "p.json"));
+}

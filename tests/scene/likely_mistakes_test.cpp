@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "scene/likely_mistakes.h"
+#include "scene/opened_project.h"
+#include "scene/sample_scenes.h"
+#include "support/test_data.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace {
+
+// All that is said of the project, one "field: text" a line.
+std::string issues_of(const Project& project) {
+  const Result<Scene> scene = open_scene(project, sample_footage());
+  REQUIRE(scene);
+  std::string text;
+  for (const Warning& warning : warnings_of(project, *scene, estimated_visibilities(*scene, 20)))
+    text += warning.text() + "\n";
+  return text;
+}
+
+bool says(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+Project head_on() {
+  return sample_project("head-on");
+}
+
+}  // namespace
+
+TEST_CASE("the sample projects have no mistakes") {
+  for (const char* const name : kSampleProjects) CHECK(issues_of(sample_project(name)) == "");
+}
+
+TEST_CASE("axes that do not go with the model's shape are told, and those that do") {
+  Project project = head_on();  // whose model has its nose along +x and its top along +z
+  ModelSettings& model = project.intruders[0].model;
+  const auto with = [&](const char* forward, const char* up) {
+    model.forward = forward;
+    model.up = up;
+    return issues_of(project);
+  };
+  CHECK(says(with("+y", "+z"), "sideways"));
+  CHECK(says(with("+y", "+z"), "forward to +x"));
+  CHECK(says(with("-x", "+z"), "tail first"));
+  CHECK(says(with("+x", "-z"), "upside down"));
+  CHECK(says(with("+x", "-z"), "set up to +z"));
+  CHECK(says(with("+x", "+y"), "on its side"));
+  CHECK(says(with("+z", "+x"), "nose up or down"));
+  CHECK(with("+x", "+z") == "");
+}
+
+TEST_CASE("a model in another unit is told, with the scale that would be right") {
+  Project project = head_on();
+  ModelSettings& model = project.intruders[0].model;
+  // The same aircraft as files in these units would be read without a scale.
+  for (const auto& [per_metre, unit] : {std::pair{1000.0, "millimetres"}, {100.0, "centimetres"}}) {
+    model.scale = per_metre;
+    const std::string text = issues_of(project);
+    CAPTURE(text);
+    CHECK(says(text, "intruders[0].model.scale"));
+    CHECK(says(text, unit));
+  }
+  model.scale = 0.01;
+  CHECK(says(issues_of(project), "model.scale"));
+}
+
+TEST_CASE("an intruder that is never in view is told where it passes") {
+  Project project = head_on();
+  std::vector<WaypointSettings>& waypoints = project.intruders[0].trajectory.waypoints;
+  const auto at = [&](const glm::dvec3& first, const glm::dvec3& last) {
+    waypoints = {{.frame = 0, .position_m = first}, {.frame = 199, .position_m = last}};
+    return issues_of(project);
+  };
+  // The camera flies from (0, 0, -150) along X at 22 m/s; its lens sees some 65 degrees to each side.
+  CHECK(says(at({0, -500, -150}, {170, -500, -150}), "left of it"));
+  CHECK(says(at({0, 500, -150}, {170, 500, -150}), "right of it"));
+  CHECK(says(at({200, 0, -2000}, {300, 0, -2000}), "above it"));
+  CHECK(says(at({-500, 0, -150}, {-400, 0, -150}), "behind the camera"));
+  CHECK(says(at({200'000, 0, -150}, {190'000, 0, -150}), "too small"));
+}
+
+TEST_CASE("heights with the wrong sign and kilometres are recognised by what would be in view") {
+  Project project = head_on();
+  std::vector<WaypointSettings>& waypoints = project.intruders[0].trajectory.waypoints;
+  for (WaypointSettings& waypoint : waypoints) waypoint.position_m.z *= -1;
+  project.camera.pitch_deg = 0;
+  waypoints.pop_back();
+  waypoints[0].position_m.x = 60;
+  waypoints[1].position_m.x = 110;
+  const std::string below = issues_of(project);
+  CAPTURE(below);
+  CHECK(says(below, "below the ground"));
+  project = head_on();
+  for (WaypointSettings& waypoint : project.intruders[0].trajectory.waypoints) waypoint.position_m /= 1000.0;
+  CHECK(says(issues_of(project), "kilometres"));
+}
+
+TEST_CASE("a flight that begins after the footage is told") {
+  Project project = head_on();
+  for (WaypointSettings& waypoint : project.intruders[0].trajectory.waypoints) *waypoint.frame += 500;
+  const std::string text = issues_of(project);
+  CHECK(says(text, "intruders[0].trajectory.waypoints[0].frame"));
+  CHECK(says(text, "0 to 199"));
+}
+
+TEST_CASE("footage without a log has no mistakes, and a file that is no video neither") {
+  CHECK(footage_mistakes(source_dir() / "assets/footage/sample.mp4").empty());
+  CHECK(footage_mistakes(source_dir() / "README.md").empty());
+  if (!has_real_data()) return;
+  CHECK(footage_mistakes(real_data() / "video/air_karma_gopro_coast.mp4").empty());
+}
