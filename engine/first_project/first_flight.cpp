@@ -23,7 +23,7 @@ namespace {
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kBank_rad = rad_of_deg(35);
 constexpr double kMinSize_px = 20, kMaxSize_px = 60, kSizeShare = 0.03;  // of the image's width
-constexpr double kLeastVisible_px = 2;                                   // what is smaller does not count as in view
+constexpr double kMinVisible_px = 2;                                     // what is smaller does not count as in view
 constexpr double kEnough = 0.95;                                         // of the frames
 constexpr double kGood = 0.75;  // from here on, no flight that is nearest at the end is tried
 constexpr double kTurning_rad = rad_of_deg(10);
@@ -266,7 +266,7 @@ class FlightSearch {
     for (int i = 0; i < samples; ++i) {
       const int frame = scene_.first_frame + (samples > 1 ? static_cast<int>(1LL * length * i / (samples - 1)) : 0);
       const VisibilityEstimate estimate = estimator.at(0, frame);
-      if (estimate.visibility_state != VisibilityState::in_view || estimate.size_px < kLeastVisible_px) continue;
+      if (estimate.visibility_state != VisibilityState::in_view || estimate.size_px < kMinVisible_px) continue;
       ++visible;
       trial.largest_px = std::max(trial.largest_px, estimate.size_px);
     }

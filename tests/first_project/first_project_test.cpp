@@ -118,8 +118,7 @@ TEST_CASE("a calibration is referred to, checked against the footage, and exclud
   CHECK_FALSE(fs::exists(folder / "q.json"));
 }
 
-TEST_CASE(
-    "clips of one frame, of odd size, in 4K, with oblong pixels, on their side and without times become projects") {
+TEST_CASE("clips of one frame, of odd size, in 4K, with oblong pixels, upright and without times become projects") {
   const test::TemporaryFolder folder;
   const auto works = [&](const fs::path& clip) {
     CAPTURE(clip);
@@ -138,8 +137,9 @@ TEST_CASE("a long clip is used for its middle minute") {
   const test::TemporaryFolder folder;
   const FirstProject made = made_and_opened(
       {.video = made_clip(folder, "s=160x120:r=1:d=600", "-pix_fmt yuv420p"), .out = folder / "p.json"});
-  CHECK(made.project.footage.first_frame == 270);
-  CHECK(made.project.footage.last_frame == 330);
+  CHECK(made.project.footage.first_frame ==
+        269);  // (599 - 60) / 2, rounded down: 599 s from the first frame to the last
+  CHECK(made.project.footage.last_frame == 329);
 }
 
 TEST_CASE("real clips become projects; a GoPro's log gives the path, KLV its field of view") {

@@ -57,18 +57,23 @@ TEST_CASE("axes that do not go with the model's shape are told, and those that d
 }
 
 TEST_CASE("a model in another unit is told, with the scale that would be right") {
+  const TemporaryFolder folder;
   Project project = head_on();
   ModelSettings& model = project.intruders[0].model;
-  // The same aircraft as files in these units would be read without a scale.
+  model.file = (folder / "wedge.obj").string();
+  // Something 8 m long, 11 m wide and 2.5 m high, in files of these units.
   for (const auto& [per_metre, unit] : {std::pair{1000.0, "millimetres"}, {100.0, "centimetres"}}) {
-    model.scale = per_metre;
+    const auto corner = [&, per = per_metre](double x, double y, double z) {
+      return "v " + std::to_string(x * per) + " " + std::to_string(y * per) + " " + std::to_string(z * per) + "\n";
+    };
+    write_file(folder / "wedge.obj", corner(4, 0, 0) + corner(-4, 5.5, 0) + corner(-4, -5.5, 0) + corner(-4, 0, 2.5) +
+                                         "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
     const std::string text = issues_of(project);
     CAPTURE(text);
     CHECK(says(text, "intruders[0].model.scale"));
     CHECK(says(text, unit));
+    CHECK(says(text, "8 m long"));
   }
-  model.scale = 0.01;
-  CHECK(says(issues_of(project), "model.scale"));
 }
 
 TEST_CASE("an intruder that is never in view is told where it passes") {
@@ -79,8 +84,8 @@ TEST_CASE("an intruder that is never in view is told where it passes") {
     return issues_of(project);
   };
   // The camera flies from (0, 0, -150) along X at 22 m/s; its lens sees some 65 degrees to each side.
-  CHECK(says(at({0, -500, -150}, {170, -500, -150}), "left of it"));
-  CHECK(says(at({0, 500, -150}, {170, 500, -150}), "right of it"));
+  CHECK(says(at({20, -500, -150}, {200, -500, -150}), "left of it"));
+  CHECK(says(at({20, 500, -150}, {200, 500, -150}), "right of it"));
   CHECK(says(at({200, 0, -2000}, {300, 0, -2000}), "above it"));
   CHECK(says(at({-500, 0, -150}, {-400, 0, -150}), "behind the camera"));
   CHECK(says(at({200'000, 0, -150}, {190'000, 0, -150}), "too small"));
