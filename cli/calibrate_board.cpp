@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "calibration/view_selection.h"
 #include "cli/calibrate_options.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "cli/process.h"
 #include "cli/progress.h"
 
@@ -49,7 +49,7 @@ Result<void> check_names(const CalibrateOptions& options) {
     for (std::size_t k = 0; k < i; ++k)
       if (canonical_name(*named[i].path) == canonical_name(*named[k].path))
         return fail(option, std::string("is where ") + named[k].option + " goes", ErrorKind::usage);
-    if (const Result<void> kept = check_inputs_not_overwritten({*named[i].path}, options.inputs); !kept)
+    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{*named[i].path}, options.inputs); !kept)
       return fail(option, kept.error().what, ErrorKind::cannot_create);
   }
   return {};
@@ -121,14 +121,6 @@ Result<BoardCalibration> calibrated(const CalibrateOptions& options, const Calib
                  static_cast<int>(calibration->views.size()) - calibration->views_used(),
                  count_text(calibration->views_used(), "view").c_str());
   return calibration;
-}
-
-Result<void> write_bytes(const fs::path& path, std::string_view bytes) {
-  std::ofstream out(path, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) return fail(path.string(), "could not be written", ErrorKind::write_failed);
-  return {};
 }
 
 std::string bytes_of(const char* option, const BoardCalibration& calibration, const CalibrationBoard& board) {

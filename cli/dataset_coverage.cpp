@@ -3,8 +3,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 
 #include <string_view>
 #include <utility>
@@ -13,18 +11,11 @@
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "cli/output_files.h"
 
 namespace sigs::cli {
 
 namespace {
-
-Result<void> write_bytes(const std::filesystem::path& staged, std::string_view bytes) {
-  std::ofstream out(staged, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (out) return {};
-  return fail(staged.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
-}
 
 Result<void> check_coverage_names(const CoverageOptions& options) {
   if (options.plot.empty()) return {};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "cli/output_files.h"
-#include "base/image_codecs.h"
 
 #include <cerrno>
 #include <cstring>
@@ -9,9 +8,19 @@
 #include <string>
 #include <system_error>
 
+#include "base/image_codecs.h"
+
 namespace sigs::cli {
 
 namespace fs = std::filesystem;
+
+Result<void> write_bytes(const fs::path& staged, std::string_view bytes) {
+  std::ofstream out(staged, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (out) return {};
+  return fail(staged.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
+}
 
 CreatedFolders::~CreatedFolders() {
   std::error_code code;

@@ -4,12 +4,16 @@
 #include <filesystem>
 #include <map>
 #include <opencv2/core.hpp>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
 #include "base/staged_outputs.h"
 
 namespace sigs::cli {
+
+// Writes a file under its temporary name (StagedOutputs). Error write_failed.
+[[nodiscard]] Result<void> write_bytes(const std::filesystem::path& staged, std::string_view bytes);
 
 // PNG files that get their final names together, once all of them are written. Without commit() none is left.
 class ImageFiles {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,6 +11,7 @@
 #include "base/staged_outputs.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "telemetry/read_track.h"
 #include "telemetry/track_csv.h"
 #include "telemetry/track_plot.h"
@@ -50,16 +48,6 @@ Result<void> check_names(const TelemetryOptions& options) {
     if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, {options.file}); !kept)
       return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
   }
-  return {};
-}
-
-// Under its temporary name. Error write_failed.
-Result<void> write_bytes(const fs::path& staged, std::string_view bytes) {
-  std::ofstream out(staged, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    return fail(staged.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
   return {};
 }
 

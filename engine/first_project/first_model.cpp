@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kSample = "assets/models/light-aircraft/light-aircraft.obj";
-constexpr const char* kSamples = "assets/models";
+constexpr const char* kSampleModels = "assets/models";
 constexpr double kMinMetres = 1;  // lengths that are taken to be in metres
 constexpr double kMaxMetres = 90;
 constexpr double kUsual_m = 10;  // length of a light aircraft
@@ -114,7 +114,7 @@ Result<FirstModel> users_model(const fs::path& file, SceneFiles& files) {
 }
 
 bool is_sample_model(const fs::path& file) {
-  const Result<fs::path> samples = resource_file(kSamples);
+  const Result<fs::path> samples = resource_file(kSampleModels);
   return samples && is_at_or_below(canonical_path(file), canonical_path(*samples));
 }
 

@@ -82,7 +82,7 @@ Frame evenly_colored(const Sort& sort, cv::Size size_px, int depth, const cv::Ve
 }
 
 // Codes beyond black stand for negative values; both curves are mirrored there.
-double mirrored(double (*curve)(double), double value) {
+double mirrored_curve(double (*curve)(double), double value) {
   return std::copysign(curve(std::abs(value)), value);
 }
 
@@ -91,7 +91,7 @@ cv::Vec3d over(const cv::Vec4f& layer, const cv::Vec3d& below, BlendSpace space)
   const double through = 1 - double{layer[3]};
   for (int c = 0; c < 3; ++c)
     out[c] = space == BlendSpace::linear
-                 ? mirrored(display_value, layer[c] + through * mirrored(linear_value, below[c]))
+                 ? mirrored_curve(display_value, layer[c] + through * mirrored_curve(linear_value, below[c]))
                  : layer[3] * display_value(double{layer[c]} / layer[3]) + through * below[c];
   return out;
 }
