@@ -170,7 +170,9 @@ TEST_CASE("an unsupported pair of codec and container exits with status 78 befor
 
 TEST_CASE("a crf beyond the codec's range is refused") {
   const TinyProject tiny;
-  check_refused(tiny, 78, "export.video.crf: is 52; of h264 and hevc 51 is the worst", "--codec hevc --crf 52");
+  check_refused(tiny, 64, "--crf 52: is 52; of h264 and hevc 51 is the worst", "--codec hevc --crf 52");
+  check_refused(tiny, 78, "export.video.crf: is 52; of h264 and hevc 51 is the worst",
+                "--codec hevc --set export.video.crf=52");
 }
 
 TEST_CASE("h264 of an odd size is named by its field before anything is written") {

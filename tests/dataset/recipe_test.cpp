@@ -182,7 +182,8 @@ TEST_CASE("errors of a recipe are reported with their key") {
       {"/backgrounds/0", 5, "backgrounds[0]: expected { ... }, found 5"},
       {"/backgrounds/0/name", 5, "backgrounds[0].name: expected a text in quotes, found 5"},
       {"/backgrounds/0/footage/video", "",
-       "backgrounds[0].footage.video: is missing: the background: a video file of a real flight"},
+       "backgrounds[0].footage.video: is missing: the background: a video of a real flight, or its images: a folder, "
+       "or a pattern as images/%06d.png"},
       {"/backgrounds/0/camera", 5, "backgrounds[0].camera: expected { ... }"},
       {"/backgrounds/0/camera/attitude_deg", 5, "backgrounds[0].camera.attitude_deg: expected { ... }"},
       {"/backgrounds/0/camera/speed_mps", "fast", "backgrounds[0].camera.speed_mps: expected a number, found \"fast\""},
@@ -196,7 +197,7 @@ TEST_CASE("errors of a recipe are reported with their key") {
       {"/settings",
        {{"camera.sped_mps", 5}},
        "settings.camera.sped_mps: no such setting; did you mean camera.speed_mps?"},
-      {"/settings", {{"export.video.crf", 99}}, "settings.export.video.crf: is 99; it must lie between 0 and 51"},
+      {"/settings", {{"export.video.crf", 99}}, "settings.export.video.crf: is 99; it must lie between 0 and 63"},
       {"/settings",
        {{"footage.video", "x"}},
        "settings.footage.video: is not the same for all videos; say it in backgrounds[].footage"},

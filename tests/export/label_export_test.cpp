@@ -142,7 +142,7 @@ TEST_CASE("a folder of labels is replaced as a whole by a later export") {
 
 TEST_CASE("a folder of labels with a foreign file is never replaced") {
   for (const char* const name : {"lot.yolo/notes.txt", "lot.yolo/runs/best.pt", "lot.yolo/labels/lot/frame_x.txt",
-                                 "lot.voc/ImageSets/Main/mine.txt", "lot.voc/JPEGImages/frame_000001.jpg"}) {
+                                 "lot.voc/ImageSets/Main/mine.txt", "lot.voc/JPEGImages/IMG_000001.jpg"}) {
     CAPTURE(name);
     Scenario scenario(kLabelledSize, kLabelledFrames);
     prepare_two_aircraft(scenario);
