@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/program.h"
 
+#include <sstream>
 #include <utility>
 
 namespace sigs::cli {
@@ -10,6 +11,7 @@ namespace {
 constexpr const char* kProgramFooter =
     "Examples:\n"
     "  sigs init flight.mp4\n"
+    "  sigs init flight.mp4 --calibration gopro.xml --model cessna.obj\n"
     "  sigs export projects/crossing/crossing.json --out out\n"
     "  sigs export projects/head-on/head-on.json --out out --codec h264 --frames 0-99\n"
     "  sigs frame projects/crossing/crossing.json --frame 100 --stages --out out\n"
@@ -31,6 +33,17 @@ constexpr const char* kProgramFooter =
     "73 cannot create output, 74 write failed, 78 bad project, 130 interrupted,\n"
     "129 stopped by SIGHUP, 143 by SIGTERM.";
 
+// The program's text below the options of one command that has none of its own: of the examples only its own.
+std::string footer_of(const std::string& command) {
+  std::istringstream lines{std::string(kProgramFooter)};
+  std::string text;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("  sigs ") || line.starts_with("  sigs " + command + " ")) text += line + "\n";
+  if (const std::size_t none = text.find("Examples:\n\n"); none != std::string::npos) text.erase(none, 11);
+  text.pop_back();
+  return text;
+}
+
 }  // namespace
 
 Program make_program() {
@@ -46,7 +59,9 @@ Program make_program() {
         add_ego_motion_command, add_appearance_command, add_path_command, add_calibrate_command, add_compare_command,
         add_encounter_command, add_encounter_model_command}) {
     Command run = add(*program.app);
-    program.commands.push_back({program.app->get_subcommands({}).back(), std::move(run)});
+    CLI::App* const command = program.app->get_subcommands({}).back();
+    if (command->get_footer() == kProgramFooter) command->footer(footer_of(command->get_name()));
+    program.commands.push_back({command, std::move(run)});
   }
   return program;
 }

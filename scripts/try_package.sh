@@ -38,7 +38,7 @@ step "for tool in cc gcc g++ clang ld cmake; do if command -v \$tool; then echo 
 step "sigs --version"
 name=$(basename "$video")
 if inside "sigs --help" | grep -q '^  init '; then
-  step "sigs init $name --fov 70 --out first"
+  step "sigs init $name --fov 70 --out first/first.json"
   step "sigs check first/*.json"
   step "sigs export first/*.json --out first/out --frames 0-49"
 fi
