@@ -46,12 +46,13 @@ for ((run = 0; run < runs; ++run)); do
   done
 done
 
-awk -F';' -v frames="$frames" '
-  !($1 in least) { order[++n] = $1; least[$1] = $2 }
-  $2 < least[$1] { least[$1] = $2 }
+sort -t';' -k1,1 -k2,2n -s "$lot/times" | awk -F';' -v frames="$frames" -v order="$(cut -d';' -f1 "$lot/times" | awk '!seen[$0]++' | paste -sd';')" '
+  { seconds[$1, ++count[$1]] = $2 }
+  function median(name) { return (seconds[name, int((count[name] + 1) / 2)] + seconds[name, int(count[name] / 2) + 1]) / 2 }
   END {
-    print "| way | frames/s, best run | of the file |"
+    print "| way | frames/s, median | of the file |"
     print "|---|---|---|"
+    n = split(order, names, ";")
     for (i = 1; i <= n; ++i)
-      printf "| %s | %.1f | %.2f |\n", order[i], frames / least[order[i]], least[order[1]] / least[order[i]]
-  }' "$lot/times"
+      printf "| %s | %.1f | %.2f |\n", names[i], frames / median(names[i]), median(names[1]) / median(names[i])
+  }'
