@@ -247,6 +247,25 @@ TEST_CASE("uneven frame times are preserved in Matroska and MP4 and begin at zer
   }
 }
 
+TEST_CASE("clips of one frame and of a few are whole, whatever the encoder holds back") {
+  for (const VideoCodec codec : {VideoCodec::h264, VideoCodec::hevc, VideoCodec::av1})
+    for (const Container container : {Container::mp4, Container::mkv})
+      for (const int frames : {1, 2, 3, 4})
+        for (const cv::Size size : {cv::Size(64, 48), cv::Size(160, 120)}) {
+          CAPTURE(static_cast<int>(codec));
+          CAPTURE(static_cast<int>(container));
+          CAPTURE(frames);
+          CAPTURE(size.width);
+          const TemporaryFolder folder;
+          write_clip(folder / "a", tagged_format(codec, container, PixelLayout::yuv420, size), frames);
+          const FrameSource source = opened(folder / "a");
+          REQUIRE(source.info().frame_count() == frames);
+          for (int n = 0; n < frames; ++n)
+            CHECK(source.info().times_s[static_cast<size_t>(n)] ==
+                  doctest::Approx(n * source.info().times_s.back() / std::max(1, frames - 1)).epsilon(0.05));
+        }
+}
+
 TEST_CASE("a frame whose time is not later than that of the one before is refused") {
   const TemporaryFolder folder;
   const VideoFormat format = tagged_format(VideoCodec::ffv1, Container::mkv, PixelLayout::gray, {16, 16});

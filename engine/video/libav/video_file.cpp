@@ -213,10 +213,13 @@ tl::unexpected<Error> VideoFile::encoding_failed(int error) const {
 
 Result<void> VideoFile::encode(const AVFrame* image) {
   if (const int sent = avcodec_send_frame(encoder_.get(), image); sent < 0) return encoding_failed(sent);
+  if (image != nullptr) ++images_;
   while (true) {
     const int received = avcodec_receive_packet(encoder_.get(), packet_.get());
     if (received == AVERROR(EAGAIN) || received == AVERROR_EOF) return {};
     if (received < 0) return encoding_failed(received);
+    // x265 leaves the decoding times of streams of one and two images undefined: it sets them by the third.
+    if (format_.codec == VideoCodec::hevc && images_ < 3) packet_->dts = packet_->pts;
     if (const Result<void> written = put(*packet_); !written) return written;
   }
 }

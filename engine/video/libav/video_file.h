@@ -77,6 +77,7 @@ class VideoFile {
   std::optional<double> first_time_s_;  // of the first frame; none before it
   double last_time_s_ = 0;
   int64_t last_stamp_ = -1;  // in ticks
+  int64_t images_ = 0;       // that the encoder has been given
 };
 
 }  // namespace sigs::libav

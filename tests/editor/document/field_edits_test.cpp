@@ -25,7 +25,7 @@ Project with_intruders(std::size_t count, std::size_t waypoints = 2) {
 // Another value than the present one, within the range of any field of its type.
 PlainValue another(const PlainValue& value) {
   if (const auto* const number = std::get_if<double>(&value)) return *number + 0.5;
-  if (const auto* const number = std::get_if<int>(&value)) return *number + 1;
+  if (const auto* const number = std::get_if<int>(&value)) return *number < 16 ? *number + 1 : *number - 1;
   if (std::holds_alternative<std::optional<double>>(value)) return std::optional<double>(0.5);
   if (std::holds_alternative<std::optional<int>>(value)) return std::optional<int>(7);
   if (const auto* const vector = std::get_if<glm::dvec3>(&value)) return *vector + glm::dvec3(1, 2, 3);

@@ -15,8 +15,9 @@ using sigs::test::TinyProject;
 TEST_CASE("the files that an export will write are known in advance, for every choice") {
   const TinyProject tiny(2);
   Project project = read_project(tiny.project()).value().project;
-  for (const CodecChoice codec : {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::hevc, CodecChoice::av1,
-                                  CodecChoice::mjpeg, CodecChoice::png})
+  for (const CodecChoice codec :
+       {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::hevc, CodecChoice::av1, CodecChoice::mjpeg, CodecChoice::png,
+        CodecChoice::tiff, CodecChoice::jpeg, CodecChoice::raw})
     for (const MasksChoice masks : {MasksChoice::none, MasksChoice::video, MasksChoice::png})
       for (const bool labels : {false, true}) {
         project.output.codec = codec;
@@ -25,9 +26,11 @@ TEST_CASE("the files that an export will write are known in advance, for every c
             labels ? std::vector<std::string>(kLabelNames.begin(), kLabelNames.end()) : std::vector<std::string>{};
         project.output.encounter = labels ? std::vector<std::string>{"nmac"} : std::vector<std::string>{};
         const std::filesystem::path folder = tiny.file("out");
+        CAPTURE(static_cast<int>(codec));
+        CAPTURE(static_cast<int>(masks));
         CHECK(outputs_there(project, folder).empty());
         const Result<ExportReport> report = export_project({.project = project, .folder = folder}, {});
-        REQUIRE(report);
+        REQUIRE_MESSAGE(report, report.error().text());
         std::vector<std::filesystem::path> foretold = outputs_of(project, folder);
         std::vector<std::filesystem::path> written = report->written;
         std::sort(foretold.begin(), foretold.end());

@@ -91,6 +91,7 @@ TEST_CASE("a new project asks for its horizon, which looking and clicking do not
   editor.start({});
   (void)editor.place("start/sample.head-on");
   editor.key("ctrl+n");
+  editor.click("new project/empty");
   (void)editor.place("first steps/Horizon");
   ui_test.image("first steps");
   choose(ui_test, "Footage", "sample.mp4");
