@@ -246,6 +246,7 @@ Result<void> run(const AppearanceOptions& options) {
   if (into) {
     apply(*found, *into);
     if (const Result<void> saved = write_project(*into, options.into, true); !saved) return saved;
+    std::fprintf(stderr, "written into %s\n", options.into.c_str());
   }
   std::fputs((options.json ? json_text(*found) : table_text(*found)).c_str(), stdout);
   return {};

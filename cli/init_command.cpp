@@ -15,12 +15,14 @@ namespace {
 
 struct InitOptions {
   FirstProjectOptions project;
+  double frame_rate_hz = 0;  // 0: not given
   double fov_deg = 0;
 };
 
 Result<void> init(const InitOptions& options, bool has_fov) {
   FirstProjectOptions project = options.project;
   if (has_fov) project.horizontal_fov_deg = options.fov_deg;
+  if (options.frame_rate_hz > 0) project.frame_rate_hz = options.frame_rate_hz;
   defer_interrupts();
   const Result<FirstProject> made = make_first_project(project, {.progress = {}, .cancel = &interrupt_flag()});
   if (!made) return fail(made.error());
@@ -48,10 +50,15 @@ Command add_init_command(CLI::App& program) {
                                ->option_text("DEG")
                                ->check(from_to(1, 359));
   fov->excludes(calibration);
+  command->add_option("--frame-rate", options->frame_rate_hz, "frames a second of images, which do not state it")
+      ->option_text("HZ")
+      ->check(from_to(0.001, 100000));
   command->add_option("--model", options->project.model, "the intruder's model (obj); default: a light aircraft")
       ->option_text("FILE")
       ->check(not_empty());
-  command->add_option("--out", options->project.out, "the project file; default: NAME/NAME.json")
+  command
+      ->add_option("--out", options->project.out,
+                   "the project file; default: NAME/NAME.json, of images NAME-project/NAME.json")
       ->option_text("PROJECT.json")
       ->check(output_path());
   command->add_option("--name", options->project.name, "the project's name; default: that of the file")

@@ -29,7 +29,7 @@ constexpr double kGood = 0.75;  // from here on, no flight that is nearest at th
 constexpr double kTurning_rad = rad_of_deg(10);
 constexpr double kGround_m = 30;  // the least height of a flight
 constexpr int kSamples = 25;      // frames at which a flight is judged
-constexpr int kTurnWaypoints = 13;
+constexpr int kTurnWaypoints = 5;
 constexpr int kSizeSteps = 4;
 
 // The shape of a flight, in a horizontal plane: along the line of sight and to the right of it.

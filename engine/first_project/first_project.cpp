@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/pose.h"
 #include "base/text.h"
@@ -21,6 +22,7 @@
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"
 #include "video/frame_source.h"
+#include "video/image_sequence.h"
 
 namespace sigs {
 
@@ -67,6 +69,13 @@ std::string stem_of(const fs::path& file) {
   return stem.empty() ? "project" : stem;
 }
 
+// Of images that of their folder.
+std::string name_of_footage(const fs::path& video) {
+  if (!is_image_sequence(video)) return stem_of(video);
+  const fs::path path = canonical_name(video);
+  return stem_of(is_number_pattern(path) ? path.parent_path() : path);
+}
+
 Result<void> check_options(const FirstProjectOptions& options) {
   if (!options.calibration.empty() && options.horizontal_fov_deg)
     return fail("calibration", "states the field of view; give it or a field of view, not both", ErrorKind::usage);
@@ -85,7 +94,9 @@ class Planning {
   Result<FirstProject> planned() {
     if (const Result<void> sound = check_options(options_); !sound) return fail(sound.error());
     step("reading the video");
-    Result<FrameSource> source = FrameSource::open(options_.video, control_.cancel);
+    Result<FrameSource> source =
+        FrameSource::open(options_.video, control_.cancel, Quantisers::leave_out,
+                          {.frame_rate_hz = options_.frame_rate_hz.value_or(0), .times_file = {}});
     if (const Result<void> on = check_interrupt(control_.cancel); !on) return fail(on.error());
     if (!source) return fail(source.error());
     const VideoInfo info = source->info();
@@ -117,11 +128,14 @@ class Planning {
   void name_project() {
     const std::string name = !options_.name.empty()  ? options_.name
                              : !options_.out.empty() ? stem_of(options_.out)
-                                                     : stem_of(options_.video);
-    const fs::path out = options_.out.empty() ? fs::path(name) / (name + ".json") : options_.out;
+                                                     : name_of_footage(options_.video);
+    // Images already have a folder of that name.
+    const std::string folder = is_image_sequence(options_.video) ? name + "-project" : name;
+    const fs::path out = options_.out.empty() ? fs::path(folder) / (name + ".json") : options_.out;
     project().file = canonical_name(out);
     project().name = name;
     project().footage.video = relative_to(options_.video, project().file);
+    project().footage.frame_rate_hz = options_.frame_rate_hz;
     const UsedFrames used = used_frames(footage_);
     range_ = used.range;
     if (!used.note) return;

@@ -22,11 +22,12 @@ namespace sigs {
 
 struct FirstProjectOptions {
   std::filesystem::path video;
+  std::optional<double> frame_rate_hz;       // of images, which do not state it; none: not known
   std::filesystem::path calibration;         // empty: none is given
   std::optional<double> horizontal_fov_deg;  // of the footage, 1 to 359; not together with a calibration
   std::filesystem::path model;  // OBJ; empty: the sample light aircraft; samples are copied beside the project
-  std::filesystem::path out;    // the project file; empty: NAME/NAME.json in the current folder
-  std::string name;             // empty: the project file's or else the video's name without extension
+  std::filesystem::path out;    // the project file; empty: NAME/NAME.json in the current folder, of images NAME-project/NAME.json
+  std::string name;             // empty: the project file's or else the video's name without extension, of images their folder's
   bool overwrite = false;       // whether files of these names are replaced
 };
 

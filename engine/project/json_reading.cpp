@@ -203,6 +203,8 @@ Result<Json> parsed_json(const std::string& text, const std::string& file, Error
   JsonBuilder builder;
   if (Json::sax_parse(text, &builder)) return std::move(builder.built());
   if (builder.is_too_large()) return fail(file, "holds a number that is too large", kind);
+  if (text.find_first_not_of(" \t\r\n") != text.find('{') && !file.ends_with(".json"))
+    return fail(file, "is not JSON; `sigs init` makes a project of a video", kind);
   return fail(file, "is not JSON: unexpected text at " + text_position(text, builder.wrong_byte()), kind);
 }
 

@@ -179,3 +179,26 @@ TEST_CASE("a request to stop ends the making without a file") {
   CHECK(made.error().kind == ErrorKind::interrupted);
   CHECK_FALSE(fs::exists(folder / "p.json"));
 }
+
+TEST_CASE("images give the project their folder's name, and leave their folder as it is") {
+  const test::TemporaryFolder folder;
+  fs::create_directory(folder / "flight");
+  const fs::path numbered = made_clip(folder, "size=320x240:rate=25", "-frames:v 12", "flight/%04d.png");
+  const auto files_in = [](const fs::path& path) {
+    return std::distance(fs::directory_iterator(path), fs::directory_iterator());
+  };
+  REQUIRE(files_in(folder / "flight") == 12);
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  for (const fs::path& footage : {fs::path("flight"), fs::path("flight/%04d.png")}) {
+    CAPTURE(footage.string());
+    const FirstProject made = made_and_opened({.video = footage, .frame_rate_hz = 50});
+    CHECK(made.project.name == "flight");
+    CHECK(made.project.file == canonical_name(folder / "flight-project/flight.json"));
+    CHECK(made.project.footage.video == "../" + footage.string());
+    CHECK(made.project.footage.frame_rate_hz == 50.0);
+    CHECK(files_in(folder / "flight") == 12);
+    fs::remove_all(folder / "flight-project");
+  }
+  fs::current_path(before);
+}

@@ -10,10 +10,12 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "editor/document/dropped_file.h"
 #include "editor/widgets/texts.h"
+#include "video/image_sequence.h"
 
 namespace sigs::editor {
 
@@ -54,6 +56,14 @@ std::string wrong_with_file(const std::string& text, const std::string& what) {
   if (is_folder(path)) return fmt::format("{} is a folder; choose {}", path.filename().string(), what);
   if (!exists_at(path)) return fmt::format("{} is not there; choose {}", path.string(), what);
   return "";
+}
+
+// Images in a folder, or numbered, stand for a video.
+std::string wrong_with_video(const std::string& text) {
+  const fs::path path = typed_path(text);
+  if (trimmed(text).empty() || !is_image_sequence(path)) return wrong_with_file(text, "a video");
+  const Result<std::vector<fs::path>> images = files_of_sequence(path);
+  return images ? "" : images.error().text();
 }
 
 std::string wrong_with_lens(const NewProjectForm& form) {
@@ -104,8 +114,10 @@ fs::path typed_path(const std::string& text) {
 }
 
 fs::path usual_project_file(const fs::path& video, const fs::path& elsewhere) {
-  const fs::path folder = can_write_into(video.parent_path()) ? video.parent_path() : elsewhere;
-  const std::string stem = video.stem().string();
+  // Images: beside their folder, under its name.
+  const fs::path footage = is_number_pattern(video) ? video.parent_path() : video;
+  const fs::path folder = can_write_into(footage.parent_path()) ? footage.parent_path() : elsewhere;
+  const std::string stem = footage.stem().string();
   fs::path file = folder / (stem + ".json");
   for (int i = 2; i < kMaxSameNames && exists_at(file); ++i) file = folder / fmt::format("{}-{}.json", stem, i);
   return file;
@@ -115,7 +127,8 @@ void set_video(NewProjectForm& form, const std::string& video, const fs::path& e
   form.video = video;
   if (form.is_file_chosen) return;
   const fs::path path = typed_path(video);
-  form.file = exists_at(path) && !is_folder(path) ? usual_project_file(path, elsewhere).string() : "";
+  const bool is_there = is_image_sequence(path) ? files_of_sequence(path).has_value() : exists_at(path);
+  form.file = is_there ? usual_project_file(path, elsewhere).string() : "";
 }
 
 std::string take_dropped(NewProjectForm& form, const fs::path& dropped, const fs::path& elsewhere) {
@@ -137,7 +150,7 @@ std::string take_dropped(NewProjectForm& form, const fs::path& dropped, const fs
 }
 
 std::optional<FormProblem> problem_of(const NewProjectForm& form) {
-  if (std::string wrong = wrong_with_file(form.video, "a video"); !wrong.empty())
+  if (std::string wrong = wrong_with_video(form.video); !wrong.empty())
     return FormProblem{FormRow::video, std::move(wrong)};
   if (std::string wrong = wrong_with_lens(form); !wrong.empty()) return FormProblem{FormRow::lens, std::move(wrong)};
   if (form.sample.has_value()) {
