@@ -140,6 +140,11 @@ void ExportView::draw_notes(const ViewContext& context) {
     const Problem& problem = context.shown.scene->draft.problems.front();
     note_line(Icon::warning, color::kBad, problem.field + ": " + problem.what);
   }
+  if (const std::string names = labels_without_images(context.document.project().output); !names.empty())
+    note_line(Icon::warning, color::kPartly,
+              fmt::format("Labels {} name numbered images, which a video does not have: choose png, tiff or jpeg as "
+                          "Video, or make them with FFmpeg afterwards.",
+                          names));
   if (overwrite_asked_ && !there_.empty()) {
     std::string names;
     for (const fs::path& path : there_) names += (names.empty() ? "" : ", ") + path.filename().string();

@@ -163,7 +163,7 @@ class Search {
 const char* name_of(RoughSource source) {
   switch (source) {
     case RoughSource::given:
-      return "--fov";
+      return "the field of view given";
     case RoughSource::gyroscope:
       return "the gyroscope";
     case RoughSource::turn:

@@ -97,13 +97,8 @@ Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, cons
   return {};
 }
 
-// Labels that name an image for each frame, where a video is written and no images.
 void warn_of_missing_images(const ExportSettings& output, const ExportControl& control, ExportReport& report) {
-  if (writes_images(output.codec)) return;
-  std::string names;
-  for (const std::string& label : output.labels)
-    if (label_format(label)->names_images) names.append(names.empty() ? "" : ", ").append(label);
-  if (!names.empty())
+  if (const std::string names = labels_without_images(output); !names.empty())
     say(control, report,
         {"", fmt::format("labels {} name images (frame_000000.png ...) that are not written beside a video; set "
                          "export.video.codec to png, or make them with FFmpeg as docs/label-formats.md says",
@@ -162,6 +157,15 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
   if (!report && report.error().kind == ErrorKind::interrupted && request.video_descriptor >= 0)
     return fail("", "interrupted; the stream ends early", ErrorKind::interrupted);
   return report;
+}
+
+std::string labels_without_images(const ExportSettings& output) {
+  if (writes_images(output.codec)) return "";
+  std::string names;
+  for (const std::string& label : output.labels)
+    if (const LabelFormat* const format = label_format(label); format != nullptr && format->names_images)
+      names.append(names.empty() ? "" : ", ").append(label);
+  return names;
 }
 
 }  // namespace sigs

@@ -62,6 +62,10 @@ struct ExportControl {
 // them is written, and the frames that have gone out before an error or an interruption stay with the reader.
 [[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
 
+// The label formats asked for that name an image for each frame where a video is written and no images: "coco, yolo".
+// Empty: none.
+[[nodiscard]] std::string labels_without_images(const ExportSettings& output);
+
 // Errors in a project's outputs that only the footage can show: h264 of an odd size. Names the field.
 [[nodiscard]] Result<void> check_output(const Project& project, const VideoInfo& footage);
 
