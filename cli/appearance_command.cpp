@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "cli/process.h"
 #include "cli/progress.h"
 #include "project/json.h"
@@ -197,24 +197,18 @@ class Outputs {
 
   Result<void> write(const Appearance& found) {
     if (!out_.empty())
-      if (const Result<void> done = write_bytes(out_, settings_of(found).dump(2) + "\n"); !done) return done;
+      if (const Result<void> done = write_bytes(out_, settings_of(found).dump(2) + "\n"); !done)
+        return fail(staged_.with_final_names(done.error()));
     if (!plot_.empty()) {
       std::vector<uchar> bytes;
       image_codecs::imencode(".png", panel_page(panels_of(found)), bytes);
-      if (const Result<void> done = write_bytes(plot_, {bytes.begin(), bytes.end()}); !done) return done;
+      if (const Result<void> done = write_bytes(plot_, std::string(bytes.begin(), bytes.end())); !done)
+        return fail(staged_.with_final_names(done.error()));
     }
     return staged_.commit();
   }
 
  private:
-  Result<void> write_bytes(const fs::path& path, const std::string& bytes) {
-    std::ofstream out(path, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) return fail(staged_.with_final_names({path.string(), "could not be written", ErrorKind::write_failed}));
-    return {};
-  }
-
   const AppearanceOptions& options_;
   StagedOutputs staged_;
   fs::path out_;  // temporary names
