@@ -112,6 +112,7 @@ VideoFormat mask_format(const VideoFormat& image, MasksChoice masks) {
   VideoFormat format = image;
   format.codec = masks == MasksChoice::png ? VideoCodec::png : VideoCodec::ffv1;
   format.container = Container::mkv;
+  format.threads = 1;  // of a mask there is hardly anything to encode
   format.layout = PixelLayout::gray;
   format.bit_depth = 8;
   format.color = {.range = ColorRange::full, .range_stated = true};

@@ -173,6 +173,8 @@ FramePtr VideoFile::av_frame_of(const Frame& frame) const {
 
 Result<void> VideoFile::write(const Frame& frame) {
   ENSURE(frame.layout == format_.layout && frame.bit_depth == format_.bit_depth && frame.size_px() == format_.size_px);
+  prepare();
+  if (ffv1_) return put_known(ffv1_->packet_of(stored(frame, encoding_), format_.threads), frame.time_s);
   const Result<int64_t> stamp = next_stamp(frame.time_s);
   if (!stamp) return fail(stamp.error());
   const FramePtr image = av_frame_of(frame);
@@ -181,7 +183,7 @@ Result<void> VideoFile::write(const Frame& frame) {
 }
 
 Result<void> VideoFile::write_blank(double time_s) {
-  prepare_blanks();
+  prepare();
   if (!blank_.empty()) return put_known(blank_, time_s);
   Frame frame = blank_frame(format_.layout, format_.size_px, format_.color, format_.bit_depth);
   frame.time_s = time_s;
@@ -189,10 +191,11 @@ Result<void> VideoFile::write_blank(double time_s) {
 }
 
 // All images are keyframes in FFV1 as it is set up here, so that the same image always gives the same packet.
-void VideoFile::prepare_blanks() {
-  if (std::exchange(blanks_are_prepared_, true) || format_.codec != VideoCodec::ffv1) return;
-  Frame frame = blank_frame(format_.layout, format_.size_px, format_.color, format_.bit_depth);
-  blank_ = packet_alone(frame);
+void VideoFile::prepare() {
+  if (std::exchange(is_prepared_, true) || format_.codec != VideoCodec::ffv1) return;
+  ffv1_ = Ffv1Packets::like(*encoder_, format_, encoding_);
+  const Frame frame = blank_frame(format_.layout, format_.size_px, format_.color, format_.bit_depth);
+  blank_ = ffv1_ ? ffv1_->packet_of(stored(frame, encoding_), format_.threads) : packet_alone(frame);
 }
 
 // The encoded packet of an image that is not written itself. Empty where the encoder does not return it at once.

@@ -9,6 +9,7 @@
 #include "base/output_stream.h"
 #include "base/result.h"
 #include "video/libav/encoding.h"
+#include "video/libav/ffv1_packets.h"
 #include "video/libav/handles.h"
 
 namespace sigs::libav {
@@ -35,8 +36,8 @@ class VideoFile {
   // The same to a stream, whose bytes leave the process with each packet.
   [[nodiscard]] static Result<VideoFile> create(OutputStream out, const VideoFormat& format);
 
-  // Encodes in advance what write_blank() repeats. Optional: the bytes are the same without it.
-  void warm_up() { prepare_blanks(); }
+  // Does in advance what the first image would have to wait for. Optional: the bytes are the same without it.
+  void warm_up() { prepare(); }
 
   // Encodes a frame, or one whose samples are all 0, and writes the packets that the encoder returns.
   [[nodiscard]] Result<void> write(const Frame& frame);
@@ -57,7 +58,7 @@ class VideoFile {
   [[nodiscard]] FramePtr av_frame_of(const Frame& frame) const;
   [[nodiscard]] Result<void> encode(const AVFrame* image);
   [[nodiscard]] std::vector<uint8_t> packet_alone(const Frame& frame);
-  void prepare_blanks();
+  void prepare();
   [[nodiscard]] Result<void> put(AVPacket& packet);
   [[nodiscard]] Result<void> put_known(const std::vector<uint8_t>& packet, double time_s);
   [[nodiscard]] Result<void> check(int result) const;
@@ -72,7 +73,8 @@ class VideoFile {
   OutputPtr output_;                     // the container
   CodecPtr encoder_;
   PacketPtr packet_ = new_packet();  // for encoded packets, reused
-  bool blanks_are_prepared_ = false;
+  bool is_prepared_ = false;
+  std::optional<Ffv1Packets> ffv1_;     // makes the packets in place of encoder_; none: encoder_ does
   std::vector<uint8_t> blank_;          // the packet of a blank image, where it is always the same
   std::optional<double> first_time_s_;  // of the first frame; none before it
   double last_time_s_ = 0;
