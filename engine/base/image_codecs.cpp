@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "base/png.h"
+
 namespace sigs::image_codecs {
 
 // SIGS_IMAGE_CODECS_FILES is set by CMakeLists.txt where the library can be loaded so: its file names, by which it is
@@ -42,7 +44,7 @@ Function* function_named(const char* mangled_name) {
 
 }  // namespace
 
-cv::Mat imread(const std::string& file, int flags) {
+static cv::Mat opencv_imread(const std::string& file, int flags) {
   static auto* const call = function_named<cv::Mat(const std::string&, int)>(SIGS_MANGLED_IMREAD);
   return call(file, flags);
 }
@@ -58,8 +60,8 @@ bool imwrite(const std::string& file, cv::InputArray image, const std::vector<in
   return call(file, image, parameters);
 }
 
-bool imencode(const std::string& extension, cv::InputArray image, std::vector<uchar>& bytes,
-              const std::vector<int>& parameters) {
+static bool opencv_imencode(const std::string& extension, cv::InputArray image, std::vector<uchar>& bytes,
+                            const std::vector<int>& parameters) {
   using Function = bool(const std::string&, cv::InputArray, std::vector<uchar>&, const std::vector<int>&);
   static auto* const call = function_named<Function>(SIGS_MANGLED_IMENCODE);
   return call(extension, image, bytes, parameters);
@@ -67,7 +69,7 @@ bool imencode(const std::string& extension, cv::InputArray image, std::vector<uc
 
 #else
 
-cv::Mat imread(const std::string& file, int flags) {
+static cv::Mat opencv_imread(const std::string& file, int flags) {
   return cv::imread(file, flags);
 }
 
@@ -79,11 +81,24 @@ bool imwrite(const std::string& file, cv::InputArray image, const std::vector<in
   return cv::imwrite(file, image, parameters);
 }
 
-bool imencode(const std::string& extension, cv::InputArray image, std::vector<uchar>& bytes,
-              const std::vector<int>& parameters) {
+static bool opencv_imencode(const std::string& extension, cv::InputArray image, std::vector<uchar>& bytes,
+                            const std::vector<int>& parameters) {
   return cv::imencode(extension, image, bytes, parameters);
 }
 
 #endif
+
+cv::Mat imread(const std::string& file, int flags) {
+  if (flags == cv::IMREAD_UNCHANGED)
+    if (cv::Mat image = plain_png(file); !image.empty()) return image;
+  return opencv_imread(file, flags);
+}
+
+bool imencode(const std::string& extension, cv::InputArray image, std::vector<uchar>& bytes,
+              const std::vector<int>& parameters) {
+  if (extension == ".png" && parameters.empty() && image.isMat())
+    if (bytes = plain_png_bytes(image.getMat()); !bytes.empty()) return true;
+  return opencv_imencode(extension, image, bytes, parameters);
+}
 
 }  // namespace sigs::image_codecs
