@@ -19,6 +19,7 @@
 #include "base/transfer.h"
 #include "mesh/mesh.h"
 #include "render/draw_list.h"
+#include "render/mipmaps.h"
 
 namespace sigs {
 
@@ -94,16 +95,9 @@ cv::Mat fitting(const cv::Mat& texture) {
   return smaller;
 }
 
-GLuint uploaded(const cv::Mat& texture) {
+GLuint uploaded(const cv::Mat& texture, const Mipmaps& mipmaps) {
   ENSURE(texture.type() == CV_8UC4);
-  const cv::Mat texels = premultiplied(fitting(texture));
-  GLuint name = 0;
-  glGenTextures(1, &name);
-  glBindTexture(GL_TEXTURE_2D, name);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, texels.cols, texels.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data);
-  glGenerateMipmap(GL_TEXTURE_2D);
+  const GLuint name = mipmaps.uploaded(premultiplied(fitting(texture)));
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -207,10 +201,14 @@ GpuMesh::GpuMesh(const Mesh& mesh) : fingerprint_(fingerprint_of(mesh)), texture
 }
 
 void GpuMesh::upload_textures(const Mesh& mesh) {
+  const bool has_textures = std::any_of(texture_of_material_.begin(), texture_of_material_.end(),
+                                        [](int texture) { return texture != kNoTexture; });
+  if (!has_textures) return;
+  const Mipmaps mipmaps;
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     const cv::Mat& texture = mesh.materials[i].texture;
     if (texture_of_material_[i] != static_cast<int>(textures_.size())) continue;  // has none, or it is there
-    textures_.push_back(uploaded(texture));
+    textures_.push_back(uploaded(texture, mipmaps));
     bytes_uploaded_ += static_cast<std::int64_t>(texture.total() * texture.elemSize());
   }
 }
