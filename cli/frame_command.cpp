@@ -5,10 +5,13 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "base/threads.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
@@ -33,6 +36,18 @@ struct FrameOptions {
   bool force = false;
 };
 
+// Reads a frame of the footage while OpenGL is made ready on this thread, where an intruder is in view. If OpenGL
+// fails, the frame's error gives the reason.
+Result<Frame> background_of(FrameSource& source, const Scene& scene, int frame, ComposeContext& context) {
+  const bool draws = any_in_view(scene, frame);
+  std::optional<Result<Frame>> background;
+  Result<std::thread> reading = started_thread([&] { background = source.read(frame); });
+  if (draws) static_cast<void>(guarded([&] { return context.renderer(); }));
+  if (!reading) return source.read(frame);
+  reading->join();
+  return *std::move(background);
+}
+
 Result<ComposedFrame> composed(const Project& project, const FrameOptions& options) {
   Result<FrameSource> source = open_footage(project, nullptr, quantisers_for(project));
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
@@ -45,12 +60,12 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
   const std::vector<Visibility> visibilities = estimated_visibilities(*scene, kVisibilitySampleFrames);
   for (const Warning& warning : warnings_of(project, *scene, visibilities)) print_warning(warning);
   for (const Warning& warning : codec_warnings_of(project, source->info())) print_warning(warning);
-  Result<Frame> background = source->read(options.frame);
+  ComposeContext context;
+  Result<Frame> background = background_of(*source, *scene, options.frame, context);
   if (!background) return fail(background.error());
   if (background->damaged)
     print_warning({source->info().path.string(),
                    fmt::format("frame {} is damaged; another frame of the footage stands in for it", options.frame)});
-  ComposeContext context;
   return compose_frame(*scene, options.frame, std::move(*background), context,
                        options.stages ? Stages::keep : Stages::leave_out);
 }

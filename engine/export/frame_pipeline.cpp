@@ -10,17 +10,6 @@
 
 namespace sigs {
 
-namespace {
-
-bool any_in_view(const Scene& scene, int frame) {
-  const VisibilityEstimator points(scene);
-  for (int i = 0; i < static_cast<int>(scene.intruders.size()); ++i)
-    if (points.at(i, frame).visibility_state != VisibilityState::out_of_view) return true;
-  return false;
-}
-
-}  // namespace
-
 FramePipeline::FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs)
     : scene_(scene), source_(source), range_(range), decoded_(2), finished_(range.first, 2 * jobs + 2) {
   threads_.reserve(static_cast<std::size_t>(jobs) + 1);

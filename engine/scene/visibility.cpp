@@ -145,6 +145,13 @@ std::vector<VisibilityEstimate> VisibilityEstimator::all_at(int frame) const {
   return estimates;
 }
 
+bool any_in_view(const Scene& scene, int frame) {
+  const std::vector<VisibilityEstimate> estimates = VisibilityEstimator(scene).all_at(frame);
+  return std::any_of(estimates.begin(), estimates.end(), [](const VisibilityEstimate& estimate) {
+    return estimate.visibility_state != VisibilityState::out_of_view;
+  });
+}
+
 void add(Visibility& visibility, const VisibilityEstimate& estimate) {
   visibility.is_estimate = true;
   ++visibility.frames_checked;

@@ -74,6 +74,9 @@ class VisibilityEstimator {
   Camera camera_;
 };
 
+// Whether some of any intruder is in the image of a frame (of the footage, from 0), by these estimates.
+[[nodiscard]] bool any_in_view(const Scene& scene, int frame);
+
 // Counts one more frame by its estimate.
 void add(Visibility& visibility, const VisibilityEstimate& estimate);
 
