@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
@@ -15,6 +13,7 @@
 #include "calibration/rough_plot.h"
 #include "cli/calibrate_options.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "cli/process.h"
 #include "cli/progress.h"
 #include "telemetry/read_track.h"
@@ -85,23 +84,17 @@ Result<RoughOutputs> begun(StagedOutputs& outputs, const CalibrateOptions& optio
   return staged;
 }
 
-Result<void> write_text_file(const StagedOutputs& outputs, const fs::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) return fail(outputs.with_final_names({path.string(), "could not be written", ErrorKind::write_failed}));
-  return {};
-}
-
 Result<void> write_all(StagedOutputs& outputs, const RoughOutputs& staged, const RoughCalibration& found) {
   const Result<CalibrationText> text = calibration_text(found);
   if (!text) return fail(text.error());
-  if (const auto written = write_text_file(outputs, staged.calibration, calibration_xml(*text)); !written)
-    return written;
+  if (const auto written = write_bytes(staged.calibration, calibration_xml(*text)); !written)
+    return fail(outputs.with_final_names(written.error()));
   if (!staged.json.empty())
-    if (const auto written = write_text_file(outputs, staged.json, json_of(found)); !written) return written;
-  if (!staged.plot.empty() && !image_codecs::imwrite(staged.plot.string(), rough_plot(found)))
-    return fail(outputs.with_final_names({staged.plot.string(), "could not be written", ErrorKind::write_failed}));
+    if (const auto written = write_bytes(staged.json, json_of(found)); !written)
+      return fail(outputs.with_final_names(written.error()));
+  if (!staged.plot.empty())
+    if (const auto drawn = write_png(staged.plot, rough_plot(found)); !drawn)
+      return fail(outputs.with_final_names(drawn.error()));
   return outputs.commit();
 }
 

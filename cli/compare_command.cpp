@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -14,12 +13,12 @@
 
 #include "appearance/similar_place.h"
 #include "base/csv.h"
-#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "cli/process.h"
 #include "comparison/inserted_target.h"
 #include "comparison/target_boxes.h"
@@ -258,19 +257,13 @@ Result<void> run(const CompareOptions& options) {
     if (path.empty()) return {};
     const Result<fs::path> staged = outputs.add_file(path);
     if (!staged) return fail(staged.error());
-    if (!writer(*staged))
-      return fail(outputs.with_final_names({staged->string(), "could not be written", ErrorKind::write_failed}));
-    return {};
+    const Result<void> written = writer(*staged);
+    return written ? written : fail(outputs.with_final_names(written.error()));
   };
   const Result<void> drawn =
-      write(options.image, [&](const fs::path& to) { return image_codecs::imwrite(to.string(), image_of(*columns)); });
+      write(options.image, [&](const fs::path& to) { return write_png(to, image_of(*columns)); });
   if (!drawn) return drawn;
-  const Result<void> listed = write(options.csv, [&](const fs::path& to) {
-    std::ofstream out(to, std::ios::binary);
-    out << csv_of(*columns);
-    out.close();
-    return !out.fail();
-  });
+  const Result<void> listed = write(options.csv, [&](const fs::path& to) { return write_bytes(to, csv_of(*columns)); });
   if (!listed) return listed;
   if (const Result<void> kept = outputs.commit(); !kept) return kept;
   std::fputs(compare_table_of(*columns).c_str(), stdout);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 #include "camera/camera.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "cli/process.h"
 #include "cli/progress.h"
 #include "ego_motion/attitude_plot.h"
@@ -110,12 +110,11 @@ Result<void> write(StagedOutputs& outputs, const fs::path& csv, const fs::path& 
   Track track = track_of(found.motion, options.video);
   if (found.log) add_log(track, *found.log, found.motion);
   if (options.readout_ms) track.readout_s = *options.readout_ms / 1000;
-  std::ofstream out(csv, std::ios::binary);
-  out << track_csv_text(track);
-  out.close();
-  if (!out) return fail(outputs.with_final_names({csv.string(), "could not be written", ErrorKind::write_failed}));
-  if (!plot.empty() && !image_codecs::imwrite(plot.string(), attitude_plot(found.motion)))
-    return fail(outputs.with_final_names({plot.string(), "could not be written", ErrorKind::write_failed}));
+  if (const Result<void> listed = write_bytes(csv, track_csv_text(track)); !listed)
+    return fail(outputs.with_final_names(listed.error()));
+  if (!plot.empty())
+    if (const Result<void> drawn = write_png(plot, attitude_plot(found.motion)); !drawn)
+      return fail(outputs.with_final_names(drawn.error()));
   return outputs.commit();
 }
 

@@ -22,6 +22,12 @@ Result<void> write_bytes(const fs::path& staged, std::string_view bytes) {
   return fail(staged.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
 }
 
+Result<void> write_png(const fs::path& staged, const cv::Mat& image) {
+  std::vector<uchar> bytes;
+  image_codecs::imencode(".png", image, bytes);
+  return write_bytes(staged, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
 CreatedFolders::~CreatedFolders() {
   std::error_code code;
   for (const fs::path& folder : created_ | std::views::reverse) fs::remove(folder, code);  // refused where not empty
@@ -48,13 +54,8 @@ Result<void> ImageFiles::reserve(const fs::path& path) {
 Result<void> ImageFiles::write(const fs::path& path, const cv::Mat& image) {
   if (!staged_.contains(path))
     if (const Result<void> reserved = reserve(path); !reserved) return reserved;
-  std::vector<uchar> bytes;
-  image_codecs::imencode(".png", image, bytes);
-  std::ofstream out(staged_[path], std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    return fail(path.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
+  if (const Result<void> written = write_png(staged_[path], image); !written)
+    return fail(outputs_.with_final_names(written.error()));
   return {};
 }
 

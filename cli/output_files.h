@@ -15,6 +15,10 @@ namespace sigs::cli {
 // Writes a file under its temporary name (StagedOutputs). Error write_failed.
 [[nodiscard]] Result<void> write_bytes(const std::filesystem::path& staged, std::string_view bytes);
 
+// The same of an image, as PNG, encoded in memory: OpenCV's own writing of files prints lines on stderr, and does not
+// notice where the last bytes find no room.
+[[nodiscard]] Result<void> write_png(const std::filesystem::path& staged, const cv::Mat& image);
+
 // PNG files that get their final names together, once all of them are written. Without commit() none is left.
 class ImageFiles {
  public:

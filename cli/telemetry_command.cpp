@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
+#include "cli/process.h"
 #include "telemetry/read_track.h"
 #include "telemetry/track_csv.h"
 #include "telemetry/track_plot.h"
@@ -99,9 +100,10 @@ class Outputs {
 
 Result<void> telemetry(const TelemetryOptions& options) {
   if (const Result<void> named = check_names(options); !named) return named;
+  defer_interrupts();
   Outputs outputs(options);
   if (const Result<void> free = outputs.reserve(); !free) return free;
-  const Result<Track> track = read_track(options.file);
+  const Result<Track> track = read_track(options.file, {.cancel = &interrupt_flag()});
   if (!track) return fail(track.error());
   for (const Warning& warning : track->warnings) print_warning(warning);
   if (const Result<void> written = outputs.write(*track); !written) return written;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/file_lock.h"
+#include "base/input_file.h"
 #include "base/paths.h"
 #include "base/renaming.h"
 
@@ -27,6 +28,7 @@ namespace {
 
 constexpr std::string_view kBeginning = ".sigs-";
 constexpr std::string_view kPattern = "XXXXXX";
+constexpr const char* kUnfinishedLock = "lock.part";
 
 Error not_created(const fs::path& folder) {
   const bool is_full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
@@ -85,7 +87,22 @@ void remove_tree(const fs::path& path) {
 void remove_staging(const fs::path& staging) {
   remove_tree(staging / "new");
   remove_tree(staging / "old");
+  unlink((staging / kUnfinishedLock).c_str());
   unlink((staging / "lock").c_str());
+  rmdir(staging.c_str());
+}
+
+// Removes what a run left that was killed before the folder had its lock file, or after it had it no more: an empty
+// folder, or one with the beginning of a lock file and nothing else. Where that run is alive it begins anew.
+void remove_unfinished_staging(const fs::path& staging) {
+  if (!is_private_folder(staging)) return;
+  const Result<std::vector<fs::path>> inside = folder_contents(staging);
+  if (!inside || inside->size() > 1 || (inside->size() == 1 && inside->front() != staging / kUnfinishedLock)) return;
+  if (!inside->empty()) {
+    const Result<std::string> text = read_text(inside->front());
+    if (!text || !lock_text().starts_with(*text)) return;
+    unlink(inside->front().c_str());
+  }
   rmdir(staging.c_str());
 }
 
@@ -106,6 +123,7 @@ bool put_back_older(const fs::path& staging) {
 
 void remove_abandoned_staging(const fs::path& folder) {
   for (const fs::path& staging : staging_folders_in(folder)) {
+    remove_unfinished_staging(staging);
     const Descriptor lock = opened_lock(staging);
     if (!lock.is_open() || try_lock(lock) != LockAnswer::held || !is_named(lock, staging / "lock")) continue;
     if (put_back_older(staging)) remove_staging(staging);
@@ -113,14 +131,18 @@ void remove_abandoned_staging(const fs::path& folder) {
 }
 
 Result<StagingFolder> StagingFolder::create(const fs::path& folder) {
+  constexpr int kTries = 20;  // other runs may take a folder without a lock file for one that was left behind
   remove_abandoned_staging(folder);
-  Descriptor spare(open("/", O_PATH | O_CLOEXEC));
-  if (!spare.is_open()) return fail(not_created(folder));
-  std::string path = (folder / std::string(kBeginning).append(kPattern)).string();
-  if (mkdtemp(path.data()) == nullptr) return fail(not_created(folder));
-  StagingFolder staging(folder, path, std::move(spare));
-  if (const Result<void> begun = staging.begin(); !begun) return fail(begun.error());
-  return staging;
+  for (int i = 1;; ++i) {
+    Descriptor spare(open("/", O_PATH | O_CLOEXEC));
+    if (!spare.is_open()) return fail(not_created(folder));
+    std::string path = (folder / std::string(kBeginning).append(kPattern)).string();
+    if (mkdtemp(path.data()) == nullptr) return fail(not_created(folder));
+    StagingFolder staging(folder, path, std::move(spare));
+    if (staging.begin()) return staging;
+    const Error error = not_created(folder);
+    if (errno != ENOENT || i == kTries) return fail(error);
+  }
 }
 
 StagingFolder::StagingFolder(fs::path folder, fs::path path, Descriptor spare)
@@ -137,17 +159,18 @@ StagingFolder::~StagingFolder() {
   remove();
 }
 
-// Without its text in the lock file the folder cannot be mistaken for an abandoned one.
-Result<void> StagingFolder::begin() {
+// The lock file gets its name when it has its text and is locked: with that name, and a free lock, the folder counts as
+// left behind.
+bool StagingFolder::begin() {
   constexpr int kFlags = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
-  lock_ = Descriptor(open((path_ / "lock").c_str(), kFlags, 0600));
-  if (!lock_.is_open()) return fail(not_created(folder_));
+  const fs::path unfinished = path_ / kUnfinishedLock;
+  lock_ = Descriptor(open(unfinished.c_str(), kFlags, 0600));
+  if (!lock_.is_open()) return false;
   static_cast<void>(try_lock(lock_));  // where there are no locks, other runs leave the folder alone
   const std::string text = lock_text();
-  if (write(lock_.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
-      mkdir((path_ / "new").c_str(), 0700) != 0 || mkdir((path_ / "old").c_str(), 0700) != 0)
-    return fail(not_created(folder_));
-  return {};
+  return write(lock_.number(), text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
+         rename(unfinished.c_str(), (path_ / "lock").c_str()) == 0 && mkdir((path_ / "new").c_str(), 0700) == 0 &&
+         mkdir((path_ / "old").c_str(), 0700) == 0;
 }
 
 bool StagingFolder::is_staged_elsewhere(const fs::path& name) const {

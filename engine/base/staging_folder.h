@@ -16,7 +16,8 @@ namespace sigs {
 //   old/  what they replace, until all of them have their final names
 // The folder is removed with this object. What a killed run leaves behind is removed by the next run that stages in the
 // same FOLDER, but only where the owner is certain: name, user, mode and lock file are right, the machine is this one,
-// and the lock is free. All other folders stay, and so do these where the file system has no locks.
+// and the lock is free; or where it was killed before there was a lock file, and the folder is empty. All other folders
+// stay, and so do these where the file system has no locks.
 class StagingFolder {
  public:
   // Error cannot_create: FOLDER does not exist or may not be written into; write_failed: the disk is full.
@@ -46,7 +47,7 @@ class StagingFolder {
 
  private:
   StagingFolder(std::filesystem::path folder, std::filesystem::path path, Descriptor spare);
-  [[nodiscard]] Result<void> begin();
+  [[nodiscard]] bool begin();  // false: errno says why not
   void remove() noexcept;
 
   std::filesystem::path folder_;

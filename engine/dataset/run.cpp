@@ -20,8 +20,8 @@
 #include "dataset/merge_labels.h"
 #include "dataset/video_folder.h"
 #include "dataset/video_name.h"
-#include "video/frame_source.h"
 #include "scene/opened_project.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 
@@ -40,6 +40,16 @@ int cores() {
 int videos_at_a_time(const DatasetRequest& request, int videos) {
   const int wanted = request.jobs > 0 ? request.jobs : std::max(1, cores() / 4);
   return std::clamp(wanted, 1, std::max(1, videos));
+}
+
+// The error with final paths in place of those in the staging folder, which the user does not know.
+Error with_final_names(Error error, const fs::path& dataset) {
+  const std::string staging = staging_folder_of(dataset).string() + "/";
+  for (std::string* const text : {&error.where, &error.what})
+    for (const std::string& part : {staging + "new/", staging})
+      for (std::size_t at = text->find(part); at != std::string::npos; at = text->find(part))
+        text->replace(at, part.size(), dataset.string() + "/");
+  return error;
 }
 
 // What a run knows of one of its videos.
@@ -175,7 +185,7 @@ void DatasetRun::make(Task& task, int jobs) {
                            .cancel = control_.cancel};
   Result<VideoEntry> made = guarded([&] { return make_video(task.folder, wanted); });
   if (!made) {
-    task.error = made.error();
+    task.error = with_final_names(made.error(), dataset_);
     if (!is_cancelled()) advance(task, task.frames);
     return;
   }
@@ -264,8 +274,9 @@ Result<DatasetReport> DatasetRun::all() {
   if (is_cancelled()) return fail(interrupted());
   const bool is_whole = request_.index && !request_.shard && report.failures.empty();
   if (step && is_whole) step = write_index(report);
+  if (!step) static_cast<void>(clear_staging_folder());  // of what the index was to be made of
   if (!step && is_cancelled()) return fail(interrupted());
-  if (!step) return fail(step.error());
+  if (!step) return fail(with_final_names(step.error(), dataset_));
   report.seconds = watch.elapsed_s();
   return report;
 }

@@ -172,6 +172,25 @@ TEST_CASE("the next run in a folder removes what a killed run left") {
   CHECK(files_in(folder.path()) == 1);
 }
 
+TEST_CASE("the next run removes what a run left that was killed before or after it had a lock file") {
+  const test::TemporaryFolder folder;
+  killed_run(folder.path());
+  const fs::path staging = staging_in(folder.path());
+  const std::string lock = read_text(staging / "lock").value();
+  for (const std::string& begun : {lock, lock.substr(0, 9), std::string()}) {
+    fs::remove_all(staging);
+    fs::create_directory(staging);
+    fs::permissions(staging, fs::perms::owner_all);
+    test::write_file(staging / "lock.part", begun);
+    REQUIRE(write_text(folder / "other.txt", "whole", true));
+    CHECK_MESSAGE(!fs::exists(staging), begun);
+  }
+  fs::create_directory(staging);
+  fs::permissions(staging, fs::perms::owner_all);
+  REQUIRE(write_text(folder / "other.txt", "whole", true));
+  CHECK_FALSE(fs::exists(staging));
+}
+
 TEST_CASE("folders that may belong to another program are kept, whatever their name") {
   const auto stays = [](const char* what, auto&& change) {
     const test::TemporaryFolder folder;
@@ -199,11 +218,15 @@ TEST_CASE("a folder that happens to be named like a staging folder is left uncha
     fs::permissions(folder / name, fs::perms::owner_all);
     test::write_file(folder / name / "mine.txt", "mine");
   }
+  fs::create_directory(folder / ".sigs-012345");
+  fs::permissions(folder / ".sigs-012345", fs::perms::owner_all);
+  test::write_file(folder / ".sigs-012345/lock.part", "mine");
   fs::create_directory(folder / "elsewhere");
   fs::create_directory_symlink(folder / "elsewhere", folder / ".sigs-123456");
   REQUIRE(write_text(folder / "x.txt", "whole", false));
   CHECK(read_text(folder / ".sigs-abcdef/mine.txt").value() == "mine");
   CHECK(read_text(folder / ".sigs-XXXXXX/mine.txt").value() == "mine");
+  CHECK(read_text(folder / ".sigs-012345/lock.part").value() == "mine");
   CHECK(fs::is_symlink(folder / ".sigs-123456"));
 }
 
