@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # A whole export with one intruder of about 60 px against ffmpeg transcoding the same clip with the same settings.
-#   bench/export.sh [--write] [RUNS] [BUILD]     default: 5 interleaved runs of build/release
-# --write puts the table into docs/speed.md. Clips are of 1280x960 and H.264: the sample footage and, where
-# ../shared/data is there, a flight over a coast, scaled up.
+#   bench/export.sh [--write] [RUNS] [BUILD] [CLIP...]     default: 5 interleaved runs of build/release, all clips
+# --write puts the table into docs/speed.md. Clips, in H.264: `sample`, the sample footage (1280x960, 200 frames); `coast`, where
+# ../shared/data is there, a flight over a coast, scaled to the same; `sample-4k`, the middle of the sample footage scaled to
+# 3840x2160, 48 frames.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 write=
@@ -12,6 +13,7 @@ if [ "${1:-}" = --write ]; then
 fi
 runs=${1:-5}
 sigs=$PWD/${2:-build/release}/sigs
+wanted=" ${*:3} "
 here=$PWD
 lot=$(mktemp -d)
 trap 'rm -rf "$lot"' EXIT
@@ -21,30 +23,48 @@ h264=(-c:v libx264 -crf 18 -g 60 -x264-params threads=4:lookahead-threads=1:slic
 ffv1=(-c:v ffv1 -level 3 -g 1 -slicecrc 1 -threads "$(nproc)")
 
 # Formation flight: the intruder keeps its position in front of the camera, so its size is constant. 25 frames a second, 22 m/s.
-project() { # NAME CLIP FRAMES RATE
+project() { # NAME CLIP FRAMES RATE CALIBRATION TIMES_AS_FAR
   local last=$(($3 - 1))
-  local far
-  far=$(awk -v n="$last" -v rate="$4" 'BEGIN { printf "%.4f", 22 * n / rate }')
+  waypoint() { # FRAME RATE TIMES_AS_FAR
+    awk -v n="$1" -v rate="$2" -v k="$3" \
+      'BEGIN { printf "{\"frame\": %d, \"position_m\": [%.4f, %.4f, %.4f]}", n, 80 * k + 22 * n / rate, 15 * k, -150 - 15 * k }'
+  }
   cat >"$lot/$1.json" <<EOF
 {"sigs": 1, "name": "$1",
- "footage": {"video": "$2", "calibration": "$here/assets/calibrations/sample.xml"},
+ "footage": {"video": "$2", "calibration": "$5"},
  "camera": {"position_m": [0, 0, -150], "speed_mps": 22.0},
  "intruders": [{"name": "light-aircraft",
    "model": {"file": "$here/assets/models/light-aircraft/light-aircraft.obj", "forward": "+x", "up": "+z"},
    "trajectory": {"waypoints": [
-     {"frame": 0, "position_m": [80, 15, -165]},
-     {"frame": $last, "position_m": [$(awk -v a="$far" 'BEGIN { print 80 + a }'), 15, -165]}]}}]}
+     $(waypoint 0 "$4" "$6"),
+     $(waypoint "$last" "$4" "$6")]}}]}
 EOF
 }
+is_wanted() {
+  [ "$wanted" = "  " ] || [[ "$wanted" == *" $1 "* ]]
+}
+lens=$here/assets/calibrations/sample.xml
 
-clips=(sample)
-project sample "$here/assets/footage/sample.mp4" 200 25
-cp assets/footage/sample.mp4 "$lot/sample.mp4"
-if [ -e ../shared/data/video/air_karma_gopro_coast.mp4 ]; then
+clips=()
+if is_wanted sample; then
+  cp assets/footage/sample.mp4 "$lot/sample.mp4"
+  project sample "$lot/sample.mp4" 200 25 "$lens" 1
+  clips+=(sample)
+fi
+if is_wanted coast && [ -e ../shared/data/video/air_karma_gopro_coast.mp4 ]; then
   ffmpeg -v error -i ../shared/data/video/air_karma_gopro_coast.mp4 -an -frames:v 200 -vf scale=1280:960 \
     -c:v libx264 -crf 18 -pix_fmt yuv420p "$lot/coast.mp4"
-  project coast "$lot/coast.mp4" 200 29.97
+  project coast "$lot/coast.mp4" 200 29.97 "$lens" 1
   clips+=(coast)
+fi
+if is_wanted sample-4k; then
+  ffmpeg -v error -i assets/footage/sample.mp4 -an -frames:v 48 -vf crop=1280:720:0:120,scale=3840:2160 \
+    -c:v libx264 -crf 18 -pix_fmt yuv420p "$lot/sample-4k.mp4"
+  # The same lens: three times the focal length in pixels, 120 rows cut off above and below.
+  sed -e 's|1280</image_width>|3840</image_width>|; s|960</image_height>|2160</image_height>|' \
+    -e 's|561.83 0. 642.71|1685.49 0. 1929.13|; s|0. 561.27 477.36|0. 1683.81 1073.08|' "$lens" >"$lot/lens-4k.xml"
+  project sample-4k "$lot/sample-4k.mp4" 48 25 "$lot/lens-4k.xml" 3
+  clips+=(sample-4k)
 fi
 
 TIMEFORMAT='%R %U %S'

@@ -1,11 +1,19 @@
 #!/usr/bin/env bash
 # What one frame costs: wall-clock time, processor time and resident memory at most of commands that work on a single frame.
-#   bench/start.sh [RUNS] [BUILD] [OTHER_BUILD]     default: 7 runs of build/release
+#   bench/start.sh [--write] [RUNS] [BUILD] [OTHER_BUILD]     default: 7 runs of build/release
+# --write puts the table into docs/speed.md.
 # Medians of interleaved runs, for each sample project; with OTHER_BUILD both builds in turn and the ratios of the first
 # to the second. A run before them, not counted, fills the driver's cache of shaders.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-python3 - "$@" <<'PYTHON'
+write=
+if [ "${1:-}" = --write ]; then
+  write=1
+  shift
+fi
+table=$(mktemp)
+trap 'rm -f "$table"' EXIT
+python3 - "$@" <<'PYTHON' | tee "$table"
 import os, statistics, subprocess, sys, tempfile, time
 
 runs = int(sys.argv[1]) if len(sys.argv) > 1 else 7
@@ -53,3 +61,7 @@ for project in projects:
             cells.append(" | ".join(f"**{a / b:.2f}**" for a, b in zip(*medians)))
         print(f"| {project} | {name} | {' | '.join(cells)} |")
 PYTHON
+
+if [ -n "$write" ]; then
+  bench/fill.sh docs/speed.md start "$table"
+fi
