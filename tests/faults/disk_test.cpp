@@ -66,7 +66,7 @@ SmallDisk run_on_small_disk(const Workplace& place, const Job& job, int pages, c
   return done;
 }
 
-// Moves what lay on the small disk to where the checks look for it.
+// Moves what was on the small disk to where the checks look for it.
 void show(const Workplace& place, const fs::path& folder) {
   fs::remove_all(place.out());
   fs::rename(folder, place.out());
