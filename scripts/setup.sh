@@ -21,12 +21,12 @@ sigs_packages_package=(
 )
 # doctest; Embree for the reference renderer; FFmpeg's, GeographicLib's and libxml2's programs as independent checks; Xvfb and xdotool for the
 # window; gnuplot for plots of reports; Slurm for a dataset made by an array job; Python's tools for the wheel and types;
-# man, zsh and desktop-file-validate for what is installed.
+# man, zsh and desktop-file-validate for what is installed; locales, of which one writes a decimal comma.
 sigs_packages_tests=(
   doctest-dev libembree-dev ffmpeg geographiclib-tools libxml2-utils xvfb xdotool gnuplot-nox
   slurmctld slurmd slurm-client munge
   python3-build python3-venv python3-pip mypy
-  man-db zsh desktop-file-utils
+  man-db zsh desktop-file-utils locales
 )
 
 sigs_as_root() {

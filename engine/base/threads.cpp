@@ -3,6 +3,7 @@
 
 #include <new>
 #include <opencv2/core.hpp>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -10,18 +11,25 @@ namespace sigs {
 
 namespace {
 
+// What TBB throws, by which OpenCV shares its loops among threads: a plain runtime_error without a code.
+bool is_thread_not_started(const std::exception& problem) {
+  return std::string_view(problem.what()).starts_with("pthread_create has failed");
+}
+
 Error error_of_exception(const std::string& where) {
   if (is_out_of_memory())
     return {where, "out of memory; smaller inputs and fewer jobs at a time need less", ErrorKind::unavailable};
   try {
     throw;
   } catch (const cv::Exception& problem) {
-    return {where, problem.err.empty() ? problem.what() : problem.err};
+    const bool is_missing = problem.code == cv::Error::StsNotImplemented;
+    return {where, problem.err.empty() ? problem.what() : problem.err,
+            is_missing ? ErrorKind::unavailable : ErrorKind::bad_data};
   } catch (const std::system_error& problem) {
     const bool no_more = problem.code() == std::errc::resource_unavailable_try_again;
     return {where, problem.what(), no_more ? ErrorKind::unavailable : ErrorKind::bad_data};
   } catch (const std::exception& problem) {
-    return {where, problem.what()};
+    return {where, problem.what(), is_thread_not_started(problem) ? ErrorKind::unavailable : ErrorKind::bad_data};
   } catch (...) {
     return {where, "failed for a reason that is not known"};
   }

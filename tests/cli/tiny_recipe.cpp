@@ -27,8 +27,12 @@ constexpr const char* kRecipe = R"({
 
 }  // namespace
 
+void write_tiny_recipe(const fs::path& file) {
+  write_file(file, kRecipe);
+}
+
 TinyRecipe::TinyRecipe(int frames) : tiny_(frames) {
-  write_file(file("recipe.json"), kRecipe);
+  write_tiny_recipe(file("recipe.json"));
 }
 
 std::string TinyRecipe::arguments(const std::string& out_name, const std::string& more) const {

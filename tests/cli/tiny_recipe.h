@@ -10,6 +10,9 @@
 
 namespace sigs::test {
 
+// Writes a recipe of six videos; the tiny project's files are to lie in the same folder.
+void write_tiny_recipe(const std::filesystem::path& file);
+
 // A recipe of six videos of the tiny project's clip: one of two cubes on one of three paths.
 class TinyRecipe {
  public:

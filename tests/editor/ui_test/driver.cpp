@@ -36,8 +36,7 @@ void rest(double seconds) {
 }
 
 // Starts a program in the folder of its log, where what it prints goes.
-pid_t started(const std::vector<std::string>& words, const std::map<std::string, std::string>& environment,
-              const fs::path& log) {
+pid_t started(const std::vector<std::string>& words, const Environment& environment, const fs::path& log) {
   const pid_t child = fork();
   if (child != 0) return child;
   for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
@@ -150,16 +149,19 @@ EditorDriver::~EditorDriver() {
   status_of(screen_);
 }
 
-void EditorDriver::start(const std::vector<std::string>& arguments) {
+void EditorDriver::start(const std::vector<std::string>& arguments, const Environment& environment) {
   fs::remove(probe_);
-  std::vector<std::string> words{(build_dir() / "sigs-editor").string(), "--probe", probe_.string()};
+  const char* const other = std::getenv("SIGS_TEST_EDITOR");
+  std::vector<std::string> words{other != nullptr ? other : (build_dir() / "sigs-editor").string(), "--probe",
+                                 probe_.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const std::map<std::string, std::string> environment{{"DISPLAY", display_},
-                                                       {"HOME", home_.string()},
-                                                       {"XDG_CONFIG_HOME", (home_ / "config").string()},
-                                                       {"XDG_STATE_HOME", (home_ / "state").string()},
-                                                       {"LIBGL_ALWAYS_SOFTWARE", "1"}};
-  editor_ = started(words, environment, home_ / "editor.log");
+  Environment all{{"DISPLAY", display_},
+                  {"HOME", home_.string()},
+                  {"XDG_CONFIG_HOME", (home_ / "config").string()},
+                  {"XDG_STATE_HOME", (home_ / "state").string()},
+                  {"LIBGL_ALWAYS_SOFTWARE", "1"}};
+  all.insert(environment.begin(), environment.end());
+  editor_ = started(words, all, home_ / "editor.log");
   released_keys_ = 0;
   wait_for("the first update", [](const nlohmann::json& now) { return now.contains("frame"); });
 }
@@ -342,6 +344,20 @@ void EditorDriver::type(const std::string& text) {
     released_keys_ += static_cast<int>(piece.size());
     wait_until_at_rest();
   }
+}
+
+void EditorDriver::kill_after_key(const std::string& keys, double delay_s) {
+  const pid_t sender =
+      started({"xdotool", "key", "--delay", "0", keys}, {{"DISPLAY", display_}}, home_ / "xdotool.log");
+  rest(delay_s);
+  kill();
+  status_of(sender);
+}
+
+void EditorDriver::resize(int width_px, int height_px) {
+  xdotool({"search", "--onlyvisible", "--class", ".", "windowsize", "--sync", std::to_string(width_px),
+           std::to_string(height_px)});
+  settle();
 }
 
 void EditorDriver::screenshot(const fs::path& file) const {

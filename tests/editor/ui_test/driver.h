@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ struct ScreenPlace {
 // How long anything may take, on the busiest of machines. Nothing waits so long where all is well.
 constexpr double kPatience_s = 240;
 
+// Variables that a program gets besides those of the test.
+using Environment = std::map<std::string, std::string>;
+
 // True where Xvfb and xdotool are there; else says skipped.
 [[nodiscard]] bool can_drive_windows();
 
@@ -40,7 +44,8 @@ class EditorDriver {
   EditorDriver(const EditorDriver&) = delete;
   EditorDriver& operator=(const EditorDriver&) = delete;
 
-  void start(const std::vector<std::string>& arguments);
+  // SIGS_TEST_EDITOR, a program, stands for the build's own editor.
+  void start(const std::vector<std::string>& arguments, const Environment& environment = {});
   void kill();                      // as a crash does
   [[nodiscard]] bool running();     // false once the program has ended
   [[nodiscard]] int exit_status();  // waits for the end
@@ -71,6 +76,10 @@ class EditorDriver {
   void wheel(double x, double y, int clicks);  // positive: away from the user
   void key(const std::string& keys);           // "ctrl+z"
   void type(const std::string& text);
+  // Sends keys, and kills the editor so long after, whatever it does then.
+  void kill_after_key(const std::string& keys, double delay_s);
+  // Gives the window another size.
+  void resize(int width_px, int height_px);
 
   void screenshot(const std::filesystem::path& file) const;  // PNG
 

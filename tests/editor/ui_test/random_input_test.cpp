@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdlib>
 #include <random>
 
 #include "editor/ui_test/ui_test.h"
@@ -15,6 +17,14 @@ using Json = nlohmann::json;
 namespace {
 
 constexpr int kEvents = 300;
+constexpr int kKinds = 8;  // of events; one more has dialogs, other sizes of the window and attempts to quit
+
+// SIGS_TEST_MINUTES: for so long instead, with events of all kinds.
+double asked_minutes() {
+  const char* const asked = std::getenv("SIGS_TEST_MINUTES");
+  return asked == nullptr ? 0 : std::atof(asked);
+}
+
 constexpr double kMenu_px = 26;  // the menu bar is left alone: it could end the program
 
 // Draws events; the same ones from the same seed everywhere (the library's distributions are not).
@@ -22,8 +32,8 @@ class RandomInput {
  public:
   RandomInput(EditorDriver& editor, unsigned seed) : editor_(editor), random_(seed) {}
 
-  void send_event() {
-    switch (below(8)) {
+  void send_event(int kinds) {
+    switch (below(kinds)) {
       case 0:
         editor_.click(x(), y(), button());
         break;
@@ -47,15 +57,53 @@ class RandomInput {
                     "Down",     "ctrl+d", "Insert", "f",      "n",      "Tab",          "question", "F11", "ctrl+e",
                     "BackSpace"}));
         break;
-      default:
+      case 7:
         editor_.type(one_of({"0", "-1", "1e9", "nan", "inf", "-", "aircraft", "12.5", "99999999999", "../x"}));
+        break;
+      default:
+        send_rare_event();
     }
+  }
+
+  // Out of every dialog and text field.
+  void answer_all() {
+    for (int i = 0; i < 6; ++i) editor_.key("Escape");
+    for (const char* const place : {"question/Cancel", "export/cancel"})
+      if (editor_.has_place(place)) editor_.click(place);
   }
 
  private:
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
-  double x() { return below(1600); }
-  double y() { return kMenu_px + below(960 - static_cast<int>(kMenu_px)); }
+  void send_rare_event() {
+    switch (below(4)) {
+      case 0:
+        width_px_ = 900 + below(701);
+        height_px_ = 600 + below(361);
+        editor_.resize(width_px_, height_px_);
+        break;
+      case 1:
+        editor_.key(one_of({"ctrl+o", "ctrl+n", "ctrl+shift+s", "ctrl+e", "ctrl+s"}));
+        break;
+      case 2:
+        try_to_quit();
+        break;
+      default:
+        answer_all();
+    }
+  }
+
+  // With unsaved changes alone: then the editor asks, and stays.
+  void try_to_quit() {
+    answer_all();
+    if (!editor_.state().value("unsaved", false)) return;
+    editor_.set_hurried(false);
+    editor_.key("ctrl+q");
+    answer_all();
+    editor_.set_hurried(true);
+  }
+
+  double x() { return below(width_px_); }
+  double y() { return kMenu_px + below(height_px_ - static_cast<int>(kMenu_px)); }
   int button() { return std::array{1, 1, 1, 3, 2}[static_cast<std::size_t>(below(5))]; }
   std::string one_of(const std::vector<std::string>& words) {
     return words[static_cast<std::size_t>(below(static_cast<int>(words.size())))];
@@ -66,20 +114,15 @@ class RandomInput {
     const Json state = editor_.state();
     if (state.contains("places"))
       for (const auto& [name, rect] : state["places"].items())
-        if (!name.starts_with("menu/") && rect[1] > kMenu_px && rect[1] < 950) names.push_back(name);
+        if (!name.starts_with("menu/") && rect[1] > kMenu_px && rect[1] < height_px_ - 10) names.push_back(name);
     return names.empty() ? "timeline/ruler" : one_of(names);
   }
 
   EditorDriver& editor_;
   std::mt19937 random_;
+  int width_px_ = 1600;
+  int height_px_ = 960;
 };
-
-// Out of every dialog and text field.
-void wait_until_idle(EditorDriver& editor) {
-  for (int i = 0; i < 6; ++i) editor.key("Escape");
-  if (editor.has_place("question/Cancel")) editor.click("question/Cancel");
-  if (editor.has_place("export/cancel")) editor.click("export/cancel");
-}
 
 }  // namespace
 
@@ -94,16 +137,21 @@ TEST_CASE("no sequence of keys and mouse input crashes the editor, and it still 
   RandomInput random_input(editor, 2024);
   editor.set_hurried(true);
   int revision = 0;
-  for (int i = 0; i < kEvents; ++i) {
-    random_input.send_event();
+  const double minutes = asked_minutes();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double, std::ratio<60>>(minutes);
+  int events = 0;
+  for (; minutes > 0 ? std::chrono::steady_clock::now() < end : events < kEvents; ++events) {
+    random_input.send_event(minutes > 0 ? kKinds + 1 : kKinds);
     revision = std::max(revision, revision_of(editor.state()));
-    if (i % 8 == 0) editor.key("Escape");  // a dialog swallows what comes
-    REQUIRE_MESSAGE(editor.running(), "it ended after event " << i << " with " << editor.exit_status());
+    if (events % 8 == 0) editor.key("Escape");  // a dialog swallows what comes
+    REQUIRE_MESSAGE(editor.running(), "it ended after event " << events << " with " << editor.exit_status());
   }
   editor.set_hurried(false);
   ui_test.image("after");
-  CHECK(revision > kEvents / 20);  // enough of it changed the project
-  wait_until_idle(editor);
+  MESSAGE(events, " events");
+  CHECK(revision > (minutes > 0 ? events / 100 : kEvents / 20));  // enough of it changed the project
+  random_input.answer_all();
+  if (minutes > 0) return;  // the project may be another one
   const Json saved = ui_test.saved(project);
   CHECK(saved.contains("intruders"));
 }
