@@ -88,7 +88,7 @@ void ProbeWriter::write(const Document& document, const PreviewOutput& shown, co
   json["page"] = window.page;
   json["problems"] = problems_of(shown);
   const MemoryUse& memory = shown.memory;
-  json["memory"] = {{"images", memory.images},   {"decoded", memory.decoded}, {"shown", memory.shown},
+  json["memory"] = {{"images", memory.images},     {"decoded", memory.decoded}, {"shown", memory.shown},
                     {"textures", memory.textures}, {"sum", memory.sum()},       {"limit", memory.limit}};
   json["turns_a_second"] = window.updates_per_second;
   json["composites"] = composites_shown(shown.image);
