@@ -69,6 +69,13 @@ bool ProbeWriter::is_at_rest(const nlohmann::json& input, bool has_input_left) {
   return turns_to_rest_ == 0;
 }
 
+int ProbeWriter::composites_shown(const std::shared_ptr<const PreviewImage>& image) {
+  const bool is_same = !image_.owner_before(image) && !image.owner_before(image_);
+  if (image && !is_same) ++composites_;
+  image_ = image;
+  return composites_;
+}
+
 void ProbeWriter::write(const Document& document, const PreviewOutput& shown, const UiProbe& ui_probe,
                         const ProbedWindow& window) {
   if (!wanted()) return;
@@ -81,9 +88,10 @@ void ProbeWriter::write(const Document& document, const PreviewOutput& shown, co
   json["page"] = window.page;
   json["problems"] = problems_of(shown);
   const MemoryUse& memory = shown.memory;
-  json["memory"] = {{"pictures", memory.images},   {"decoded", memory.decoded}, {"shown", memory.shown},
+  json["memory"] = {{"images", memory.images},     {"decoded", memory.decoded}, {"shown", memory.shown},
                     {"textures", memory.textures}, {"sum", memory.sum()},       {"limit", memory.limit}};
   json["turns_a_second"] = window.updates_per_second;
+  json["composites"] = composites_shown(shown.image);
   const nlohmann::json input = input_of(ImGui::GetIO(), window.released_keys);
   json.update(input);
   json["at_rest"] = is_at_rest(input, window.has_input_left);

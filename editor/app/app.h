@@ -42,7 +42,8 @@ struct ProbedWindow {
 // changed it. The file is replaced as a whole, so a reader never finds half of it.
 //   {"turn": 12, "frame": 3, "revision": 4, "unsaved": true, "current": true, "busy": false, "page": "project",
 //    "problems": ["footage.video: ..."], "turns_a_second": 60, "places": {"ruler": [x, y, width, height], ...},
-//    "memory": {"pictures": 1000, "decoded": ..., "shown": ..., "textures": ..., "sum": ..., "limit": ...}, in bytes
+//    "memory": {"images": 1000, "decoded": ..., "shown": ..., "textures": ..., "sum": ..., "limit": ...}, in bytes
+//    "composites": 31, how often another composited frame was shown than in the update before,
 //    "mouse": [x, y], "buttons": 1, "released_keys": 7, "at_rest": true}
 // By the last line a driver learns that its input has arrived: position of the mouse in this update, one bit for each
 // button that is down, number of keys released so far, and whether some updates have passed since without any input.
@@ -58,6 +59,8 @@ class ProbeWriter {
  private:
   // Whether input has been the same for three updates and none is left.
   [[nodiscard]] bool is_at_rest(const nlohmann::json& input, bool has_input_left);
+  // How many composited frames were shown so far, with the one of this update.
+  [[nodiscard]] int composites_shown(const std::shared_ptr<const PreviewImage>& image);
 
   std::filesystem::path file_;
   // The text that was written last, without its "turn", and the input of the update before.
@@ -66,6 +69,9 @@ class ProbeWriter {
   nlohmann::json last_input_;
   // Updates until it is at rest.
   int turns_to_rest_ = 0;
+  // Of the update before; holds no image.
+  std::weak_ptr<const PreviewImage> image_;
+  int composites_ = 0;
 };
 
 // The editor: one window, one document, and everything that connects them. It lives on the window's thread; the

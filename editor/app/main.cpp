@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -12,6 +13,13 @@
 namespace {
 
 constexpr double kTurn_s = 1.0 / 60;
+constexpr double kSlowTurn_s = 1.0 / 33;  // a hand that drags sees no difference
+
+// From one update to the next. No more updates than a screen shows; and where OpenGL draws in software, a third of the
+// time, so that the images have the rest.
+double turn_s(double update_took_s) {
+  return std::clamp(3 * update_took_s, kTurn_s, kSlowTurn_s);
+}
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -28,13 +36,14 @@ int run(const std::string& project, const std::string& probe) {
   App app(**window, std::move(settings), ProbeWriter(probe));
   if (!project.empty()) app.open(project);
   double last_update_s = 0;
+  double took_s = 0;
   while (!app.done()) {
     const bool something_happened = (*window)->wait(app.wait_timeout_s());
-    // No more updates than a screen shows: what draws in software would take the cores from the images.
-    if (const double early_s = last_update_s + kTurn_s - now_s(); early_s > 0)
+    if (const double early_s = last_update_s + turn_s(took_s) - now_s(); early_s > 0)
       std::this_thread::sleep_for(std::chrono::duration<double>(early_s));
     last_update_s = now_s();
     app.update(last_update_s, something_happened);
+    took_s = now_s() - last_update_s;
   }
   return 0;
 }

@@ -41,6 +41,7 @@ struct Window::State {
   double text_px = 0;  // of the fonts that are loaded
   WindowInput incoming;
   std::unique_ptr<Canvas> canvas = std::make_unique<Canvas>();  // goes before OpenGL does
+  double all_drawn_s = 0;                                       // when no panel waited
   bool full_screen = false;
   int x = 0, y = 0, width = 0, height = 0;  // before it filled the screen
 };
@@ -218,13 +219,24 @@ void Window::begin(const Settings& settings) {
   ImGui::NewFrame();
 }
 
+// While a mouse button is held, the panel that it works on comes first: the others follow at a rate at which numbers
+// can still be read. With OpenGL in software all of them together would leave a drag a dozen updates a second.
+std::optional<ImVec2> Window::place_drawn_first(State& state) {
+  constexpr double kOthersInterval_s = 0.15;
+  const double now_s = glfwGetTime();
+  if (ImGui::IsAnyMouseDown() && now_s - state.all_drawn_s < kOthersInterval_s) return ImGui::GetIO().MousePos;
+  state.all_drawn_s = now_s;
+  return std::nullopt;
+}
+
 void Window::end() {
   ImGui::Render();
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(state_->window, &width, &height);
   if (std::exchange(state_->incoming.needs_all, false)) state_->canvas->forget();
-  if (state_->canvas->draw(*ImGui::GetDrawData(), width, height)) glfwSwapBuffers(state_->window);
+  if (state_->canvas->draw(*ImGui::GetDrawData(), width, height, place_drawn_first(*state_)))
+    glfwSwapBuffers(state_->window);
 }
 
 int Window::released_keys() const {

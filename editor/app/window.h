@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <imgui.h>
+
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +56,8 @@ class Window {
  private:
   struct State;
   explicit Window(std::unique_ptr<State> state);
+  // The place whose panel is drawn in this update though others have to wait; none: all are drawn.
+  [[nodiscard]] static std::optional<ImVec2> place_drawn_first(State& state);
   std::unique_ptr<State> state_;
 };
 

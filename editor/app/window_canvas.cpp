@@ -129,7 +129,7 @@ ChangedRegions::Panel ChangedRegions::panel_of(const ImDrawList& list) {
   return panel;
 }
 
-void ChangedRegions::add_changes(const Panel& before, const Panel& after, std::vector<ImVec4>& regions) {
+ImVec4 ChangedRegions::changed(const Panel& before, const Panel& after) {
   const bool same_count = before.pieces.size() == after.pieces.size();
   ImVec4 region{0, 0, 0, 0};
   for (std::size_t i = 0; i < after.pieces.size(); ++i) {
@@ -140,10 +140,40 @@ void ChangedRegions::add_changes(const Panel& before, const Panel& after, std::v
     const bool same = same_count && before.pieces[i].fingerprint == after.pieces[i].fingerprint;
     if (!same) region = around(region, before.pieces[i].bounds);
   }
-  if (!empty(region)) regions.push_back(grown(region));
+  return empty(region) ? region : grown(region);
 }
 
-std::vector<ImVec4> ChangedRegions::of(const ImDrawData& data) {
+bool ChangedRegions::lies_at(const Panel& panel, const ImVec2& place) {
+  return std::any_of(panel.pieces.begin(), panel.pieces.end(), [&](const Piece& piece) {
+    return place.x >= piece.bounds.x && place.x < piece.bounds.z && place.y >= piece.bounds.y &&
+           place.y < piece.bounds.w;
+  });
+}
+
+std::vector<ImVec4> ChangedRegions::changes(std::vector<Panel>& panels, const std::optional<ImVec2>& first) {
+  std::vector<ImVec4> regions;
+  std::vector<std::pair<std::size_t, ImVec4>> others;  // by the panel's index
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const ImVec4 region = changed(panels_[i], panels[i]);
+    if (empty(region)) continue;
+    if (!first || lies_at(panels[i], *first))
+      regions.push_back(region);
+    else
+      others.emplace_back(i, region);
+  }
+  const std::size_t first_ones = regions.size();
+  for (const auto& [i, region] : others) {
+    const bool touches = std::any_of(regions.begin(), regions.begin() + static_cast<std::ptrdiff_t>(first_ones),
+                                     [&r = region](const ImVec4& other) { return overlap(other, r); });
+    if (touches)
+      regions.push_back(region);
+    else
+      panels[i] = std::move(panels_[i]);
+  }
+  return regions;
+}
+
+std::vector<ImVec4> ChangedRegions::of(const ImDrawData& data, const std::optional<ImVec2>& first) {
   const ImVec4 whole{0, 0, data.DisplaySize.x, data.DisplaySize.y};
   std::vector<Panel> panels;
   for (int i = 0; i < data.CmdListsCount; ++i) panels.push_back(panel_of(*data.CmdLists[i]));
@@ -154,7 +184,7 @@ std::vector<ImVec4> ChangedRegions::of(const ImDrawData& data) {
   if (!same_panels) {
     regions.push_back(whole);
   } else {
-    for (std::size_t i = 0; i < panels.size(); ++i) add_changes(panels_[i], panels[i], regions);
+    regions = changes(panels, first);
     for (ImVec4& region : regions) region = common_part(region, whole);
     std::erase_if(regions, empty);
   }
@@ -207,10 +237,10 @@ void Canvas::draw_region(ImDrawData& data, const ImVec4& region) const {
   set_clips(data, [&](std::size_t number) { return clips[number]; });
 }
 
-bool Canvas::draw(ImDrawData& data, int width_px, int height_px) {
+bool Canvas::draw(ImDrawData& data, int width_px, int height_px, const std::optional<ImVec2>& first) {
   if (width_px <= 0 || height_px <= 0) return false;
   if (width_px != width_px_ || height_px != height_px_) make(width_px, height_px);
-  const std::vector<ImVec4> regions = changed_.of(data);
+  const std::vector<ImVec4> regions = changed_.of(data, first);
   if (regions.empty()) return false;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, width_px, height_px);

@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sigs::editor {
@@ -15,7 +16,9 @@ class ChangedRegions {
  public:
   // Rectangles (left, top, right, bottom, in ImGui's coordinates) that together contain every pixel that may differ
   // from the data of the call before; none: nothing differs. At most three, which do not overlap.
-  [[nodiscard]] std::vector<ImVec4> of(const ImDrawData& data);
+  //   first  a place in those coordinates, or none. Changes of the panels that lie elsewhere then wait, unless they
+  //          touch a rectangle that is returned: a later call returns them, at the latest one without a place.
+  [[nodiscard]] std::vector<ImVec4> of(const ImDrawData& data, const std::optional<ImVec2>& first = std::nullopt);
 
   // The next call returns the whole window.
   void forget() { panels_.clear(); }
@@ -36,8 +39,11 @@ class ChangedRegions {
   // What ImGui draws, as far as it is compared.
   [[nodiscard]] static Piece piece_of(const ImDrawList& list, const ImDrawCmd& command);
   [[nodiscard]] static Panel panel_of(const ImDrawList& list);
-  // Adds the region of a panel in which it differs, where it does.
-  static void add_changes(const Panel& before, const Panel& after, std::vector<ImVec4>& regions);
+  // The region of a panel in which it differs; of no size where it does not.
+  [[nodiscard]] static ImVec4 changed(const Panel& before, const Panel& after);
+  [[nodiscard]] static bool lies_at(const Panel& panel, const ImVec2& place);
+  // Those of all panels. What waits is put back into `panels` as it was drawn last.
+  [[nodiscard]] std::vector<ImVec4> changes(std::vector<Panel>& panels, const std::optional<ImVec2>& first);
 
   // Of the call before, and the window's size then. Empty: the next call returns the whole window.
   std::vector<Panel> panels_;
@@ -60,7 +66,8 @@ class Canvas {
   // Draws the regions that differ from the update before and copies all to the window's back buffer; the caller swaps.
   // Size in pixels of the framebuffer; another one than before has everything drawn. False: nothing differs, or the
   // size is 0, and the window was not touched.
-  bool draw(ImDrawData& data, int width_px, int height_px);
+  //   first  as for ChangedRegions: what changes elsewhere may be drawn by a later call
+  bool draw(ImDrawData& data, int width_px, int height_px, const std::optional<ImVec2>& first = std::nullopt);
 
   // Has the next call draw everything (after other fonts, or when the window was hidden).
   void forget() { changed_.forget(); }

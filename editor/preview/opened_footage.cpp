@@ -14,7 +14,7 @@ std::size_t bytes_of(const cv::Mat& image) {
 }
 
 std::size_t bytes_of(const PreviewImage& image) {
-  std::size_t sum = bytes_of(image.bgr) + bytes_of(image.mask);
+  std::size_t sum = bytes_of(image.bgr.ground) + bytes_of(image.bgr.patch) + bytes_of(image.mask);
   for (const Stage& stage : image.stages) sum += bytes_of(stage.image);
   return sum;
 }

@@ -37,7 +37,8 @@ struct DecodedFrame {
 // A frame of placeholder footage: 4:2:0, limited range, every sample 128.
 [[nodiscard]] Frame grey_frame(const FootageShape& footage, int frame);
 
-// Bytes of the samples in an image, in a composited frame with its mask and stages, in a decoded frame.
+// Bytes of the samples in an image, in a composited frame with its mask and stages, in a decoded frame. The footage
+// under composited frames counts for each of them, though those of the same frame share it.
 [[nodiscard]] std::size_t bytes_of(const cv::Mat& image);
 [[nodiscard]] std::size_t bytes_of(const PreviewImage& image);
 [[nodiscard]] std::size_t bytes_of(const DecodedFrame& decoded);

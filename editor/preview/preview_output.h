@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "editor/document/document.h"
+#include "editor/geometry/patched_image.h"
 #include "editor/preview/encounter_survey.h"
 #include "frame/compose_frame.h"
 #include "scene/draft.h"
@@ -52,8 +53,9 @@ struct PreviewImage {
   int frame = 0;
   // Set where it was composited by another method than the project's own, for comparing.
   std::optional<MethodChoice> method;
-  // CV_8UC3 of the footage's size: what `sigs frame` writes.
-  cv::Mat bgr;
+  // CV_8UC3 of the footage's size: what `sigs frame` writes, in one piece where it was made with stages or by another
+  // method than the project's own.
+  PatchedImage bgr;
   // Opacity of the intruders: CV_8UC1 or empty, as ComposedFrame::mask.
   cv::Mat mask;
   FrameTruth truth;

@@ -19,9 +19,9 @@ constexpr std::size_t kModelsKept = 8;  // beside those of the scene
 constexpr double kCrossLength_m = 10;
 
 // The untouched footage where composing fails for want of OpenGL or memory.
-Result<ComposedFrame> composed(const Scene& scene, int frame, const Frame& background, ComposeContext& context,
+Result<ComposedFrame> composed(const Scene& scene, int frame, Frame background, ComposeContext& context,
                                Stages stages) {
-  return guarded([&] { return compose_frame(scene, frame, background, context, stages); }, "composing");
+  return guarded([&] { return compose_frame(scene, frame, std::move(background), context, stages); }, "composing");
 }
 
 // Shares everything large with the scene it is made from.
@@ -63,20 +63,26 @@ std::shared_ptr<const OpenedScene> SceneRenderer::opened(const Revision& revisio
 }
 
 std::shared_ptr<const PreviewImage> SceneRenderer::image(const OpenedScene& opened, int frame,
-                                                         const DecodedFrame& footage, Stages stages,
-                                                         std::optional<MethodChoice> method) {
+                                                         const std::shared_ptr<const DecodedFrame>& footage,
+                                                         Stages stages, std::optional<MethodChoice> method) {
   const Scene& own = opened.draft.scene;
   auto image = std::make_shared<PreviewImage>(
-      PreviewImage{.revision = opened.revision, .frame = frame, .method = method, .problem = footage.problem});
-  Result<ComposedFrame> made = method ? composed(with_method(own, *method), frame, footage.frame, context_, stages)
-                                      : composed(own, frame, footage.frame, context_, stages);
+      PreviewImage{.revision = opened.revision, .frame = frame, .method = method, .problem = footage->problem});
+  const bool in_one_piece = stages == Stages::keep || method;
+  Frame background = in_one_piece ? cloned(footage->frame) : copies_.to_composite(footage);
+  Result<ComposedFrame> made = method
+                                   ? composed(with_method(own, *method), frame, std::move(background), context_, stages)
+                                   : composed(own, frame, std::move(background), context_, stages);
   if (!made) {
-    image->bgr = bgr_of(footage.frame);
+    image->bgr.ground = copies_.bgr(footage);
     image->truth = {.index = frame, .time_s = time_of_frame_s(own.footage, frame)};
     image->problem = made.error().text();
     return image;
   }
-  image->bgr = bgr_of(made->image);
+  if (in_one_piece)
+    image->bgr.ground = bgr_of(made->image);
+  else
+    image->bgr = copies_.patched(footage, *made);
   image->mask = made->mask;
   image->truth = std::move(made->truth);
   image->stages = std::move(made->stages);
@@ -140,6 +146,7 @@ void PreviewRenderer::check_input_files(const PreviewSnapshot& snapshot) {
   const ContentId input_files = input_files_id_of(*revision.project);
   const FileStamp video = footage_stamp_of(*revision.project);
   content_ = combined_id(revision.content, input_files);
+  input_files_ = input_files;
   footage_ = footage_id_of(video, quantisers_for(*revision.project), timing_of(*revision.project));
   revision_ = revision.number;
   files_checked_ = now;
@@ -166,7 +173,7 @@ bool PreviewRenderer::compose(int frame, bool was_wanted) {
   const std::shared_ptr<const DecodedFrame> footage = footage_frame(frame);
   if (!footage) return false;
   const Clock::time_point start = Clock::now();
-  auto image = scene_renderer_.image(*scene_, frame, *footage, Stages::leave_out, std::nullopt);
+  auto image = scene_renderer_.image(*scene_, frame, footage, Stages::leave_out, std::nullopt);
   const std::chrono::duration<double, std::milli> took = Clock::now() - start;
   preview_state_.put_image({content_, frame}, std::move(image), took.count(), was_wanted);
   return true;
@@ -194,13 +201,13 @@ bool PreviewRenderer::render_extras(const PreviewSnapshot& snapshot) {
   const std::shared_ptr<const DecodedFrame> footage = footage_frame(key.frame);
   if (!footage) return false;
   if (untouched)
-    preview_state_.put_untouched(footage_key, std::make_shared<const cv::Mat>(bgr_of(footage->frame)));
+    preview_state_.put_untouched(footage_key, std::make_shared<const cv::Mat>(scene_renderer_.footage_bgr(footage)));
   else if (compared)
     preview_state_.put_compared(
-        key, scene_renderer_.image(*scene_, key.frame, *footage, wanted.stages ? Stages::keep : Stages::leave_out,
+        key, scene_renderer_.image(*scene_, key.frame, footage, wanted.stages ? Stages::keep : Stages::leave_out,
                                    wanted.compare_with));
   else
-    preview_state_.put_staged(key, scene_renderer_.image(*scene_, key.frame, *footage, Stages::keep, std::nullopt));
+    preview_state_.put_staged(key, scene_renderer_.image(*scene_, key.frame, footage, Stages::keep, std::nullopt));
   return true;
 }
 
@@ -234,10 +241,12 @@ bool PreviewRenderer::render_turntable(const PreviewSnapshot& snapshot) {
   const std::optional<PreviewRequest::Turntable>& wanted = snapshot.wanted->turntable;
   const auto intruders = static_cast<int>(snapshot.wanted->revision.project->intruders.size());
   if (!wanted || wanted->intruder < 0 || wanted->intruder >= intruders || wanted->size_px.empty()) return false;
-  const ModelKey key{content_, wanted->intruder, wanted->turn_rad, wanted->size_px};
+  const Project& project = *snapshot.wanted->revision.project;
+  const ModelSettings& settings = project.intruders[static_cast<std::size_t>(wanted->intruder)].model;
+  const ModelKey key{input_files_, project.file, settings, wanted->intruder, wanted->turn_rad, wanted->size_px};
   if (model_ == key) return false;
   model_ = key;
-  preview_state_.put_model(scene_renderer_.model_image(*snapshot.wanted->revision.project, *wanted));
+  preview_state_.put_model(scene_renderer_.model_image(project, *wanted));
   return true;
 }
 

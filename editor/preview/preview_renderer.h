@@ -8,6 +8,7 @@
 #include <string>
 
 #include "editor/document/content_id.h"
+#include "editor/preview/composited_image.h"
 #include "editor/preview/preview_output.h"
 #include "editor/preview/preview_state.h"
 #include "editor/preview/surveys.h"
@@ -30,11 +31,14 @@ class SceneRenderer {
   // A composited frame of the scene that was opened last; never null. Where composing fails the image is the untouched
   // footage, with the problem.
   //   frame    of the footage, from 0; one that the footage has
-  //   footage  that frame, decoded
+  //   footage  that frame, decoded; not null
   //   method   none: the project's own
   [[nodiscard]] std::shared_ptr<const PreviewImage> image(const OpenedScene& opened, int frame,
-                                                          const DecodedFrame& footage, Stages stages,
-                                                          std::optional<MethodChoice> method);
+                                                          const std::shared_ptr<const DecodedFrame>& footage,
+                                                          Stages stages, std::optional<MethodChoice> method);
+
+  // The untouched footage, CV_8UC3; the same samples as those under the composited images of the same frame.
+  [[nodiscard]] cv::Mat footage_bgr(const std::shared_ptr<const DecodedFrame>& footage) { return copies_.bgr(footage); }
 
   // A model that cannot be read is shown as the cross that replaces it. Never null; the image is empty where OpenGL
   // cannot be had. wanted.intruder has to be one of the project's.
@@ -52,6 +56,7 @@ class SceneRenderer {
   // it.
   std::deque<std::shared_ptr<const Model>> drawn_;
   ComposeContext context_;
+  FootageCopies copies_;
 };
 
 // The work of the rendering thread. Each step takes a snapshot of the preview state and does the first thing that is
@@ -102,6 +107,7 @@ class PreviewRenderer {
   Clock::time_point files_checked_{};
   // combined_id() of that revision and its files, and the footage among them.
   ContentId content_;
+  ContentId input_files_;
   FootageId footage_;
 
   // The scene that is open, and the id of the footage that it was opened with.
@@ -114,9 +120,12 @@ class PreviewRenderer {
   bool survey_is_shown_ = false;
   Clock::time_point survey_begun_{};
 
-  // What the model's image was last made for.
+  // What the model's image was last made for. Nothing else of the project changes it: least of all a waypoint that is
+  // dragged.
   struct ModelKey {
-    ContentId content;
+    ContentId input_files;
+    std::filesystem::path project;  // relative names of files are from its folder
+    ModelSettings model;
     int intruder = 0;
     double turn_rad = 0;
     cv::Size size_px;

@@ -38,14 +38,15 @@ std::vector<TextureKey> TextureOrder::end_update(std::size_t max_bytes) {
   return gone;
 }
 
-namespace {
-
-cv::Size reduced_size(const cv::Mat& image, int divisor) {
-  return {std::max(1, image.cols / divisor), std::max(1, image.rows / divisor)};
+cv::Size reduced_size(const cv::Size& image_px, int divisor) {
+  const int by = std::max(1, divisor);
+  return {(image_px.width + by - 1) / by, (image_px.height + by - 1) / by};
 }
 
+namespace {
+
 std::size_t bytes_on_card(const cv::Mat& image, int divisor) {
-  return 4 * static_cast<std::size_t>(reduced_size(image, divisor).area());
+  return 4 * static_cast<std::size_t>(reduced_size(image.size(), divisor).area());
 }
 
 // Three channels are widened here: drivers that draw in software do it sample by sample.
@@ -110,10 +111,33 @@ void Textures::end_update(std::size_t max_bytes) {
   }
 }
 
+namespace {
+
+// Pixels and the blocks that they become.
+struct BlockRun {
+  cv::Range pixels;
+  cv::Range blocks;
+};
+
+// The whole blocks, then what is left over as one more.
+std::vector<BlockRun> block_runs(int length, int divisor) {
+  const int whole = length / divisor;
+  std::vector<BlockRun> runs;
+  if (whole > 0) runs.push_back({{0, whole * divisor}, {0, whole}});
+  if (whole * divisor < length) runs.push_back({{whole * divisor, length}, {whole, whole + 1}});
+  return runs;
+}
+
+}  // namespace
+
 cv::Mat reduced_copy(const cv::Mat& image, int divisor) {
   if (divisor < 2) return image;
-  cv::Mat reduced;
-  cv::resize(image, reduced, reduced_size(image, divisor), 0, 0, cv::INTER_AREA);
+  cv::Mat reduced(reduced_size(image.size(), divisor), image.type());
+  for (const auto& [from_x, to_x] : block_runs(image.cols, divisor))
+    for (const auto& [from_y, to_y] : block_runs(image.rows, divisor)) {
+      cv::Mat part = reduced(to_y, to_x);
+      cv::resize(image(from_y, from_x), part, part.size(), 0, 0, cv::INTER_AREA);
+    }
   return reduced;
 }
 

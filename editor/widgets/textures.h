@@ -80,8 +80,11 @@ class Textures {
   std::map<TextureKey, Entry> entries_;
 };
 
-// A copy that is so many times smaller each way, rounded down, of at least one pixel, averaged over areas; the image
-// itself, not copied, where divisor < 2.
+// A copy that is so many times smaller each way: pixel (i, j) is the mean of the block of divisor x divisor pixels that
+// begins at (divisor * i, divisor * j), of those that there are at the right and lower edge. The image itself, not
+// copied, where divisor < 2.
 [[nodiscard]] cv::Mat reduced_copy(const cv::Mat& image, int divisor);
+// Its size: rounded up.
+[[nodiscard]] cv::Size reduced_size(const cv::Size& image_px, int divisor);
 
 }  // namespace sigs::editor

@@ -97,19 +97,47 @@ cv::Rect pixels_in_sight(const ImageView& view, const cv::Size& image_px, const 
           cv::Point(static_cast<int>(high.x), static_cast<int>(high.y))};
 }
 
-void draw_image(ImDrawList& draw, Textures& textures, const cv::Mat& image, const ImageView& view,
-                const ScreenRect& rect) {
-  if (image.empty()) return;
-  // The part in sight alone: a quad of 80,000 screen pixels has no exact texture coordinates.
-  const cv::Rect part = pixels_in_sight(view, image.size(), rect);
-  if (part.empty()) return;
-  const glm::dvec2 size(image.cols, image.rows);
+namespace {
+
+// Pixels of a larger image, of which `piece` is given, and the first pixel of that.
+struct Placed {
+  const cv::Mat& piece;
+  cv::Point at;
+};
+
+// The part of the piece that lies in `part`. Blocks of the reduced copy begin at the piece's first pixel, and the last
+// ones may extend beyond it.
+void draw_part(ImDrawList& draw, Textures& textures, const Placed& placed, const cv::Rect& part,
+               const ImageView& view) {
+  const int divisor = divisor_at(view.zoom);
+  const cv::Size reduced = reduced_size(placed.piece.size(), divisor);
+  const glm::dvec2 texture_px(divisor * reduced.width, divisor * reduced.height);
+  const glm::dvec2 corner(placed.at.x, placed.at.y);
   const glm::dvec2 low(part.x, part.y);
   const glm::dvec2 high(part.x + part.width, part.y + part.height);
   const Filter filter = view.zoom >= 1 ? Filter::nearest : Filter::smooth;
+  draw.AddImage(textures.of(placed.piece, filter, divisor), im(view.screen_of(low - 0.5)),
+                im(view.screen_of(high - 0.5)), im((low - corner) / texture_px), im((high - corner) / texture_px));
+}
+
+}  // namespace
+
+void draw_image(ImDrawList& draw, Textures& textures, const cv::Mat& image, const ImageView& view,
+                const ScreenRect& rect) {
+  draw_image(draw, textures, PatchedImage{.ground = image, .patch = {}, .patch_at = {}}, view, rect);
+}
+
+void draw_image(ImDrawList& draw, Textures& textures, const PatchedImage& image, const ImageView& view,
+                const ScreenRect& rect) {
+  if (image.empty()) return;
+  // The part in sight alone: a quad of 80,000 screen pixels has no exact texture coordinates.
+  const cv::Rect sight = pixels_in_sight(view, image.size(), rect);
+  if (sight.empty()) return;
   draw.PushClipRect(im(rect.low), im(rect.high), true);
-  draw.AddImage(textures.of(image, filter, divisor_at(view.zoom)), im(view.screen_of(low - 0.5)),
-                im(view.screen_of(high - 0.5)), im(low / size), im(high / size));
+  draw_part(draw, textures, {image.ground, {0, 0}}, sight, view);
+  const DrawnPatch patch = drawn_patch(image, divisor_at(view.zoom));
+  if (const cv::Rect part = patch.drawn & sight; !part.empty())
+    draw_part(draw, textures, {image.patch(patch.reduced - image.patch_at), patch.reduced.tl()}, part, view);
   draw.PopClipRect();
 }
 
@@ -126,12 +154,6 @@ ImU32 readable_on(const cv::Vec3b& bgr) {
   return luma > 128 ? IM_COL32(0, 0, 0, 230) : IM_COL32(255, 255, 255, 230);
 }
 
-cv::Vec3b bgr_at(const cv::Mat& image, int x, int y) {
-  if (image.channels() == 3) return image.at<cv::Vec3b>(y, x);
-  const uchar grey = image.at<uchar>(y, x);
-  return {grey, grey, grey};
-}
-
 // One side of an outline, upright or level.
 void draw_side(ImDrawList& draw, glm::dvec2 low, glm::dvec2 high, ImU32 color, bool dashed) {
   const bool level = high.x - low.x >= high.y - low.y;
@@ -145,9 +167,9 @@ void draw_side(ImDrawList& draw, glm::dvec2 low, glm::dvec2 high, ImU32 color, b
   }
 }
 
-void draw_value(const ImageCanvas& canvas, const cv::Mat& image, int x, int y, float text_px) {
-  const cv::Vec3b bgr = bgr_at(image, x, y);
-  const int lines = image.channels() == 3 ? 3 : 1;
+void draw_value(const ImageCanvas& canvas, const PatchedImage& image, int x, int y, float text_px) {
+  const cv::Vec3b bgr = image.bgr_at({x, y});
+  const int lines = image.ground.channels() == 3 ? 3 : 1;
   const glm::dvec2 middle = canvas.view.screen_of({x, y});
   char text[8];
   for (int line = 0; line < lines; ++line) {
@@ -236,7 +258,7 @@ void draw_pixel_grid(const ImageCanvas& canvas) {
   canvas.draw.PopClipRect();
 }
 
-void draw_pixel_values(const ImageCanvas& canvas, const cv::Mat& image, const glm::dvec2& mouse) {
+void draw_pixel_values(const ImageCanvas& canvas, const PatchedImage& image, const glm::dvec2& mouse) {
   const double text_px = std::min(canvas.view.zoom / 3.4, static_cast<double>(font(Font::mono)->FontSize));
   if (image.empty() || text_px < kMinValueText_px) return;
   cv::Rect shown = pixels_in_sight(canvas.view, image.size(), canvas.rect);
@@ -277,10 +299,10 @@ void draw_pixel_mark(const ImageCanvas& canvas, const cv::Point& pixel) {
   canvas.draw.PopClipRect();
 }
 
-std::string pixel_text(const cv::Mat& image, const cv::Point& pixel) {
+std::string pixel_text(const PatchedImage& image, const cv::Point& pixel) {
   if (!cv::Rect({0, 0}, image.size()).contains(pixel)) return {};
-  const cv::Vec3b bgr = bgr_at(image, pixel.x, pixel.y);
-  if (image.channels() == 1) return fmt::format("{:3}", bgr[0]);
+  const cv::Vec3b bgr = image.bgr_at(pixel);
+  if (image.ground.channels() == 1) return fmt::format("{:3}", bgr[0]);
   return fmt::format("{:3} {:3} {:3}", bgr[2], bgr[1], bgr[0]);
 }
 

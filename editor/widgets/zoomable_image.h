@@ -12,6 +12,7 @@
 
 #include "base/image.h"
 #include "editor/geometry/image_view.h"
+#include "editor/geometry/patched_image.h"
 #include "editor/geometry/screen_marks.h"
 #include "editor/widgets/screen_vec.h"
 #include "editor/widgets/textures.h"
@@ -65,6 +66,11 @@ bool handle_zoom_input(ZoomableImage& look, const glm::dvec2& room_corner);
 void draw_image(ImDrawList& draw, Textures& textures, const cv::Mat& image, const ImageView& view,
                 const ScreenRect& rect);
 
+// The same of a patched image: the ground's texture stays when the patch is another one. On the screen the patch ends
+// where it equals the ground, so that no seam is seen at any zoom.
+void draw_image(ImDrawList& draw, Textures& textures, const PatchedImage& image, const ImageView& view,
+                const ScreenRect& rect);
+
 // The image's pixels that show in a rect.
 [[nodiscard]] cv::Rect pixels_in_sight(const ImageView& view, const cv::Size& image_px, const ScreenRect& rect);
 
@@ -98,12 +104,12 @@ void draw_outline(const ImageCanvas& canvas, const ScreenRect& outlined, ImU32 c
 void draw_pixel_grid(const ImageCanvas& canvas);
 
 // Red, green and blue of each pixel in it, once there is room; of those around the mouse where there are very many.
-void draw_pixel_values(const ImageCanvas& canvas, const cv::Mat& image, const glm::dvec2& mouse);
+void draw_pixel_values(const ImageCanvas& canvas, const PatchedImage& image, const glm::dvec2& mouse);
 
 // Around one pixel: a square where pixels are large, else a cross beside it.
 void draw_pixel_mark(const ImageCanvas& canvas, const cv::Point& pixel);
 
 // "120  84  33", or "120" for one channel; red first.
-[[nodiscard]] std::string pixel_text(const cv::Mat& image, const cv::Point& pixel);
+[[nodiscard]] std::string pixel_text(const PatchedImage& image, const cv::Point& pixel);
 
 }  // namespace sigs::editor

@@ -9,10 +9,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <initializer_list>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -72,18 +77,33 @@ std::optional<Platform> surfaceless_platform() {
   return Platform{"surfaceless", eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)};
 }
 
-std::vector<Platform> device_platforms() {
+std::vector<EGLDeviceEXT> listed_devices() {
   const bool can_list =
       has_client_extension("EGL_EXT_device_enumeration") || has_client_extension("EGL_EXT_device_base");
   if (!can_list || !has_client_extension("EGL_EXT_platform_device")) return {};
   std::array<EGLDeviceEXT, 64> devices{};
   EGLint count = 0;
   if (!eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count)) return {};
+  return std::vector<EGLDeviceEXT>(devices.begin(), devices.begin() + count);  // braces would list two pointers
+}
+
+// Draws on the processor. Only Mesa lists such a device, as the last one.
+bool is_software(EGLDeviceEXT device) {
+  const char* const extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+  return extensions != nullptr && std::strstr(extensions, "EGL_MESA_device_software") != nullptr;
+}
+
+// number: as EGL lists them; none: all, hardware before software.
+std::vector<Platform> device_platforms(std::optional<std::size_t> number) {
+  const std::vector<EGLDeviceEXT> devices = listed_devices();
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    if (!number || *number == i) order.push_back(i);
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return !is_software(devices[i]); });
   std::vector<Platform> platforms;
-  for (EGLint i = 0; i < count; ++i)
+  for (const std::size_t i : order)
     platforms.push_back(
-        {fmt::format("EGL device {}", i),
-         eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr)});
+        {fmt::format("EGL device {}", i), eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr)});
   return platforms;
 }
 
@@ -181,25 +201,55 @@ Result<EGLContext> opened(const Platform& platform) {
   return failed("cannot make its context current");
 }
 
-std::vector<Platform> platforms() {
+// What the variable asks for.
+struct Choice {
+  bool surfaceless = true;
+  bool devices = true;
+  std::optional<std::size_t> device;  // none: all
+};
+
+Result<Choice> choice() {
+  const char* const set = std::getenv(kEglVariable);
+  const std::string_view text = set == nullptr ? "" : set;
+  if (text.empty()) return Choice{};
+  if (text == "surfaceless") return Choice{.devices = false};
+  if (text == "device") return Choice{.surfaceless = false};
+  constexpr std::string_view kNumbered = "device:";
+  std::size_t number = 0;
+  if (text.starts_with(kNumbered)) {
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + kNumbered.size(), end, number);
+    if (error == std::errc() && stop == end) return Choice{.surfaceless = false, .device = number};
+  }
+  return fail(kEglVariable, fmt::format("expected surfaceless, device or device:N, found '{}'", text),
+              ErrorKind::usage);
+}
+
+std::vector<Platform> platforms(const Choice& wanted) {
   std::vector<Platform> all;
-  if (const auto platform = surfaceless_platform()) all.push_back(*platform);
-  for (Platform& platform : device_platforms()) all.push_back(std::move(platform));
+  if (wanted.surfaceless)
+    if (const auto platform = surfaceless_platform()) all.push_back(*platform);
+  if (wanted.devices)
+    for (Platform& platform : device_platforms(wanted.device)) all.push_back(std::move(platform));
   return all;
 }
 
 }  // namespace
 
 Result<EglContext> EglContext::create() {
+  const Result<Choice> wanted = choice();
+  if (!wanted) return fail(wanted.error());
   if (const Result<void> library = check_egl_library(); !library) return fail(library.error());
   if (const Result<void> mapping = check_memory(); !mapping) return fail(mapping.error());
   std::string tried;
-  for (const Platform& platform : platforms()) {
+  for (const Platform& platform : platforms(*wanted)) {
     const Result<EGLContext> context = opened(platform);
     if (context) return EglContext(platform.display, *context, description_of(platform));
     tried += (tried.empty() ? "" : "; ") + context.error().text();
   }
-  if (tried.empty()) tried = "EGL offers neither the surfaceless platform nor devices";
+  if (tried.empty())
+    tried = std::getenv(kEglVariable) == nullptr ? "EGL offers neither the surfaceless platform nor devices"
+                                                 : fmt::format("EGL offers nothing that {} asks for", kEglVariable);
   return fail("OpenGL", fmt::format("cannot be had without a display: {}; {}", tried, how_to_get_opengl()),
               ErrorKind::unavailable);
 }

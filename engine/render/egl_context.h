@@ -8,11 +8,17 @@
 
 namespace sigs {
 
+// Names the environment variable by which a person chooses what draws: `surfaceless`, EGL's surfaceless platform alone;
+// `device`, EGL's devices alone, those that draw in hardware first; `device:N`, the device with that number as EGL
+// lists them, from 0. Not set or empty: the surfaceless platform, then the devices.
+inline constexpr const char* kEglVariable = "SIGS_EGL";
+
 // An OpenGL core context without window and surface, made through EGL. It belongs to the thread that created it.
 class EglContext {
  public:
-  // Tries EGL's surfaceless platform, then each EGL device, with OpenGL 4.5, else 3.3. The context is current on
-  // return. Error unavailable says what was tried, how each attempt failed and what to install.
+  // Tries the platforms that kEglVariable asks for, in that order, each with OpenGL 4.5, else 3.3. The context is
+  // current on return. Error usage where the variable has another value; error unavailable says what was tried, how
+  // each attempt failed and what to install.
   [[nodiscard]] static Result<EglContext> create();
 
   EglContext(EglContext&& other) noexcept;

@@ -215,7 +215,7 @@ void StageGrid::draw_image_of(const StageTile& tile, bool linked, const ScreenRe
   if (!linked) return;
   draw_pixel_grid(canvas);
   if (pixel_) {
-    draw_pixel_values(canvas, tile.image, canvas.view.screen_of(glm::dvec2(pixel_->x, pixel_->y)));
+    draw_pixel_values(canvas, {.ground = tile.image}, canvas.view.screen_of(glm::dvec2(pixel_->x, pixel_->y)));
     draw_pixel_mark(canvas, *pixel_);
   }
 }
@@ -226,7 +226,8 @@ void StageGrid::draw_head(const StageTile& tile, bool linked, const ScreenRect& 
   const float y = static_cast<float>(std::floor(rect.low.y + (head_px() - font(Font::small)->FontSize) / 2));
   double room = rect.size().x - 2 * scaled(6);
   std::string value;
-  if (linked && pixel_) value = (tile.image.channels() == 1 ? "value " : "RGB ") + pixel_text(tile.image, *pixel_);
+  if (linked && pixel_)
+    value = (tile.image.channels() == 1 ? "value " : "RGB ") + pixel_text({.ground = tile.image}, *pixel_);
   if (!linked) value = image_size_text(tile.image.size(), " x ");
   ImGui::PushFont(font(Font::small));
   const float label_width = ImGui::CalcTextSize(tile.label.c_str()).x;

@@ -33,18 +33,21 @@ double mebibytes(std::size_t bytes) {
   return static_cast<double>(bytes) / (1 << 20);
 }
 
-const cv::Mat* image_of(const ViewContext& context, const ViewportReadout& readout) {
-  if (readout.of_footage) return context.shown.footage.get();
-  return context.shown.image ? &context.shown.image->bgr : nullptr;
+}  // namespace
+
+PatchedImage watched_image(const ViewContext& context, bool of_footage) {
+  if (of_footage) return {.ground = context.shown.footage ? *context.shown.footage : cv::Mat()};
+  return context.shown.image ? context.shown.image->bgr : PatchedImage();
 }
 
+namespace {
+
 void add_pixel(std::vector<Part>& parts, const ViewContext& context, const ViewportReadout& readout) {
-  const cv::Mat* image = image_of(context, readout);
-  if (!readout.pixel || image == nullptr || !cv::Rect({0, 0}, image->size()).contains(*readout.pixel)) return;
+  const PatchedImage image = watched_image(context, readout.of_footage);
+  if (!readout.pixel || !cv::Rect({0, 0}, image.size()).contains(*readout.pixel)) return;
   const cv::Point at = *readout.pixel;
   parts.push_back({fmt::format("x {:4}  y {:4}", at.x, at.y), "x 00000  y 00000", 0, color::kText});
-  parts.push_back({pixel_text(*image, at), "000 000 000", 0, color::kText,
-                   image->type() == CV_8UC3 ? std::optional(image->at<cv::Vec3b>(at)) : std::nullopt});
+  parts.push_back({pixel_text(image, at), "000 000 000", 0, color::kText, image.bgr_at(at)});
   if (readout.of_footage) {
     parts.push_back({"footage", "covered 100.0%", 1});
     return;

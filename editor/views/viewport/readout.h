@@ -23,6 +23,9 @@ struct ViewportReadout {
   double zoom = 1;
 };
 
+// The image whose pixels are named: the composited one, or the untouched footage. Empty: it is not there yet.
+[[nodiscard]] PatchedImage watched_image(const ViewContext& context, bool of_footage);
+
 // In screen pixels, for the fonts that are loaded.
 [[nodiscard]] float readout_height();
 // At the cursor, as wide as the window. Where there is little room, the less important parts are left out.

@@ -110,8 +110,7 @@ void ViewportView::draw_overlays(const ViewContext& context, const ImageCanvas& 
     own_body_.draw(canvas, context.textures, context.shown.scene->draft.scene.own_body);
   draw_pixel_grid(canvas);
   const PreviewImage* const image = context.shown.image.get();
-  const cv::Mat* const values = footage_alone_ ? context.shown.footage.get() : image != nullptr ? &image->bgr : nullptr;
-  if (values != nullptr) draw_pixel_values(canvas, *values, dv(ImGui::GetMousePos()));
+  draw_pixel_values(canvas, watched_image(context, footage_alone_), dv(ImGui::GetMousePos()));
   draw_image_grid(canvas, overlays_.grid);
   if (footage_alone_) return;
   LabelPlacer labels;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 using namespace sigs::editor;
@@ -31,12 +32,12 @@ class Screen {
 
   void resize(float width, float height) { ImGui::GetIO().DisplaySize = {width, height}; }
 
-  std::vector<ImVec4> turn(const std::function<void()>& draw) {
+  std::vector<ImVec4> turn(const std::function<void()>& draw, const std::optional<ImVec2>& first = std::nullopt) {
     ImGui::GetIO().DeltaTime = 1.0F / 60;
     ImGui::NewFrame();
     draw();
     ImGui::Render();
-    return changed_.of(*ImGui::GetDrawData());
+    return changed_.of(*ImGui::GetDrawData(), first);
   }
 
  private:
@@ -188,4 +189,41 @@ TEST_CASE("the intersection of disjoint rectangles is empty") {
   CHECK(some.y == 0);
   CHECK(some.z == 10);
   CHECK(some.w == 7);
+}
+
+TEST_CASE("where a place comes first, the panels elsewhere wait, and are drawn with all that they missed") {
+  Screen screen;
+  std::string near = "0";
+  std::string far = "0";
+  const auto draw = [&] {
+    panel("near", 0, 0, 300, 200, near);
+    panel("far", 400, 300, 300, 200, far);
+  };
+  settle(screen, draw);
+  const ImVec2 place{100, 100};
+  for (const char* const text : {"1", "22", "333"}) {
+    near = far = text;
+    const std::vector<ImVec4> regions = screen.turn(draw, place);
+    REQUIRE(regions.size() == 1);
+    CHECK(within(regions[0], {0, 0, 300, 200}));
+  }
+  const std::vector<ImVec4> missed = screen.turn(draw);
+  REQUIRE(missed.size() == 1);
+  CHECK(within(missed[0], {400, 300, 700, 500}));
+  CHECK(screen.turn(draw).empty());
+}
+
+TEST_CASE("a panel that touches what is drawn does not wait") {
+  Screen screen;
+  std::string text = "0";
+  const auto draw = [&] {
+    panel("near", 0, 0, 300, 200, text);
+    panel("over it", 0, 0, 200, 100, text);  // as a tooltip
+  };
+  settle(screen, draw);
+  text = "1";
+  const std::vector<ImVec4> regions = screen.turn(draw, ImVec2{250, 150});  // in the lower panel alone
+  REQUIRE(regions.size() == 1);
+  CHECK(within(regions[0], {0, 0, 200, 100}));  // where both have their text
+  CHECK(screen.turn(draw).empty());             // nothing was left out
 }

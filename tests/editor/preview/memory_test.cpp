@@ -20,7 +20,7 @@ constexpr std::size_t kDecoded_bytes = 64 * 64 * 3 / 2;  // 4:2:0
 constexpr int kStages = 12;
 
 std::shared_ptr<const PreviewImage> image(bool staged) {
-  PreviewImage made{.bgr = cv::Mat(kFrameSize, CV_8UC3, cv::Scalar::all(1)),
+  PreviewImage made{.bgr = {.ground = cv::Mat(kFrameSize, CV_8UC3, cv::Scalar::all(1)), .patch = {}, .patch_at = {}},
                     .mask = cv::Mat(kFrameSize, CV_8UC1, cv::Scalar(1))};
   for (int i = 0; staged && i < kStages; ++i)
     made.stages.push_back({"a", cv::Mat(kFrameSize, CV_8UC4, cv::Scalar::all(1))});

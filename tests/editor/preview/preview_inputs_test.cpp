@@ -40,10 +40,10 @@ TEST_CASE("without footage intruders are shown over grey") {
     project.footage.video = video;
     PreviewClient preview_client;
     const PreviewOutput shown = preview_client.show(frame_of(revision(1, project), 100));
-    REQUIRE(shown.image->bgr.size() == cv::Size(1280, 960));
-    const cv::Vec3b grey = shown.image->bgr.at<cv::Vec3b>(0, 0);
+    REQUIRE(shown.image->bgr.whole().size() == cv::Size(1280, 960));
+    const cv::Vec3b grey = shown.image->bgr.whole().at<cv::Vec3b>(0, 0);
     CHECK(grey == cv::Vec3b::all(130));  // (128 - 16) * 255 / 219
-    CHECK_FALSE(is_plain_grey(shown.image->bgr));
+    CHECK_FALSE(is_plain_grey(shown.image->bgr.whole()));
     CHECK_FALSE(shown.image->mask.empty());
     CHECK_FALSE(shown.scene->footage->video.has_value());
     CHECK_FALSE(shown.scene->footage->problem.empty());
@@ -56,7 +56,7 @@ TEST_CASE("without footage intruders are shown over grey") {
 TEST_CASE("an empty project has an image") {
   PreviewClient preview_client;
   const PreviewOutput shown = preview_client.show(frame_of(revision(1, Project()), 3));
-  CHECK(is_plain_grey(shown.image->bgr));
+  CHECK(is_plain_grey(shown.image->bgr.whole()));
   CHECK(shown.surveys.empty());
   CHECK(shown.scene->draft.problems.size() > 0);
 }
@@ -117,13 +117,13 @@ TEST_CASE("a frame that cannot be used shows the one that replaces it and says w
   const PreviewOutput good = preview_client.show(frame_of(revision(1, project), 2));
   REQUIRE(good.scene->footage->video.has_value());
   CHECK(good.image->problem.empty());
-  CHECK(good.image->bgr.size() == cv::Size(128, 96));
+  CHECK(good.image->bgr.whole().size() == cv::Size(128, 96));
   const PreviewOutput bad = preview_client.show(frame_of(revision(1, project), 6));
   CHECK(bad.image->frame == 6);
   CHECK(bad.image->problem.find("two-sizes.mjpeg") != std::string::npos);
-  CHECK(bad.image->bgr.size() == cv::Size(128, 96));
+  CHECK(bad.image->bgr.whole().size() == cv::Size(128, 96));
   CHECK(bad.image->problem.find("frame 6") != std::string::npos);
-  CHECK(cv::norm(bad.image->bgr, good.image->bgr, cv::NORM_INF) == 0);
+  CHECK(cv::norm(bad.image->bgr.whole(), good.image->bgr.whole(), cv::NORM_INF) == 0);
   CHECK(preview_client.show(frame_of(revision(1, project), 3)).image->problem.empty());
 }
 
@@ -231,7 +231,7 @@ TEST_CASE("other footage is opened in the background and the old image stays unt
   const PreviewOutput after =
       preview_client.wait([](const PreviewOutput& s) { return s.image_is_current && s.scene->footage->video; });
   CHECK_FALSE(after.opening);
-  CHECK(is_same_image(after.image->bgr, before.image->bgr));
+  CHECK(is_same_image(after.image->bgr.whole(), before.image->bgr.whole()));
 }
 
 TEST_CASE("a request beyond the footage shows its last frame") {

@@ -27,7 +27,7 @@ struct PreviewStateFixture {
 
   void put_image(const Revision& revision) {
     PreviewImage image{.revision = revision.number};
-    image.bgr = cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(brightness_of(revision)));
+    image.bgr.ground = cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(brightness_of(revision)));
     preview_state.put_image({combined_id(revision.content, kInputFiles), 0},
                             std::make_shared<const PreviewImage>(std::move(image)), 1, true);
   }
@@ -36,7 +36,8 @@ struct PreviewStateFixture {
   bool shows_at_once(const Revision& revision) {
     preview_state.want({.revision = revision});
     const PreviewOutput shown = preview_state.shown();
-    return shown.image_is_current && shown.image && shown.image->bgr.at<cv::Vec3b>(0, 0)[0] == brightness_of(revision);
+    return shown.image_is_current && shown.image &&
+           shown.image->bgr.whole().at<cv::Vec3b>(0, 0)[0] == brightness_of(revision);
   }
 
   bool shows_when_made(const Revision& revision) {

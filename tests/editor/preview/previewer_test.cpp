@@ -64,7 +64,7 @@ TEST_CASE("the preview is byte for byte what the program writes as a frame") {
       const PreviewOutput shown = preview_client.show(frame_of(revision(++number, project), kFrame));
       REQUIRE(shown.image->problem.empty());
       CHECK(shown.image->frame == kFrame);
-      CHECK(is_same_image(shown.image->bgr, written));
+      CHECK(is_same_image(shown.image->bgr.whole(), written));
     }
 }
 
@@ -81,9 +81,9 @@ TEST_CASE("with the camera's attitude known the preview is still what the progra
   const cv::Mat written = cv::imread(out + "/frame_" + std::to_string(kFrame) + ".png", cv::IMREAD_UNCHANGED);
   PreviewClient preview_client({.ahead = 0});
   const PreviewOutput shaken = preview_client.show(frame_of(revision(1, project), kFrame));
-  CHECK(is_same_image(shaken.image->bgr, written));
+  CHECK(is_same_image(shaken.image->bgr.whole(), written));
   project.camera.attitude_file.clear();
-  CHECK_FALSE(is_same_image(preview_client.show(frame_of(revision(2, project), kFrame)).image->bgr, written));
+  CHECK_FALSE(is_same_image(preview_client.show(frame_of(revision(2, project), kFrame)).image->bgr.whole(), written));
 }
 
 TEST_CASE("mask, truth, untouched frame, stages and the other method are those of the engine") {
@@ -99,12 +99,12 @@ TEST_CASE("mask, truth, untouched frame, stages and the other method are those o
       [](const PreviewOutput& s) { return s.image_is_current && s.footage && s.staged && s.compared; });
 
   const ComposedFrame composed = engine.composed(kFrame, Stages::keep);
-  CHECK(is_same_image(shown.image->bgr, bgr_of(composed.image)));
+  CHECK(is_same_image(shown.image->bgr.whole(), bgr_of(composed.image)));
   CHECK(is_same_image(shown.image->mask, composed.mask));
   CHECK(shown.image->truth.time_s == composed.truth.time_s);
   CHECK(shown.image->truth.intruders.at(0).visible_fraction == composed.truth.intruders.at(0).visible_fraction);
   CHECK(is_same_image(*shown.footage, bgr_of(engine.source.read(kFrame).value())));
-  CHECK(is_same_image(shown.staged->bgr, bgr_of(composed.image)));
+  CHECK(is_same_image(shown.staged->bgr.whole(), bgr_of(composed.image)));
   REQUIRE(shown.staged->stages.size() == composed.stages.size());
   for (std::size_t i = 0; i < composed.stages.size(); ++i) {
     CHECK(shown.staged->stages[i].name == composed.stages[i].name);
@@ -113,7 +113,7 @@ TEST_CASE("mask, truth, untouched frame, stages and the other method are those o
   Project classic = project;
   classic.compositing.method = MethodChoice::classic;
   CHECK(shown.compared->method == MethodChoice::classic);
-  CHECK(is_same_image(shown.compared->bgr, bgr_of(Engine(classic).composed(kFrame).image)));
+  CHECK(is_same_image(shown.compared->bgr.whole(), bgr_of(Engine(classic).composed(kFrame).image)));
 }
 
 TEST_CASE("another lens after the first warps as by itself") {
@@ -130,9 +130,9 @@ TEST_CASE("another lens after the first warps as by itself") {
                      true));
   other.footage.calibration = path;
   PreviewClient preview_client({.ahead = 0});
-  CHECK(is_same_image(preview_client.show(frame_of(revision(1, one), kFrame)).image->bgr,
+  CHECK(is_same_image(preview_client.show(frame_of(revision(1, one), kFrame)).image->bgr.whole(),
                       bgr_of(Engine(one).composed(kFrame).image)));
-  CHECK(is_same_image(preview_client.show(frame_of(revision(2, other), kFrame)).image->bgr,
+  CHECK(is_same_image(preview_client.show(frame_of(revision(2, other), kFrame)).image->bgr.whole(),
                       bgr_of(Engine(other).composed(kFrame).image)));
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("a cache too small for anything still shows the right image") {
   PreviewClient preview_client({.cache_bytes = 1000, .ahead = 48});
   Engine engine(project);
   for (const int frame : {5, 6, 100})
-    CHECK(is_same_image(preview_client.show(frame_of(revision(1, project), frame)).image->bgr,
+    CHECK(is_same_image(preview_client.show(frame_of(revision(1, project), frame)).image->bgr.whole(),
                         bgr_of(engine.composed(frame).image)));
   preview_client.wait([](const PreviewOutput& s) { return !s.busy; });
 }
@@ -217,7 +217,7 @@ TEST_CASE("a fast series of requests ends at the right image") {
   wanted = frame_of(revision(500, moved(project, 3.5)), kFrame);
   const PreviewOutput shown = preview_client.show(wanted);
   CHECK(shown.image->revision == 500);
-  CHECK(is_same_image(shown.image->bgr, bgr_of(Engine(moved(project, 3.5)).composed(kFrame).image)));
+  CHECK(is_same_image(shown.image->bgr.whole(), bgr_of(Engine(moved(project, 3.5)).composed(kFrame).image)));
 }
 
 TEST_CASE("edits that come faster than images do not stop the preview") {
@@ -236,6 +236,67 @@ TEST_CASE("edits that come faster than images do not stop the preview") {
     observed = shown;
   }
   CHECK(images >= 5);  // some tens on any machine that is not overloaded
+}
+
+TEST_CASE("what is shown when a drag has ended is the frame that the program writes, whatever the camera's look") {
+  const TemporaryFolder folder;
+  PreviewClient preview_client({.ahead = 0});
+  std::uint64_t number = 0;
+  for (const bool has_look : {false, true}) {
+    Project project = sample("head-on");
+    project.footage.video = resolved(project, project.footage.video).string();
+    project.footage.calibration = resolved(project, project.footage.calibration).string();
+    project.footage.own_body_mask = resolved(project, project.footage.own_body_mask).string();
+    project.intruders[0].model.file = resolved(project, project.intruders[0].model.file).string();
+    if (has_look) {  // what changes pixels beyond the intruder's own
+      project.appearance.sharpening = 1.5;
+      project.appearance.sharpening_px = 2;
+      project.appearance.chroma_spread_px = 2;
+      project.appearance.grain = {.sd_dark = 2, .sd_bright = 3, .sd_chroma = 2};
+      project.appearance.codec = {.match = CodecMatchChoice::h264, .quantiser = 30.0};
+    }
+    for (int step = 1; step <= 30; ++step) {
+      preview_client.want(frame_of(revision(++number, moved(project, 0.2 * step)), kFrame));
+      std::this_thread::sleep_for(std::chrono::milliseconds(4));
+    }
+    const PreviewOutput shown = preview_client.show(frame_of(revision(number, moved(project, 6)), kFrame));
+    REQUIRE(shown.image->problem.empty());
+    CHECK_FALSE(shown.image->bgr.patch.empty());
+
+    const std::string name = has_look ? "look" : "plain";
+    const std::filesystem::path file = folder / (name + ".json");
+    REQUIRE(write_project(moved(project, 6), file, true));
+    const std::string out = (folder / name).string();
+    const test::Run run = run_sigs("frame " + file.string() + " --frame " + std::to_string(kFrame) + " --out " + out);
+    REQUIRE_MESSAGE(run.status == 0, run.err);
+    const cv::Mat written = cv::imread(out + "/frame_" + std::to_string(kFrame) + ".png", cv::IMREAD_UNCHANGED);
+    CHECK(is_same_image(shown.image->bgr.whole(), written));
+  }
+}
+
+TEST_CASE("all images of a drag share the footage under them, and the model by itself is not drawn again") {
+  const Project project = sample("head-on");
+  PreviewClient preview_client({.ahead = 0});
+  PreviewRequest wanted = frame_of(revision(1, project), kFrame);
+  wanted.turntable = {{0, 0.3, {64, 48}}};
+  wanted.footage = true;
+  preview_client.want(wanted);
+  const PreviewOutput first =
+      preview_client.wait([](const PreviewOutput& s) { return s.image_is_current && s.model && s.footage; });
+  for (std::uint64_t number = 2; number <= 5; ++number) {
+    wanted.revision = revision(number, moved(project, static_cast<double>(number)));
+    const PreviewOutput shown = preview_client.show(wanted);
+    CHECK(shown.image->bgr.ground.data == first.image->bgr.ground.data);
+    CHECK(shown.footage->data == first.image->bgr.ground.data);
+  }
+  preview_client.wait([](const PreviewOutput& s) { return !s.busy; });
+  CHECK(preview_client.shown().model == first.model);
+  Project longer = project;
+  longer.intruders[0].model.length_m = 40;
+  wanted.revision = revision(6, longer);
+  preview_client.want(wanted);
+  const PreviewOutput shown = preview_client.wait([&](const PreviewOutput& s) { return s.model != first.model; });
+  CHECK(shown.model->size_m.x > first.model->size_m.x);
 }
 
 TEST_CASE("scrubbing faster than decoding still shows images") {

@@ -139,3 +139,44 @@ TEST_CASE("a reduced image is averaged, so that a single bright pixel leaves a t
   CHECK(cv::countNonZero(quarter) == 1);
   CHECK(from(1e-6).size() == cv::Size(1, 1));
 }
+
+TEST_CASE("each pixel of a reduced image is the mean of a block, at the right and lower edge of what there is") {
+  cv::Mat image(23, 31, CV_8UC1);
+  cv::RNG(5).fill(image, cv::RNG::UNIFORM, 0, 256);
+  for (const int divisor : {2, 3, 4, 7, 40}) {
+    const cv::Mat reduced = reduced_copy(image, divisor);
+    REQUIRE(reduced.size() == reduced_size(image.size(), divisor));
+    for (int j = 0; j < reduced.rows; ++j)
+      for (int i = 0; i < reduced.cols; ++i) {
+        const cv::Rect block = cv::Rect(i * divisor, j * divisor, divisor, divisor) & cv::Rect({0, 0}, image.size());
+        REQUIRE_FALSE(block.empty());
+        CHECK(std::abs(reduced.at<uchar>(j, i) - cv::mean(image(block))[0]) <= 0.5 + 1e-6);  // rounded
+      }
+  }
+}
+
+TEST_CASE("a patch drawn from a smaller copy has the pixels of the smaller copy of the whole image") {
+  cv::RNG random(7);
+  PatchedImage image{.ground = cv::Mat(301, 407, CV_8UC3), .patch = {}, .patch_at = {}};
+  random.fill(image.ground, cv::RNG::UNIFORM, 0, 256);
+  // In the middle; in a corner, where it has a margin on two sides alone; over the whole.
+  for (const cv::Rect& changed : {cv::Rect(150, 120, 60, 40), cv::Rect(380, 290, 27, 11), cv::Rect(0, 0, 407, 301)}) {
+    const cv::Rect part = cv::Rect(changed.x - kPatchMargin_px, changed.y - kPatchMargin_px,
+                                   changed.width + 2 * kPatchMargin_px, changed.height + 2 * kPatchMargin_px) &
+                          cv::Rect({0, 0}, image.size());
+    image.patch = image.ground(part).clone();
+    image.patch_at = part.tl();
+    cv::Mat inner = image.patch(changed - part.tl());
+    random.fill(inner, cv::RNG::UNIFORM, 0, 256);
+    for (int divisor = 1; divisor <= kPatchMargin_px / 2; ++divisor) {
+      const cv::Mat expected = reduced_copy(image.whole(), divisor);
+      cv::Mat drawn = reduced_copy(image.ground, divisor).clone();
+      const DrawnPatch patch = drawn_patch(image, divisor);
+      const cv::Mat reduced = reduced_copy(image.patch(patch.reduced - image.patch_at), divisor);
+      reduced.copyTo(drawn(cv::Rect(patch.reduced.tl() / divisor, reduced.size())));
+      // What smoothing reads of either texture, too.
+      CHECK(cv::norm(drawn, expected, cv::NORM_INF) == 0);
+      CHECK((patch.drawn & changed) == changed);
+    }
+  }
+}
