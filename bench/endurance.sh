@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Whether resident memory, descriptors and threads of one process stay level over a long run.
+# Whether memory, descriptors and threads of one process stay level over a long run. Memory is what it has of its own
+# (RssAnon): resident pages of files and libraries come and go with what other programs need.
 #   bench/endurance.sh [--write] frames  [FRAMES|draw]  [BUILD]   one export, default 100000 frames of build/release
 #   bench/endurance.sh [--write] dataset [VIDEOS|draw]  [BUILD]   one dataset, default 500 videos of build/release
 #   bench/endurance.sh [--write] editor  [MINUTES|draw] [BUILD]   random input, default 30 minutes of build/asan; the
@@ -30,10 +31,11 @@ source bench/looped_clip.sh
 
 # A line each second for as long as a process runs. done_so_far prints how much of the work is done.
 sample() { # PROCESS
-  local begin=$SECONDS resident threads descriptors
-  while read -r resident threads < <(awk '/^VmRSS/ { r = $2 } /^Threads/ { t = $2 } END { if (r) print r, t }' "/proc/$1/status" 2>/dev/null); do
+  local begin=$SECONDS resident own threads descriptors
+  while read -r resident own threads < <(awk '/^VmRSS/ { r = $2 } /^RssAnon/ { o = $2 } /^Threads/ { t = $2 }
+      END { if (r) print r, o, t }' "/proc/$1/status" 2>/dev/null); do
     descriptors=$(ls "/proc/$1/fd" 2>/dev/null | wc -l)
-    echo "$((SECONDS - begin)),$(done_so_far),$resident,$descriptors,$threads"
+    echo "$((SECONDS - begin)),$(done_so_far),$own,$descriptors,$threads,$resident"
     sleep 1
   done >>"$samples"
 }
@@ -41,7 +43,7 @@ sample() { # PROCESS
 # Runs a program to its end, sampled.
 sampled() { # COMMAND...
   mkdir -p "$(dirname "$samples")"
-  echo "seconds,done,resident_kb,descriptors,threads" >"$samples"
+  echo "seconds,done,own_kb,descriptors,threads,resident_kb" >"$samples"
   "$@" >"$lot/said" 2>&1 &
   local process=$!
   sample "$process"
@@ -82,7 +84,7 @@ run_editor() {
   local begin=$SECONDS
   done_so_far() { awk -v s="$((SECONDS - begin))" 'BEGIN { printf "%.3f", s / 60 }'; }
   mkdir -p "$(dirname "$samples")"
-  echo "seconds,done,resident_kb,descriptors,threads" >"$samples"
+  echo "seconds,done,own_kb,descriptors,threads,resident_kb" >"$samples"
   export ASAN_OPTIONS=quarantine_size_mb=8:detect_leaks=0 SIGS_TEST_EDITOR=$here/$build/sigs-editor SIGS_TEST_MINUTES=$amount TMPDIR=$lot
   "${sandbox[@]}" build/release/test_editor_ui_test --test-case='no sequence of keys and mouse input*' >"$lot/said" 2>&1 &
   local test=$! editor=
@@ -95,13 +97,13 @@ run_editor() {
 # Of the last two thirds: the slope of each quantity by `done`, and where it began and ended.
 report() {
   awk -F, -v part="$part" -v unit="$unit" -v bound="$bound_kb" '
-    NR > 1 { n += 1; for (i = 1; i <= 5; ++i) v[n, i] = $i }
+    NR > 1 { n += 1; for (i = 1; i <= 6; ++i) v[n, i] = $i }
     END {
       for (first = 1; v[first, 2] < v[n, 2] / 3; ++first);
       m = n - first + 1
       if (m < 5) { print "error: too few samples; take a longer run" > "/dev/stderr"; exit 1 }
       span = v[n, 2] - v[first, 2]
-      for (i = 2; i <= 5; ++i) {
+      for (i = 2; i <= 6; ++i) {
         low[i] = high[i] = v[first, i]
         for (k = first; k <= n; ++k) {
           mean[i] += v[k, i] / m
@@ -117,9 +119,9 @@ report() {
         slope[i] = cross[i] / square[i]
       }
       is_level = slope[3] <= bound && slope[4] * span <= 5 && slope[5] * span <= 5
-      printf "| %ss | run, s | resident, MB | slope, kB a %s | bound | descriptors | slope over the two thirds | threads | slope over the two thirds | level |\n|---|---|---|---|---|---|---|---|---|---|\n", unit, unit
-      printf "| %.0f | %d | %.0f to %.0f | %.3f | %g | %d to %d | %.2f | %d to %d | %.2f | %s |\n", v[n, 2], v[n, 1],
-        low[3] / 1024, high[3] / 1024, slope[3], bound, low[4], high[4], slope[4] * span, low[5], high[5], slope[5] * span,
+      printf "| %ss | run, s | resident, MB | own memory, MB | slope, kB a %s | bound | descriptors | slope over the two thirds | threads | slope over the two thirds | level |\n|---|---|---|---|---|---|---|---|---|---|---|\n", unit, unit
+      printf "| %.0f | %d | %.0f to %.0f | %.0f to %.0f | %.3f | %g | %d to %d | %.2f | %d to %d | %.2f | %s |\n", v[n, 2], v[n, 1],
+        low[6] / 1024, high[6] / 1024, low[3] / 1024, high[3] / 1024, slope[3], bound, low[4], high[4], slope[4] * span, low[5], high[5], slope[5] * span,
         is_level ? "yes" : "no"
       exit !is_level
     }' "$samples" || failed=1

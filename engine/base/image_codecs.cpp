@@ -9,6 +9,18 @@
 
 namespace sigs::image_codecs {
 
+namespace {
+
+// OpenCV gives an empty image for a damaged file and, without a word, where it finds no memory for its decoder. Throws
+// cv::Exception (StsNoMem) in the latter case: where not even some MiB can be had.
+cv::Mat image_or_no_memory(cv::Mat image) {
+  constexpr int kEnough_bytes = 8 << 20;
+  if (image.empty()) cv::Mat(1, kEnough_bytes, CV_8UC1).release();
+  return image;
+}
+
+}  // namespace
+
 // SIGS_IMAGE_CODECS_FILES is set by CMakeLists.txt where the library can be loaded so: its file names, by which it is
 // found among the system's libraries or where it was found when this was built. Else it is linked as any other.
 #ifdef SIGS_IMAGE_CODECS_FILES
@@ -46,12 +58,12 @@ Function* function_named(const char* mangled_name) {
 
 static cv::Mat opencv_imread(const std::string& file, int flags) {
   static auto* const call = function_named<cv::Mat(const std::string&, int)>(SIGS_MANGLED_IMREAD);
-  return call(file, flags);
+  return image_or_no_memory(call(file, flags));
 }
 
 cv::Mat imdecode(cv::InputArray bytes, int flags) {
   static auto* const call = function_named<cv::Mat(cv::InputArray, int)>(SIGS_MANGLED_IMDECODE);
-  return call(bytes, flags);
+  return image_or_no_memory(call(bytes, flags));
 }
 
 bool imwrite(const std::string& file, cv::InputArray image, const std::vector<int>& parameters) {
@@ -70,11 +82,11 @@ static bool opencv_imencode(const std::string& extension, cv::InputArray image, 
 #else
 
 static cv::Mat opencv_imread(const std::string& file, int flags) {
-  return cv::imread(file, flags);
+  return image_or_no_memory(cv::imread(file, flags));
 }
 
 cv::Mat imdecode(cv::InputArray bytes, int flags) {
-  return cv::imdecode(bytes, flags);
+  return image_or_no_memory(cv::imdecode(bytes, flags));
 }
 
 bool imwrite(const std::string& file, cv::InputArray image, const std::vector<int>& parameters) {
