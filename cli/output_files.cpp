@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <ranges>
 #include <string>
 #include <system_error>
 
@@ -24,7 +23,8 @@ Result<void> write_bytes(const fs::path& staged, std::string_view bytes) {
 
 CreatedFolders::~CreatedFolders() {
   std::error_code code;
-  for (const fs::path& folder : created_ | std::views::reverse) fs::remove(folder, code);  // refused where not empty
+  for (auto last = created_.rbegin(); last != created_.rend(); ++last)
+    fs::remove(*last, code);  // refused where not empty
 }
 
 Result<void> CreatedFolders::make(const fs::path& folder) {
