@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <ranges>
 #include <string>
 #include <system_error>
 
@@ -30,7 +29,8 @@ Result<void> write_png(const fs::path& staged, const cv::Mat& image) {
 
 CreatedFolders::~CreatedFolders() {
   std::error_code code;
-  for (const fs::path& folder : created_ | std::views::reverse) fs::remove(folder, code);  // refused where not empty
+  for (auto last = created_.rbegin(); last != created_.rend(); ++last)
+    fs::remove(*last, code);  // refused where not empty
 }
 
 Result<void> CreatedFolders::make(const fs::path& folder) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSettledPercent = 1;
 
-void measure(const flights::Flight& flight, int frames, const accuracy::Call& call, accuracy::Csv& table) {
+void measure_early(const flights::Flight& flight, int frames, const accuracy::Call& call, accuracy::Csv& table) {
   const Clip clip = encoded_clip(flight, frames, call.folder);
   OwnBodySettings settings = with_method(OwnBodyMethod::stable, frames);
   settings.settled_percent = 0;
@@ -34,7 +34,7 @@ void measure_early_stop(const accuracy::Call& call) {
   const flights::FlightSettings making{.size_px = call.quick ? cv::Size(320, 240) : cv::Size(640, 480),
                                        .frames = call.quick ? 200 : 1500};
   for (const flights::Flight& flight : flights::all(making))
-    if (flight.is_decidable) measure(flight, making.frames, call, table);
+    if (flight.is_decidable) measure_early(flight, making.frames, call, table);
 }
 
 }  // namespace sigs::bench

@@ -76,7 +76,7 @@ const char* truth_of(const Clip& clip) {
   return cv::countNonZero(clip.own_body) == 0 ? "none" : "known";
 }
 
-void measure(const Clip& clip, int frames, const accuracy::Call& call, accuracy::Csv& table) {
+void measure_clip(const Clip& clip, int frames, const accuracy::Call& call, accuracy::Csv& table) {
   FrameSource source = opened(clip.path);
   const Result<Frame> frame = source.read(std::min(frames, source.info().frame_count()) / 2);
   if (!frame) accuracy::stop(frame.error().text());
@@ -106,14 +106,14 @@ void measure_real_clips(const accuracy::Call& call) {
       std::printf("%s: not there, left out\n", real.path.string().c_str());
       continue;
     }
-    measure(clip_of(real, opened(real.path).info().size_px), frames, call, table);
+    measure_clip(clip_of(real, opened(real.path).info().size_px), frames, call, table);
   }
   const fs::path coast = kVideos / "air_karma_gopro_coast.mp4";
   if (!fs::exists(coast)) return;
   FrameSource flight = opened(coast);
   for (const Overlay& drawn : overlays()) {
     const Clip clip = with_body(drawn, flight, std::min(frames, flight.info().frame_count()), call);
-    measure(clip, frames, call, table);
+    measure_clip(clip, frames, call, table);
     fs::remove(clip.path);
   }
 }

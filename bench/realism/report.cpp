@@ -82,10 +82,10 @@ Scored scored(const Pairs& pairs, const std::string& kind, const Columns& set, C
   for (const auto& [clips, tuning] :
        {std::pair("held out", std::optional(false)), std::pair("tuning", std::optional(true)),
         std::pair("all", std::optional<bool>())})
-    result.rows.push_back(
-        {kind, set.name, name, clips, auc_of(pairs.examples, result.scores, [&](const Example& example) {
-           return !tuning || pairs.is_tuning.at(example.clip) == *tuning;
-         })});
+    result.rows.push_back({kind, set.name, name, clips,
+                           auc_of(pairs.examples, result.scores, [&, tuning = tuning](const Example& example) {
+                             return !tuning || pairs.is_tuning.at(example.clip) == *tuning;
+                           })});
   return result;
 }
 

@@ -21,20 +21,20 @@ namespace {
 
 constexpr std::array<int, 4> kGaps{6, 18, 54, 120};  // frames
 constexpr int kStarts = 96;                          // frames from which pairs begin
-constexpr int kTurnParts = 12;                           // of the time in which the image moves
+constexpr int kTurnParts = 12;                       // of the time in which the image moves
 constexpr std::size_t kPairsEach = 4;                // of a part
 constexpr std::size_t kLeastParts = 4;
-constexpr std::size_t kLeastCommon = 30;  // features
-constexpr double kLeastMotion = 0.03;     // of the image's width
-constexpr double kTurnLeastScale_px = 0.1;    // of the reduced image
-constexpr int kFields = 14;               // first values tried
+constexpr std::size_t kLeastCommon = 30;    // features
+constexpr double kLeastMotion = 0.03;       // of the image's width
+constexpr double kTurnLeastScale_px = 0.1;  // of the reduced image
+constexpr int kFields = 14;                 // first values tried
 constexpr double kFirstField_rad = 0.12;
 constexpr double kLastField_rad = 2.6;
 constexpr int kTurnRounds = 12;
 constexpr double kTurnLeastRelative = 0.01;  // the lens is not quite of this model, its centre not quite the image's
-constexpr double kFreer = 1.3;           // a homography that misses by so much less is another motion
-constexpr double kLargest_px = 0.8;      // of the reduced image; larger misses are no rotation
-constexpr double kTooOpen = 0.2;         // uncertainty of the focal length
+constexpr double kFreer = 1.3;               // a homography that misses by so much less is another motion
+constexpr double kLargest_px = 0.8;          // of the reduced image; larger misses are no rotation
+constexpr double kTooOpen = 0.2;             // uncertainty of the focal length
 
 struct Pair {
   std::vector<PixelPair> features;
@@ -245,11 +245,11 @@ class TurnFit {
     Eigen::Matrix<double, 3, 2> turn_by_common;
   };
   [[nodiscard]] Reduced reduced_of(const RoughLens& lens, const Pair& pair) const {
-    constexpr double kStep = 1e-4;
+    constexpr double kChange = 1e-4;
     std::array<RoughLens, 2> moved{lens, lens};
     for (int k = 0; k < 2; ++k) {
       Common there = values_;
-      there(k) += k == 0 ? kStep * values_(0) : kStep;
+      there(k) += k == 0 ? kChange * values_(0) : kChange;
       moved[static_cast<std::size_t>(k)] = lens_of(there);
     }
     Eigen::Matrix<double, 5, 5> all = Eigen::Matrix<double, 5, 5>::Zero();
@@ -259,10 +259,10 @@ class TurnFit {
       Eigen::Matrix<double, 2, 5> slope;
       for (int k = 0; k < 2; ++k)
         slope.col(k) = (at - miss(moved[static_cast<std::size_t>(k)], pair.after_from_before, f)) /
-                       (k == 0 ? kStep * values_(0) : kStep);
+                       (k == 0 ? kChange * values_(0) : kChange);
       for (int k = 0; k < 3; ++k)
         slope.col(k + 2) =
-            (at - miss(lens, turn_of(kStep * Eigen::Vector3d::Unit(k)) * pair.after_from_before, f)) / kStep;
+            (at - miss(lens, turn_of(kChange * Eigen::Vector3d::Unit(k)) * pair.after_from_before, f)) / kChange;
       if (!slope.allFinite() || at.norm() > 900) continue;
       const double weight = weight_of(at.squaredNorm(), 2 * scale_px_) / (scale_px_ * scale_px_);
       all += weight * slope.transpose() * slope;

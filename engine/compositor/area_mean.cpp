@@ -22,9 +22,11 @@ cv::Mat halved(const cv::Mat& image) {
 }
 
 cv::Range span_of_row(const cv::Vec4f* color, const float* coverage, int width) {
-  const auto is_empty = [&](int i) {  // no short cuts: one comparison of vectors
+  const auto is_empty = [&](int i) {
+    const auto zero = [](float value) { return static_cast<unsigned>(value == 0); };
     const cv::Vec4f& c = color[i];
-    return ((c[0] == 0) & (c[1] == 0) & (c[2] == 0) & (c[3] == 0) & (coverage[i] == 0)) != 0;
+    // No short cuts: one comparison of vectors.
+    return (zero(c[0]) & zero(c[1]) & zero(c[2]) & zero(c[3]) & zero(coverage[i])) != 0;
   };
   int first = 0;
   while (first < width && is_empty(first)) ++first;

@@ -53,9 +53,10 @@ bool warns_of(const BoardCalibration& calibration, const std::string& words) {
 }  // namespace
 
 TEST_CASE("corners without errors give back the lens that OpenCV has projected them with") {
-  for (const auto& [name, model] :
+  for (const auto& [board, model] :
        {std::pair("pinhole-chessboard", FitModel::pinhole), std::pair("brown5-chessboard", FitModel::brown_conrady_5),
         std::pair("fisheye170-chessboard", FitModel::kannala_brandt)}) {
+    const std::string name = board;
     const made::BoardRenderer truth = truth_of(name);
     const BoardCalibration found = calibration_of(projected_views(truth, 14, 0), truth);
     CHECK_MESSAGE(found.best().model == model, name);

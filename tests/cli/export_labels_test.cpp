@@ -153,7 +153,7 @@ TEST_CASE("thresholds remove boxes from labels, except where a format has none")
 
 TEST_CASE("unknown labels and invalid thresholds exit with status 64, name the option, and write nothing") {
   const TinyProject tiny;
-  for (const auto& [options, status, part] :
+  for (const auto& [given, status, part] :
        {std::tuple{"--labels pascal", 64, "error: --labels pascal: knows no format \"pascal\""},
         std::tuple{"--labels mot,mot", 64, "error: --labels mot,mot: "},
         std::tuple{"--labels mot,", 64, "knows no format \"\""},
@@ -165,6 +165,7 @@ TEST_CASE("unknown labels and invalid thresholds exit with status 64, name the o
         std::tuple{"--codec vp9", 64, "error: --codec vp9: "}, std::tuple{"--crf 99", 64, "error: --crf 99: "},
         std::tuple{"--min-pixels some", 64, "some"}, std::tuple{"--min-visible half", 64, "half"},
         std::tuple{"--set 'export.labels=[\"pascal\"]'", 78, "export.labels: knows no format \"pascal\""}}) {
+    const std::string options = given;
     const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.out() + " " + options);
     CHECK_MESSAGE(run.status == status, options << ": " << run.err);
     CHECK_MESSAGE(run.err.find(part) != std::string::npos, options << ": " << run.err);

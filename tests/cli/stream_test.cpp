@@ -221,13 +221,13 @@ TEST_CASE("folders of labels name and link TIFF and JPEG images by their own ext
          {"tiny.yolo/images/tiny/frame_000004", "tiny.voc/JPEGImages/frame_000004", "tiny.mot/tiny/img1/000005",
           "tiny.kitti/image_02/tiny/000004", "tiny.vot/tiny/color/00000005"})
       CHECK_MESSAGE(fs::equivalent(image, tiny.file("out") / (std::string(link) + extension)), link);
-    for (const auto& [file, text] :
+    for (const auto& text :
          {std::pair{"tiny.mot/tiny/seqinfo.ini", std::string("imExt=") + extension},
           std::pair{"tiny.vot/tiny/sequence", std::string("color/%08d") + extension},
           std::pair{"tiny.coco.json", std::string("tiny/frame_000004") + extension},
           std::pair{"tiny.aot.json", std::string("tiny/frame_000004") + extension},
           std::pair{"tiny.voc/Annotations/frame_000004.xml", std::string("<filename>frame_000004") + extension}})
-      CHECK_MESSAGE(has(text_of(tiny.file("out") / file), text), file);
+      CHECK_MESSAGE(has(text_of(tiny.file("out") / text.first), text.second), text.first);
     fs::remove_all(tiny.out());
   }
 }

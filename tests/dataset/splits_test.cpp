@@ -86,7 +86,7 @@ TEST_CASE("videos of one unit share a split, and no split lacks more than one un
   const std::vector<std::string> splits = shared_out(list);
   std::map<std::string, std::set<std::string>> of_unit;
   for (std::size_t i = 0; i < list.size(); ++i) of_unit[list[i].unit].insert(splits[i]);
-  for (const auto& [unit, found] : of_unit) CHECK_MESSAGE(found.size() == 1, unit);
+  for (const auto& entry : of_unit) CHECK_MESSAGE(entry.second.size() == 1, entry.first);
   const std::map<std::string, int> found = counts(splits);
   CHECK(found.at("train") == 140);
   CHECK(found.at("val") == 20);

@@ -141,8 +141,9 @@ void check_project(const std::string& text) {
 
 TEST_CASE("the project format's page describes every setting as the code does") {
   const std::map<std::string, Row> on_page = rows_on_page();
-  for (const auto& [key, row] : rows_in_code()) {
-    const auto found = on_page.find(key);
+  for (const auto& entry : rows_in_code()) {
+    const auto& row = entry.second;
+    const auto found = on_page.find(entry.first);
     if (found == on_page.end())
       FAIL_CHECK("missing: " << text_of(row));
     else
@@ -152,7 +153,7 @@ TEST_CASE("the project format's page describes every setting as the code does") 
 
 TEST_CASE("the project format's page describes no unknown setting") {
   const std::map<std::string, Row> in_code = rows_in_code();
-  for (const auto& [key, row] : rows_on_page()) CHECK_MESSAGE(in_code.contains(key), key);
+  for (const auto& entry : rows_on_page()) CHECK_MESSAGE(in_code.contains(entry.first), entry.first);
 }
 
 TEST_CASE("the projects on the project format's page are read without a warning") {

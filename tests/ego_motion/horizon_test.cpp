@@ -126,7 +126,8 @@ TEST_CASE("low hills raise the line by their mean height, which the relief of th
 
 TEST_CASE("a sea's horizon is found to 0.1 degrees, whatever the roll, the pitch and the lens") {
   for (const LensModel model : {LensModel::brown_conrady, LensModel::kannala_brandt})
-    for (const auto& [roll_deg, pitch_deg] : {std::pair(0.0, 0.0), {2.3, 1.0}, {-25.0, -8.0}, {40.0, 5.0}}) {
+    for (const auto& [bank_deg, pitch_deg] : {std::pair(0.0, 0.0), {2.3, 1.0}, {-25.0, -8.0}, {40.0, 5.0}}) {
+      const double roll_deg = bank_deg;
       const Camera camera = view_camera(model);
       const Eigen::Quaterniond turn = level_from_camera(roll_deg, pitch_deg);
       const auto line = horizon_in(image_of(camera, turn, sea_and_sky), 1, camera, {}, 3);

@@ -59,7 +59,8 @@ void check_same(const nlohmann::json& found, const nlohmann::json& expected, con
   if (expected.is_object()) {
     REQUIRE(found.is_object());
     CHECK(found.size() == expected.size());
-    for (const auto& [key, value] : expected.items()) {
+    for (const auto& [figure, value] : expected.items()) {
+      const std::string& key = figure;
       REQUIRE_MESSAGE(found.contains(key), key);
       check_same(found.at(key), value, place + "." + key);
     }
@@ -74,9 +75,10 @@ void check_same(const nlohmann::json& found, const nlohmann::json& expected, con
 
 TEST_CASE("the published program's summary of the challenge is reproduced in its own keys") {
   if (!has_real_data()) return;
-  for (const auto& [file, policy] : {std::pair<std::string, AotPolicy>{"summary_default.json", {}},
+  for (const auto& [name, policy] : {std::pair<std::string, AotPolicy>{"summary_default.json", {}},
                                      {"summary_min_score_0.5.json", {.min_score = 0.5}},
                                      {"summary_target_hfar_10.json", {.target_hfar = 10}}}) {
+    const std::string file = name;
     CAPTURE(file);
     const auto expected = nlohmann::json::parse(read_text(aot_case() / "expected" / file).value());
     check_same(nlohmann::json::parse(aot_summary_json(aot_case_score(policy))), expected, "");
@@ -121,8 +123,9 @@ TEST_CASE("every encounter is the published program's, by detections and by trac
   if (!has_real_data()) return;
   const AotTruth truth = read_aot_truth(aot_case() / "groundtruth.json").value();
   const AotScore score = aot_case_score({});
-  for (const auto& [file, scores] : {std::pair("encounter_detections_by_detection.csv", &score.by_detection),
+  for (const auto& [name, scores] : {std::pair("encounter_detections_by_detection.csv", &score.by_detection),
                                      std::pair("encounter_detections_by_track.csv", &score.by_track)}) {
+    const std::string file = name;
     CAPTURE(file);
     const std::vector<Row> expected = aot_rows(file);
     REQUIRE(expected.size() == score.encounters.size());

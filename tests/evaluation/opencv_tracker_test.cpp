@@ -63,7 +63,8 @@ std::vector<Results> tracked(const std::vector<std::string>& names) {
 void check_equal(const Results& one, const Results& other) {
   CHECK(one.name == other.name);
   REQUIRE(one.frames.size() == other.frames.size());
-  for (const auto& [frame, boxes] : one.frames) {
+  for (const auto& [number, boxes] : one.frames) {
+    const int frame = number;
     REQUIRE(other.frames.contains(frame));
     CHECK_MESSAGE(boxes.front().box == other.frames.at(frame).front().box, one.name << " frame " << frame);
   }
@@ -85,9 +86,9 @@ TEST_CASE("every tracker follows a textured patch over textured ground") {
     // MIL goes where its classifier says, up to 25 px away (its search window) from one frame to the next; TLD changes
     // its box's size. The others stay within a tenth of the patch.
     const double most_px = results.name == "mil" ? 25 : results.name == "tld" ? 10 : 4;
-    for (const auto& [frame, boxes] : results.frames)
-      CHECK_MESSAGE(center_distance_px(boxes.front().box, square_box(frame)) < most_px,
-                    results.name << " frame " << frame);
+    for (const auto& found : results.frames)
+      CHECK_MESSAGE(center_distance_px(found.second.front().box, square_box(found.first)) < most_px,
+                    results.name << " frame " << found.first);
     REQUIRE(results.frames_per_s.has_value());
     CHECK(*results.frames_per_s > 0);
   }
@@ -95,8 +96,9 @@ TEST_CASE("every tracker follows a textured patch over textured ground") {
 
 TEST_CASE("a patch that moves by whole pixels is found where it is by trackers that are exact") {
   for (const Results& results : tracked({"mosse", "medianflow"}))
-    for (const auto& [frame, boxes] : results.frames)
-      CHECK_MESSAGE(center_distance_px(boxes.front().box, square_box(frame)) < 0.5, results.name << " frame " << frame);
+    for (const auto& found : results.frames)
+      CHECK_MESSAGE(center_distance_px(found.second.front().box, square_box(found.first)) < 0.5,
+                    results.name << " frame " << found.first);
 }
 
 TEST_CASE("a tracker has the same results when repeated, alone, among others and on one thread") {

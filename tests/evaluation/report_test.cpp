@@ -196,7 +196,7 @@ TEST_CASE("the page refers to no other file, contains policies and remarks, and 
   check_self_contained(page.document_element());
   std::map<std::string, int> ids;
   collect_ids(page, ids);
-  for (const auto& [id, count] : ids) CHECK_MESSAGE(count == 1, id);
+  for (const auto& entry : ids) CHECK_MESSAGE(entry.second == 1, entry.first);
   std::set<std::string> items;
   for (const pugi::xpath_node& item : page.select_nodes("//li")) items.insert(item.node().text().get());
   for (const std::string& policy : policies_of(synthetic_track_report())) CHECK_MESSAGE(items.contains(policy), policy);

@@ -373,7 +373,8 @@ TEST_CASE("a truth that is cut off or damaged anywhere is read or refused in one
                                                        {"tiny.mot", "tiny.mot/seqinfo.ini"},
                                                        {"y", "y/labels/frame_1.txt"},
                                                        {"g.json", "g.json"}};
-  for (const auto& [input, file] : cases) {
+  for (const auto& [input, name] : cases) {
+    const std::string file = name;
     const std::string whole = read_text(folder.folder / file).value();
     CAPTURE(file);
     for (std::size_t at = 0; at < whole.size(); ++at)

@@ -197,7 +197,8 @@ double number(const Texts& texts, const std::string& name) {
 // All numbers of one text in the other, equal to half a unit of the sixth digit.
 void check_same_numbers(const Texts& rounded, const Texts& exact) {
   REQUIRE(rounded.size() == exact.size());
-  for (const auto& [name, text] : rounded) {
+  for (const auto& [field, text] : rounded) {
+    const std::string& name = field;
     CAPTURE(name);
     REQUIRE(exact.contains(name));
     if (text == "true" || text == "false")
@@ -236,8 +237,8 @@ TEST_CASE("labels of each frame have the quantities of the encounter's summary, 
       const Texts in_xml = numbers_of(intruder.child("encounter"));
       const Json& one = summary["encounters"][intruder.attribute("id").as_uint()];
       check_same_numbers(in_xml, numbers_of(one["steps"][step], csv.at(row)));
-      for (auto [name, text] : csv.at(row))
-        if (in_xml.contains(name)) CHECK_MESSAGE(text == in_xml.at(name), name);
+      for (const auto& field : csv.at(row))
+        if (in_xml.contains(field.first)) CHECK_MESSAGE(field.second == in_xml.at(field.first), field.first);
       CHECK(csv.at(row).contains("nmac_severity"));
       CHECK(csv.at(row).at("time_to_coaltitude_s").empty() == !in_xml.contains("time_to_coaltitude_s"));
       CHECK(csv.at(row).at("nmac_tau_mod_s").empty() == !in_xml.contains("nmac_tau_mod_s"));
@@ -285,14 +286,15 @@ TEST_CASE("the labelled encounter is what the labelled places say by their diffe
       CHECK(std::isinf(number(labelled, "time_to_coaltitude_s")) == std::isinf(expected.coaltitude_s));
       if (std::isfinite(expected.coaltitude_s) && id != 2)
         CHECK(number(labelled, "time_to_coaltitude_s") == doctest::Approx(expected.coaltitude_s).epsilon(1e-4));
-      for (const auto& [name, dmod_m, tau_s, zthr_m] :
+      for (const auto& [volume, dmod_m, tau_s, zthr_m] :
            {std::tuple("dwc_en_route", 1219.2, 35.0, 137.16), std::tuple("nmac", 152.4, 0.0, 30.48)}) {
+        const std::string name = volume;
         const double depth = expected.depth(dmod_m, tau_s, zthr_m);
-        const std::string lost = labelled.at(std::string(name) + "_lost");
+        const std::string lost = labelled.at(name + "_lost");
         if (std::abs(depth) > 0.01) CHECK_MESSAGE((lost == "true") == (depth > 0), name);
-        CHECK((number(labelled, std::string(name) + "_severity") > 0) == (lost == "true"));
+        CHECK((number(labelled, name + "_severity") > 0) == (lost == "true"));
         const double tau_mod_s = expected.tau_mod_s(dmod_m);
-        const double labelled_s = number(labelled, std::string(name) + "_tau_mod_s");
+        const double labelled_s = number(labelled, name + "_tau_mod_s");
         CHECK(std::isinf(labelled_s) == std::isinf(tau_mod_s));
         if (std::isfinite(tau_mod_s))
           CHECK_MESSAGE(std::abs(labelled_s - tau_mod_s) <= 1e-4 + 4 * relative * tau_mod_s, name);

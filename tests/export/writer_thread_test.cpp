@@ -111,11 +111,11 @@ TEST_CASE("of several failing outputs the first frame's error is reported and of
     int video_fails_at, masks_fail_at;
     const char* told;
   };
-  for (const auto& [video_fails_at, masks_fail_at, told] :
-       {Case{5, 4, "masks"}, Case{4, 5, "video"}, Case{4, 4, "video"}, Case{8, 0, "masks"}})
+  for (const Case& fault : {Case{5, 4, "masks"}, Case{4, 5, "video"}, Case{4, 4, "video"}, Case{8, 0, "masks"}})
     for (int run = 0; run < 5; ++run) {
-      CAPTURE(video_fails_at);
-      CAPTURE(masks_fail_at);
+      const auto& [video_fails_at, masks_fail_at, told] = fault;
+      CAPTURE(fault.video_fails_at);
+      CAPTURE(fault.masks_fail_at);
       Scenario scenario;
       scenario.project.output.codec = CodecChoice::png;
       scenario.project.output.masks = MasksChoice::png;

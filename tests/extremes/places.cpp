@@ -70,19 +70,19 @@ TEST_CASE("wherever the intruder is all outputs are valid") {
     double blur_px_per_m;
   } ways[] = {
       {MethodChoice::direct, false, 0}, {MethodChoice::direct, true, 0.01}, {MethodChoice::classic, false, 0.01}};
-  for (const auto& [method, is_fisheye, blur_px_per_m] : ways) {
+  for (const auto& way : ways) {
     Scenario scenario({96, 72});
-    const double focal_px = is_fisheye ? 30 : 90;
-    set_lens(scenario, {focal_px, 0, 47.5, 0, focal_px, 35.5, 0, 0, 1}, {0, 0, 0, 0}, is_fisheye);
-    scenario.project.compositing = {.method = method, .blur_px_per_m = blur_px_per_m, .supersampling = 1};
+    const double focal_px = way.is_fisheye ? 30 : 90;
+    set_lens(scenario, {focal_px, 0, 47.5, 0, focal_px, 35.5, 0, 0, 1}, {0, 0, 0, 0}, way.is_fisheye);
+    scenario.project.compositing = {.method = way.method, .blur_px_per_m = way.blur_px_per_m, .supersampling = 1};
     add_aircraft(scenario, kEye_m);
     for (const Place& place : places()) {
-      INFO(place.name << ", fisheye " << is_fisheye << ", method " << static_cast<int>(method));
+      INFO(place.name << ", fisheye " << way.is_fisheye << ", method " << static_cast<int>(way.method));
       scenario.project.intruders[0].trajectory.waypoints = {{.frame = 0, .position_m = kEye_m + place.from_eye_m}};
       const ValidFrame valid = valid_frame(scenario.opened(), 1, grainy_frame(scenario.size_px(), 1));
       const IntruderTruth& truth = valid.composed.truth.intruders[0];
       CHECK(length(truth.position_m - place.from_eye_m) <= 1e-8 * (1 + length(place.from_eye_m)));
-      if (!is_fisheye) CHECK(truth.in_image == place.can_be_seen);
+      if (!way.is_fisheye) CHECK(truth.in_image == place.can_be_seen);
     }
   }
 }

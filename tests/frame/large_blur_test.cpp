@@ -148,10 +148,10 @@ TEST_CASE("wide blur of the sample projects is that of the full resolution") {
     const char* project;
     int frame;
   } all[] = {{"crossing", 90}, {"head-on", 120}, {"two-intruders", 60}};
-  for (const auto& [project, frame] : all)
+  for (const auto& sample : all)
     for (const double sigma_px : {16.0, 16.01, 50.0, 150.0}) {
-      CAPTURE(project);
-      const Looked look = looked(sample_scene(project), frame);
+      CAPTURE(sample.project);
+      const Looked look = looked(sample_scene(sample.project), sample.frame);
       check_against_full(look, look.moment.intruders.back(), sigma_px, std::array<uchar, 2>{20, 180});
     }
 }

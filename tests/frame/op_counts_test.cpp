@@ -90,7 +90,8 @@ TEST_CASE("for an intruder out of view only its position is computed") {
                                                        {"at 85 degrees", {50, 600, -150}}};
   for (const MethodChoice method : {MethodChoice::direct, MethodChoice::classic, MethodChoice::plain})
     for (const Glass glass : {Glass::pinhole, Glass::distorting})
-      for (const auto& [name, place] : places) {
+      for (const auto& [label, place] : places) {
+        const std::string name = label;
         CAPTURE(static_cast<int>(method));
         CAPTURE(name);
         Scenario scenario(kSize);

@@ -127,7 +127,8 @@ TEST_CASE("a line of JSON has every attribute of the XML file's frame, and nothi
       expected[key] = value;
     }
     CHECK(expected.size() > 90);
-    for (const auto& [key, value] : expected) {
+    for (const auto& [field, value] : expected) {
+      const std::string& key = field;
       REQUIRE_MESSAGE(json.contains(key), key);
       const bool is_number = value.find_first_not_of("0123456789.-") == std::string::npos && value != name;
       if (is_number)

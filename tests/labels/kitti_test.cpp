@@ -113,7 +113,9 @@ TEST_CASE("kitti's levels of truncation and occlusion") {
 
 TEST_CASE("kitti's heading is 0 to the right and turns as the camera's y axis has it") {
   // Straight ahead the line of sight is z, so alpha is the same.
-  for (const auto& [yaw_deg, expected] : std::map<double, double>{{90, 0}, {0, -kPi / 2}, {-90, kPi}, {45, -kPi / 4}}) {
+  for (const auto& [given_deg, expected] :
+       std::map<double, double>{{90, 0}, {0, -kPi / 2}, {-90, kPi}, {45, -kPi / 4}}) {
+    const double yaw_deg = given_deg;
     const KittiBox box = box_at({100, 0, 0}, yaw_deg);
     CHECK_MESSAGE(std::abs(std::remainder(box.rotation_y_rad - expected, 2 * kPi)) < 1e-12, yaw_deg);
     CHECK(std::abs(std::remainder(box.alpha_rad - expected, 2 * kPi)) < 1e-12);

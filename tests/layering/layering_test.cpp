@@ -127,10 +127,10 @@ TEST_CASE("the table in the engine's README names every module there is") {
 TEST_CASE("modules may include only modules of lower levels") {
   const Modules modules = modules_in_readme();
   REQUIRE(modules.size() > 10);
-  for (const auto& [name, module] : modules)
-    for (const std::string& other : module.may_include) {
-      REQUIRE_MESSAGE(modules.contains(other), name << " names " << other);
-      CHECK_MESSAGE(modules.at(other).level < module.level, name << " names " << other);
+  for (const auto& entry : modules)
+    for (const std::string& other : entry.second.may_include) {
+      REQUIRE_MESSAGE(modules.contains(other), entry.first << " names " << other);
+      CHECK_MESSAGE(modules.at(other).level < entry.second.level, entry.first << " names " << other);
     }
 }
 

@@ -57,9 +57,11 @@ Frame zeros(const VideoFormat& format, int number) {
 
 TEST_CASE("blank images are written as if each of them had been encoded") {
   constexpr std::array kIsBlank{true, true, false, true, false, false, true, true, true, false};
-  for (const auto& [codec, container] : kOutputs)
+  for (const auto& output : kOutputs)
     for (const PixelLayout layout : kLayouts)
       for (const cv::Size size : {cv::Size(96, 64), cv::Size(162, 98)}) {
+        const VideoCodec codec = output.first;
+        const Container container = output.second;
         CAPTURE(static_cast<int>(codec));
         CAPTURE(static_cast<int>(container));
         CAPTURE(static_cast<int>(layout));
@@ -91,8 +93,10 @@ TEST_CASE("a blank image whose time does not lie after the one before is refused
 }
 
 TEST_CASE("a written frame keeps its samples and the caller may use them again at once") {
-  for (const auto& [codec, container] : kOutputs)
+  for (const auto& output : kOutputs)
     for (const PixelLayout layout : kLayouts) {
+      const VideoCodec codec = output.first;
+      const Container container = output.second;
       CAPTURE(static_cast<int>(codec));
       CAPTURE(static_cast<int>(layout));
       const TemporaryFolder folder;
@@ -119,7 +123,9 @@ TEST_CASE("a written frame keeps its samples and the caller may use them again a
 }
 
 TEST_CASE("a frame with gaps between its rows is written like one without") {
-  for (const auto& [codec, container] : kOutputs) {
+  for (const auto& output : kOutputs) {
+    const VideoCodec codec = output.first;
+    const Container container = output.second;
     CAPTURE(static_cast<int>(codec));
     const TemporaryFolder folder;
     const VideoFormat format = two_thread_format(codec, container, PixelLayout::gray, {150, 98});

@@ -22,8 +22,9 @@ constexpr TransferFunction kAll[] = {TransferFunction::srgb,   TransferFunction:
 
 TEST_CASE("PQ has the published signals of light") {
   // Rec. ITU-R BT.2408-4, table 1 and annex: signal by cd/m2, rounded there to a thousandth.
-  for (const auto& [nits, signal] :
+  for (const auto& [luminance_nits, signal] :
        {std::pair{0.0, 0.0}, {100.0, 0.508}, {203.0, 0.581}, {1000.0, 0.752}, {4000.0, 0.903}, {10000.0, 1.0}}) {
+    const double nits = luminance_nits;
     CAPTURE(nits);
     CHECK(std::abs(display_of_linear(TransferFunction::pq, nits / 203) - signal) < 0.0006);
   }
@@ -87,8 +88,9 @@ TEST_CASE("light of BT709 has the published shares in BT2020 and white stays whi
 }
 
 TEST_CASE("footage with an unsupported transfer function gives a warning in one line that names what is assumed") {
-  for (const auto& [transfer, primaries, words] :
+  for (const auto& [curve, primaries, words] :
        {std::tuple{9, 1, "logarithmic"}, {17, 1, "ST 428-1"}, {1, 1, ""}, {16, 9, ""}, {18, 9, ""}, {2, 2, ""}}) {
+    const int transfer = curve;
     CAPTURE(transfer);
     const TemporaryFolder folder;
     VideoFormat format;

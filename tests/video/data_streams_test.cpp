@@ -30,7 +30,8 @@ std::filesystem::path clip_with_subtitles(const TemporaryFolder& folder, const s
 
 TEST_CASE("subtitles are listed and read at the times of the footage, whatever the container") {
   const TemporaryFolder folder;
-  for (const auto& [name, codec] : {std::pair("clip.mp4", "mov_text"), std::pair("clip.mkv", "subrip")}) {
+  for (const auto& [file, codec] : {std::pair("clip.mp4", "mov_text"), std::pair("clip.mkv", "subrip")}) {
+    const std::string name = file;
     CAPTURE(name);
     const std::filesystem::path clip = clip_with_subtitles(folder, name, codec);
     const auto streams = data_streams_of(clip);

@@ -267,13 +267,14 @@ TEST_CASE("files of times are read in seconds, in nanoseconds and by name") {
 TEST_CASE("files of times that do not fit are refused with file and line") {
   const TemporaryFolder folder;
   write_images(folder / "a", "%d.png", 0, 3);
-  for (const auto& [text, message] :
+  for (const auto& [times, message] :
        {std::pair{"0\n1\n", "2 times"}, std::pair{"0\n1\n2\n3\n", "4 times"}, std::pair{"0\n1\n1\n", "line 3"},
         std::pair{"0\n2\n1\n", "line 3"}, std::pair{"0\nx\n2\n", "line 2"}, std::pair{"0\nnan\n2\n", "line 2"},
         std::pair{"0\n1e999\n2\n", "line 2"}, std::pair{"a\nb\nc\n", "line 2"}, std::pair{"", "0 times"},
         std::pair{"0 0.png\n1 1.png\n2 7.png\n", "2.png"},
         std::pair{"# [ns]\n-9223372036854775808\n1\n9223372036854775807\n", "line"},
         std::pair{"# [ns]\n0.5\n1\n2\n", "nanoseconds"}}) {
+    const std::string text = times;
     CAPTURE(text);
     write_file(folder / "times.txt", text);
     const Error error = open_error(folder / "a", {.times_file = folder / "times.txt"});

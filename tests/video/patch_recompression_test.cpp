@@ -69,11 +69,12 @@ double share_of_different(const Frame& a, const Frame& b, int plane) {
 TEST_CASE("what x264 and FFmpeg's decoder make of a picture predicted from the one before is reproduced") {
   const TemporaryFolder folder;
   const cv::Size size(192, 128);
-  for (const auto& [layout, format] :
+  for (const auto& [layout, pixels] :
        {std::pair(PixelLayout::yuv420, "yuv420p"), std::pair(PixelLayout::yuv422, "yuv422p"),
         std::pair(PixelLayout::yuv444, "yuv444p")})
     for (const int qp : {18, 24, 31, 38}) {
-      CAPTURE(std::string(format));
+      const std::string format = pixels;
+      CAPTURE(format);
       CAPTURE(qp);
       const Frame with_intruder = textured(layout, size, 14);
       std::vector<uint8_t> raw;

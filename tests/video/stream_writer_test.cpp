@@ -66,11 +66,12 @@ std::string read_to_the_end(int descriptor) {
 }  // namespace
 
 TEST_CASE("NUT and Y4M files hold every sample of every layout, as FFmpeg reads them") {
-  for (const auto& [codec, container] :
-       {std::pair{VideoCodec::ffv1, Container::nut}, std::pair{VideoCodec::raw, Container::nut},
-        std::pair{VideoCodec::raw, Container::y4m}})
+  for (const auto& output : {std::pair{VideoCodec::ffv1, Container::nut}, std::pair{VideoCodec::raw, Container::nut},
+                             std::pair{VideoCodec::raw, Container::y4m}})
     for (const PixelLayout layout : kLayouts)
       for (const cv::Size size : {cv::Size(64, 48), cv::Size(33, 21)}) {
+        const VideoCodec codec = output.first;
+        const Container container = output.second;
         if (container == Container::y4m && layout == PixelLayout::rgb) continue;
         CAPTURE(static_cast<int>(codec));
         CAPTURE(static_cast<int>(container));
@@ -91,11 +92,12 @@ TEST_CASE("NUT and Y4M files hold every sample of every layout, as FFmpeg reads 
 }
 
 TEST_CASE("samples of 10, 12 and 16 bits go through NUT and Y4M as they are") {
-  for (const auto& [codec, container] :
-       {std::pair{VideoCodec::ffv1, Container::nut}, std::pair{VideoCodec::raw, Container::nut},
-        std::pair{VideoCodec::raw, Container::y4m}})
+  for (const auto& output : {std::pair{VideoCodec::ffv1, Container::nut}, std::pair{VideoCodec::raw, Container::nut},
+                             std::pair{VideoCodec::raw, Container::y4m}})
     for (const PixelLayout layout : kLayouts)
       for (const int bit_depth : {10, 12, 16}) {
+        const VideoCodec codec = output.first;
+        const Container container = output.second;
         if (container == Container::y4m && layout == PixelLayout::rgb) continue;
         CAPTURE(static_cast<int>(container));
         CAPTURE(static_cast<int>(layout));

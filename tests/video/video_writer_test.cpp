@@ -107,13 +107,14 @@ TEST_CASE("H264 with crf 0 is lossless") {
 }
 
 TEST_CASE("the bytes depend on neither the run nor the threads") {
-  for (const auto& [codec, container] :
-       {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::ffv1, Container::avi},
-        std::pair{VideoCodec::h264, Container::mkv}, std::pair{VideoCodec::h264, Container::mp4},
-        std::pair{VideoCodec::hevc, Container::mkv}, std::pair{VideoCodec::hevc, Container::mp4},
-        std::pair{VideoCodec::av1, Container::mkv}, std::pair{VideoCodec::av1, Container::mp4},
-        std::pair{VideoCodec::mjpeg, Container::mkv}, std::pair{VideoCodec::mjpeg, Container::mp4},
-        std::pair{VideoCodec::mjpeg, Container::avi}}) {
+  for (const auto& output : {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::ffv1, Container::avi},
+                             std::pair{VideoCodec::h264, Container::mkv}, std::pair{VideoCodec::h264, Container::mp4},
+                             std::pair{VideoCodec::hevc, Container::mkv}, std::pair{VideoCodec::hevc, Container::mp4},
+                             std::pair{VideoCodec::av1, Container::mkv}, std::pair{VideoCodec::av1, Container::mp4},
+                             std::pair{VideoCodec::mjpeg, Container::mkv}, std::pair{VideoCodec::mjpeg, Container::mp4},
+                             std::pair{VideoCodec::mjpeg, Container::avi}}) {
+    const VideoCodec codec = output.first;
+    const Container container = output.second;
     CAPTURE(static_cast<int>(codec));
     CAPTURE(static_cast<int>(container));
     const TemporaryFolder folder;
@@ -133,14 +134,15 @@ TEST_CASE("the bytes depend on neither the run nor the threads") {
 }
 
 TEST_CASE("colour range, matrix, primaries, transfer function and chroma site are preserved") {
-  for (const auto& [codec, container] :
-       {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mkv},
-        std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::h264, Container::avi},
-        std::pair{VideoCodec::hevc, Container::mkv}, std::pair{VideoCodec::hevc, Container::mp4},
-        std::pair{VideoCodec::av1, Container::mkv}, std::pair{VideoCodec::av1, Container::mp4}})
+  for (const auto& output : {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mkv},
+                             std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::h264, Container::avi},
+                             std::pair{VideoCodec::hevc, Container::mkv}, std::pair{VideoCodec::hevc, Container::mp4},
+                             std::pair{VideoCodec::av1, Container::mkv}, std::pair{VideoCodec::av1, Container::mp4}})
     for (const ColorRange range : {ColorRange::limited, ColorRange::full})
       for (const ColorMatrix matrix : {ColorMatrix::bt601, ColorMatrix::bt709, ColorMatrix::bt2020})
         for (const ChromaSite site : {ChromaSite::left, ChromaSite::center, ChromaSite::top_left}) {
+          const VideoCodec codec = output.first;
+          const Container container = output.second;
           CAPTURE(static_cast<int>(codec));
           CAPTURE(static_cast<int>(container));
           CAPTURE(static_cast<int>(site));
@@ -160,9 +162,11 @@ TEST_CASE("colour range, matrix, primaries, transfer function and chroma site ar
 
 TEST_CASE("4:2:2 states its chroma site too: motion JPEG midway, video at the left") {
   const TemporaryFolder folder;
-  for (const auto& [codec, site] :
+  for (const auto& output :
        {std::pair{VideoCodec::mjpeg, ChromaSite::center}, std::pair{VideoCodec::ffv1, ChromaSite::center},
         std::pair{VideoCodec::ffv1, ChromaSite::left}, std::pair{VideoCodec::h264, ChromaSite::left}}) {
+    const VideoCodec codec = output.first;
+    const ChromaSite site = output.second;
     CAPTURE(static_cast<int>(codec));
     VideoFormat format = tagged_format(codec, Container::mkv, PixelLayout::yuv422, {64, 48});
     format.color.chroma_site = site;
@@ -188,14 +192,15 @@ TEST_CASE("colours that the footage leaves unstated stay unstated") {
 }
 
 TEST_CASE("rate, pixel aspect and size are preserved") {
-  for (const auto& [codec, container] :
-       {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mp4},
-        std::pair{VideoCodec::hevc, Container::mp4}, std::pair{VideoCodec::av1, Container::mp4},
-        std::pair{VideoCodec::mjpeg, Container::avi}})
-    for (const auto& [num, den] :
-         {std::pair{30000, 1001}, std::pair{24000, 1001}, std::pair{25, 1}, std::pair{15, 2}}) {
+  for (const auto& output : {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mp4},
+                             std::pair{VideoCodec::hevc, Container::mp4}, std::pair{VideoCodec::av1, Container::mp4},
+                             std::pair{VideoCodec::mjpeg, Container::avi}})
+    for (const auto& rate : {std::pair{30000, 1001}, std::pair{24000, 1001}, std::pair{25, 1}, std::pair{15, 2}}) {
+      const VideoCodec codec = output.first;
+      const Container container = output.second;
       CAPTURE(static_cast<int>(codec));
-      CAPTURE(num);
+      const auto [num, den] = rate;
+      CAPTURE(rate.first);
       const TemporaryFolder folder;
       VideoFormat format = tagged_format(codec, container, PixelLayout::yuv420, {64, 48});
       format.frame_rate_num = num;
@@ -216,11 +221,13 @@ TEST_CASE("rate, pixel aspect and size are preserved") {
 }
 
 TEST_CASE("uneven frame times are preserved in Matroska and MP4 and begin at zero") {
-  for (const auto& [codec, container] :
+  for (const auto& output :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::h264, Container::mkv},
         std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::hevc, Container::mkv},
         std::pair{VideoCodec::hevc, Container::mp4}, std::pair{VideoCodec::av1, Container::mkv},
         std::pair{VideoCodec::av1, Container::mp4}, std::pair{VideoCodec::mjpeg, Container::mp4}}) {
+    const VideoCodec codec = output.first;
+    const Container container = output.second;
     CAPTURE(static_cast<int>(codec));
     CAPTURE(static_cast<int>(container));
     const TemporaryFolder folder;

@@ -39,9 +39,10 @@ Project after(const DroppedFile& dropped, const Selection& selection, Project pr
 
 TEST_CASE("the files of the sample projects are recognized") {
   CHECK(kind_of(source_dir() / "projects/head-on/head-on.json") == DroppedKind::project);
-  for (const auto& [folder, kind] :
+  for (const auto& [assets, kind] :
        {std::pair{"assets/footage", DroppedKind::video}, std::pair{"assets/calibrations", DroppedKind::calibration},
         std::pair{"assets/models", DroppedKind::model}}) {
+    const std::string folder = assets;
     int found = 0;
     for (const auto& entry : fs::recursive_directory_iterator(source_dir() / folder))
       found += kind_of(entry.path()) == kind;
