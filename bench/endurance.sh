@@ -19,7 +19,7 @@ if [ "${1:-}" = --write ]; then
 fi
 part=${1:?frames, dataset or editor}
 case $part in
-  frames) amount=${2:-100000} build=${3:-build/release} unit=frame bound_kb=0.4 ;;
+  frames) amount=${2:-100000} build=${3:-build/release} unit=frame bound_kb=0.6 ;;
   dataset) amount=${2:-500} build=${3:-build/release} unit=video bound_kb=20 ;;
   editor) amount=${2:-30} build=${3:-build/asan} unit=minute bound_kb=1024 ;;
   *) echo "error: no part $part; there are frames, dataset and editor" >&2; exit 64 ;;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +18,7 @@ Result<void> write_mask(const cv::Mat& mask, const std::filesystem::path& path, 
   std::vector<uchar> bytes;
   try {
     image_codecs::imencode(".png", mask, bytes);
-  } catch (const cv::Exception&) {
+  } catch (const std::exception&) {
     return fail(path.string(), "the mask cannot be written as a PNG", ErrorKind::write_failed);
   }
   return write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, overwrite);
@@ -30,7 +31,7 @@ Result<cv::Mat> read_mask(const std::filesystem::path& path) {
   try {
     mask = image_codecs::imdecode(
         cv::Mat(1, static_cast<int>(bytes->size()), CV_8UC1, const_cast<char*>(bytes->data())), cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
+  } catch (const std::exception&) {
     mask = cv::Mat();
   }
   if (mask.type() != CV_8UC1 || mask.empty()) return fail(path.string(), "is not a mask that was kept here");

@@ -4,22 +4,12 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <cerrno>
+#include <system_error>
 
 #include "base/png.h"
 
 namespace sigs::image_codecs {
-
-namespace {
-
-// OpenCV gives an empty image for a damaged file and, without a word, where it finds no memory for its decoder. Throws
-// cv::Exception (StsNoMem) in the latter case: where not even some MiB can be had.
-cv::Mat image_or_no_memory(cv::Mat image) {
-  constexpr int kEnough_bytes = 8 << 20;
-  if (image.empty()) cv::Mat(1, kEnough_bytes, CV_8UC1).release();
-  return image;
-}
-
-}  // namespace
 
 // SIGS_IMAGE_CODECS_FILES is set by CMakeLists.txt where the library can be loaded so: its file names, by which it is
 // found among the system's libraries or where it was found when this was built. Else it is linked as any other.
@@ -28,7 +18,8 @@ cv::Mat image_or_no_memory(cv::Mat image) {
 namespace {
 
 [[noreturn]] void stop_for(const std::string& why) {
-  CV_Error(cv::Error::StsNotImplemented, "OpenCV's library for image files cannot be loaded: " + why);
+  throw std::system_error(ELIBACC, std::generic_category(),
+                          "OpenCV's library for image files cannot be loaded: " + why);
 }
 
 // Stays loaded to the end.
@@ -58,12 +49,12 @@ Function* function_named(const char* mangled_name) {
 
 static cv::Mat opencv_imread(const std::string& file, int flags) {
   static auto* const call = function_named<cv::Mat(const std::string&, int)>(SIGS_MANGLED_IMREAD);
-  return image_or_no_memory(call(file, flags));
+  return call(file, flags);
 }
 
 cv::Mat imdecode(cv::InputArray bytes, int flags) {
   static auto* const call = function_named<cv::Mat(cv::InputArray, int)>(SIGS_MANGLED_IMDECODE);
-  return image_or_no_memory(call(bytes, flags));
+  return call(bytes, flags);
 }
 
 bool imwrite(const std::string& file, cv::InputArray image, const std::vector<int>& parameters) {
@@ -82,11 +73,11 @@ static bool opencv_imencode(const std::string& extension, cv::InputArray image, 
 #else
 
 static cv::Mat opencv_imread(const std::string& file, int flags) {
-  return image_or_no_memory(cv::imread(file, flags));
+  return cv::imread(file, flags);
 }
 
 cv::Mat imdecode(cv::InputArray bytes, int flags) {
-  return image_or_no_memory(cv::imdecode(bytes, flags));
+  return cv::imdecode(bytes, flags);
 }
 
 bool imwrite(const std::string& file, cv::InputArray image, const std::vector<int>& parameters) {

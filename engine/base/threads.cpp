@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/threads.h"
 
+#include <cerrno>
 #include <new>
 #include <opencv2/core.hpp>
 #include <string_view>
@@ -22,11 +23,10 @@ Error error_of_exception(const std::string& where) {
   try {
     throw;
   } catch (const cv::Exception& problem) {
-    const bool is_missing = problem.code == cv::Error::StsNotImplemented;
-    return {where, problem.err.empty() ? problem.what() : problem.err,
-            is_missing ? ErrorKind::unavailable : ErrorKind::bad_data};
+    return {where, problem.err.empty() ? problem.what() : problem.err};
   } catch (const std::system_error& problem) {
-    const bool no_more = problem.code() == std::errc::resource_unavailable_try_again;
+    const bool no_more = problem.code() == std::errc::resource_unavailable_try_again ||
+                         problem.code() == std::error_code(ELIBACC, std::generic_category());
     return {where, problem.what(), no_more ? ErrorKind::unavailable : ErrorKind::bad_data};
   } catch (const std::exception& problem) {
     return {where, problem.what(), is_thread_not_started(problem) ? ErrorKind::unavailable : ErrorKind::bad_data};

@@ -26,7 +26,7 @@ template <class Job>
 [[nodiscard]] std::invoke_result_t<Job&> guarded(Job&& job, const std::string& where = {});
 
 // The exception being handled, as an error; call it in a catch clause only. The kind is `unavailable` for memory that
-// cannot be had and for threads that cannot be started (OpenCV's included), and for what OpenCV lacks on this machine
+// cannot be had and for threads that cannot be started (OpenCV's included), and for libraries that cannot be loaded
 // (image_codecs.h); bad_data for everything else.
 //   where  the `where` of that error
 [[nodiscard]] Error thrown_error(const std::string& where = {});
