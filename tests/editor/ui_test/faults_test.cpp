@@ -25,10 +25,12 @@ void open_project(EditorDriver& editor, const fs::path& project, const Environme
   editor.wait_for_image();
 }
 
-// One waypoint more, in the first frame's stead of none: the same edit each time.
-void add_one_waypoint(UiTest& ui_test) {
-  ui_test.editor().key("Right");
-  ui_test.editor().wait_for("frame 1", [](const Json& now) { return now.value("frame", -1) == 1; });
+// One waypoint more, the same each time, in a frame that has none. The project is shown at frame 0.
+void add_one_waypoint(UiTest& ui_test, int frame = 1) {
+  for (int i = 1; i <= frame; ++i) {
+    ui_test.editor().key("Right");
+    ui_test.editor().wait_for("the next frame", [i](const Json& now) { return now.value("frame", -1) == i; });
+  }
   ui_test.edit([&] { ui_test.editor().key("Return"); });
 }
 
@@ -77,7 +79,7 @@ struct EditedProject {
     } else {
       CHECK(left == newer);
       open_project(editor, project);
-      ui_test.edit([&] { editor.key("Return"); });  // to have something to save
+      add_one_waypoint(ui_test, 2);
       editor.key("ctrl+z");
       editor.settle();
     }
@@ -111,7 +113,7 @@ TEST_CASE("killed while it saves, the editor leaves the older project or the new
   std::mt19937 random(1);
   for (int i = 0; i < kills(1); ++i) {
     edited.begin();
-    edited.ui_test.editor().kill_after_key("ctrl+s", 0.08 * (random() % 1000) / 1000);
+    edited.ui_test.editor().kill_after_key("ctrl+s", 0.08 * static_cast<double>(random() % 1000) / 1000);
     edited.check_nothing_lost(newer);
   }
 }
