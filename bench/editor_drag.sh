@@ -24,28 +24,13 @@ builds=("${@:-build/release}")
 width=${size%x*} height=${size#*x}
 readonly kAhead=15  # of niceness
 [ -z "$first" ] || renice -n -$kAhead -p $$ >/dev/null
-work=$(mktemp -d)
-probe=$work/probe.json
-cleanup() {
-  kill "${editor:-}" "${screen:-}" 2>/dev/null || true
-  wait 2>/dev/null || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
+source bench/editor_on_screen.sh
 
-# The sample, enlarged to the width and cut to the height around its middle, and the lens of it (pixel i of the
-# sample, which is 1280 wide, lies at (i + 0.5) * scale - 0.5).
+# The sample, enlarged to the width and cut to the height around its middle, and the lens of it.
+source bench/scaled_sample.sh
 ffmpeg -v error -i assets/footage/sample.mp4 -an -vf "scale=$width:-2,crop=$width:$height" -c:v libx264 \
   -preset ultrafast -crf 20 -pix_fmt yuv420p -g 25 "$work/clip.mp4"
-awk -v width="$width" -v height="$height" 'BEGIN {
-  scale = width / 1280; cut = (960 * scale - height) / 2
-  print "<?xml version=\"1.0\"?>\n<opencv_storage>"
-  printf "<image_width>%d</image_width>\n<image_height>%d</image_height>\n<fisheye_model>1</fisheye_model>\n", width, height
-  print "<camera_matrix type_id=\"opencv-matrix\"><rows>3</rows><cols>3</cols><dt>d</dt>"
-  printf "  <data>%.4f 0. %.4f 0. %.4f %.4f 0. 0. 1.</data></camera_matrix>\n", 561.83 * scale, (641.71 + 0.5) * scale - 0.5,
-    561.27 * scale, (476.36 + 0.5) * scale - 0.5 - cut
-  print "<distortion_coefficients type_id=\"opencv-matrix\"><rows>4</rows><cols>1</cols><dt>d</dt>"
-  print "  <data>0.0432 0.0115 -0.0104 0.0021</data></distortion_coefficients>\n</opencv_storage>" }' >"$work/lens.xml"
+scaled_lens "$width" "$height" >"$work/lens.xml"
 cat >"$work/project.json" <<JSON
 {"sigs": 1, "name": "dragged", "footage": {"video": "clip.mp4", "calibration": "lens.xml"},
  "camera": {"position_m": [0, 0, -150], "speed_mps": 22.0, "roll_deg": 0, "pitch_deg": 0},
@@ -54,16 +39,6 @@ cat >"$work/project.json" <<JSON
   {"frame": 100, "position_m": [200, 0, -165]}, {"frame": 199, "position_m": [330, 20, -160]}]}}]}
 JSON
 
-Xvfb -displayfd 3 -screen 0 1600x960x24 -nolisten tcp 3>"$work/display" 2>/dev/null &
-screen=$!
-until [ -s "$work/display" ]; do sleep 0.1; done
-export DISPLAY=":$(cat "$work/display")" XDG_CONFIG_HOME="$work/config" XDG_STATE_HOME="$work/state"
-
-# value KEY: a number in the editor's probe; middle NAME: the middle of a place on the screen.
-value() { grep -oE "\"$1\":[0-9.]+" "$probe" | cut -d: -f2; }
-middle() { grep -oE "\"$1\":\[[^]]*\]" "$probe" | cut -d: -f2 | tr -c '0-9.\n' ' ' | awk '{ print int($1 + $3 / 2), int($2 + $4 / 2) }'; }
-wait_for() { for _ in $(seq 600); do grep -qE "$1" "$probe" 2>/dev/null && return; sleep 0.05; done; echo "waited in vain for $1" >&2; exit 1; }
-key() { xdotool keydown "$1"; sleep 0.1; xdotool keyup "$1"; sleep 0.1; }
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 processor_ms() { awk -v hz="$(getconf CLK_TCK)" '{ printf "%d", ($14 + $15) * 1000 / hz }' "/proc/$editor/stat"; }
 screenshot() { [ -z "$images" ] || { mkdir -p "$images"; import -window root "$images/$1.png"; }; }

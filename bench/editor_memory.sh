@@ -6,14 +6,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
-work=$(mktemp -d)
-probe=$work/probe.json
-cleanup() {
-  kill "${editor:-}" "${screen:-}" 2>/dev/null || true
-  wait 2>/dev/null || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
+source bench/editor_on_screen.sh
 
 ffmpeg -v error -f lavfi -i testsrc2=size=3840x2160:rate=25 -frames:v 300 -c:v libx264 -preset ultrafast -crf 28 \
   -pix_fmt yuv420p -g 25 "$work/clip.mp4"
@@ -36,20 +29,9 @@ cat >"$work/project.json" <<JSON
   {"frame": 299, "position_m": [350, 30, -160]}]}}]}
 JSON
 
-Xvfb -displayfd 3 -screen 0 1600x960x24 -nolisten tcp 3>"$work/display" 2>/dev/null &
-screen=$!
-until [ -s "$work/display" ]; do sleep 0.1; done
-export DISPLAY=":$(cat "$work/display")" XDG_CONFIG_HOME="$work/config" XDG_STATE_HOME="$work/state"
-
 # told KEY: a number of bytes in the editor's probe, in MiB; 0 where it is missing.
 told() { { grep -oE "\"$1\":[0-9]+" "$probe" || echo :0; } | cut -d: -f2 | awk '{ printf "%d", $1 / 1048576 }'; }
 resident() { awk '/VmRSS/ { printf "%d", $2 / 1024 }' "/proc/$editor/status"; }
-# box NAME: x y width height of a place on the screen.
-box() { grep -oE "\"$1\":\[[^]]*\]" "$probe" | cut -d: -f2 | tr -c '0-9.\n' ' '; }
-middle() { box "$1" | awk '{ print int($1 + $3 / 2), int($2 + $4 / 2) }'; }
-wait_for() { for _ in $(seq 600); do grep -qE "$1" "$probe" 2>/dev/null && return; sleep 0.1; done; echo "waited in vain for $1" >&2; exit 1; }
-click() { xdotool mousemove "$1" "$2"; sleep 0.3; xdotool mousedown 1; sleep 0.15; xdotool mouseup 1; sleep 0.3; }
-key() { xdotool keydown "$1"; sleep 0.1; xdotool keyup "$1"; sleep 0.1; }
 
 # Between watch_memory and end_watch NAME a reading is recorded five times a second; then the largest ones are printed.
 watch_memory() {

@@ -6,26 +6,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 project=${1:-projects/head-on/head-on.json}
 build=${2:-build/release}
-work=$(mktemp -d)
-probe=$work/probe.json
-cleanup() {
-  kill "${editor:-}" "${screen:-}" 2>/dev/null || true
-  wait 2>/dev/null || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
+source bench/editor_on_screen.sh
 
-Xvfb -displayfd 3 -screen 0 1600x960x24 -nolisten tcp 3>"$work/display" 2>/dev/null &
-screen=$!
-until [ -s "$work/display" ]; do sleep 0.1; done
-export DISPLAY=":$(cat "$work/display")" XDG_CONFIG_HOME="$work/config" XDG_STATE_HOME="$work/state"
-
-# value KEY: a number in the editor's probe; place NAME: the middle of a place on the screen.
-value() { grep -oE "\"$1\":[0-9.]+" "$probe" | cut -d: -f2; }
-place() { grep -oE "\"$1\":\[[^]]*\]" "$probe" | tr -c '0-9.\n' ' ' | awk '{n = NF; print int($(n-3) + $(n-1) / 2), int($(n-2) + $n / 2)}'; }
-wait_for() { for _ in $(seq 300); do grep -qE "$1" "$probe" 2>/dev/null && return; sleep 0.1; done; echo "waited in vain for $1" >&2; exit 1; }
-click() { xdotool mousemove "$1" "$2"; sleep 0.3; xdotool mousedown 1; sleep 0.15; xdotool mouseup 1; sleep 0.3; }
-key() { xdotool keydown "$1"; sleep 0.15; xdotool keyup "$1"; sleep 0.3; }
 
 # readings NAME SECONDS
 readings() {
@@ -47,9 +29,9 @@ readings "playing" 8
 key space
 xdotool keydown ctrl; key e; xdotool keyup ctrl
 wait_for '"export/folder"'
-click $(place "export/folder")
+click $(middle "export/folder")
 xdotool key ctrl+a; sleep 0.3; xdotool type --delay 80 "$work/out"; sleep 0.5; key Return
-click $(place "export/go")
+click $(middle "export/go")
 wait_for '"export/(cancel|hide)"'
 sleep 1.5
 readings "exporting" 5

@@ -124,12 +124,13 @@ report() {
         low[6] / 1024, high[6] / 1024, low[3] / 1024, high[3] / 1024, slope[3], bound, low[4], high[4], slope[4] * span, low[5], high[5], slope[5] * span,
         is_level ? "yes" : "no"
       exit !is_level
-    }' "$samples" || failed=1
+    }' "$samples"
 }
 
 [ "$amount" = draw ] || "run_$part"
 failed=
-report | tee "$lot/table"
+report >"$lot/table" || failed=1
+cat "$lot/table"
 if [ -n "$write" ]; then
   bench/fill.sh docs/reliability.md "$part" "$lot/table"
   gnuplot -e "samples='$samples'; unit='${unit}s'; image='docs/images/endurance-$part.png'" bench/endurance.gp

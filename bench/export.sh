@@ -44,6 +44,7 @@ is_wanted() {
   [ "$wanted" = "  " ] || [[ "$wanted" == *" $1 "* ]]
 }
 lens=$here/assets/calibrations/sample.xml
+source bench/scaled_sample.sh
 
 clips=()
 if is_wanted sample; then
@@ -60,9 +61,7 @@ fi
 if is_wanted sample-4k; then
   ffmpeg -v error -i assets/footage/sample.mp4 -an -frames:v 48 -vf crop=1280:720:0:120,scale=3840:2160 \
     -c:v libx264 -crf 18 -pix_fmt yuv420p "$lot/sample-4k.mp4"
-  # The same lens: three times the focal length in pixels, 120 rows cut off above and below.
-  sed -e 's|1280</image_width>|3840</image_width>|; s|960</image_height>|2160</image_height>|' \
-    -e 's|561.83 0. 642.71|1685.49 0. 1929.13|; s|0. 561.27 477.36|0. 1683.81 1073.08|' "$lens" >"$lot/lens-4k.xml"
+  scaled_lens 3840 2160 >"$lot/lens-4k.xml"
   project sample-4k "$lot/sample-4k.mp4" 48 25 "$lot/lens-4k.xml" 3
   clips+=(sample-4k)
 fi

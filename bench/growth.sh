@@ -21,22 +21,15 @@ lot=$(mktemp -d)
 trap 'rm -rf "$lot"' EXIT
 readonly kBound=1.15 kFrames=9 kClip=60
 
-# Footage and lens: the sample, scaled to the width and cut to the height; pixel i of it, which is 1280 wide, lies at
-# (i + 0.5) * scale - 0.5.
+source bench/scaled_sample.sh
+
+# Footage and lens: the sample, scaled to the width and cut to the height.
 clip() { # WIDTH HEIGHT FRAMES
   local name=$lot/$1x$2-$3
   [ ! -e "$name.mp4" ] || return 0
   ffmpeg -v error -stream_loop -1 -i assets/footage/sample.mp4 -an -frames:v "$3" -vf "scale=$1:-2,crop=$1:$2" -c:v libx264 \
     -preset ultrafast -crf 20 -pix_fmt yuv420p "$name.mp4"
-  awk -v width="$1" -v height="$2" 'BEGIN {
-    scale = width / 1280; cut = (960 * scale - height) / 2
-    print "<?xml version=\"1.0\"?>\n<opencv_storage>"
-    printf "<image_width>%d</image_width>\n<image_height>%d</image_height>\n<fisheye_model>1</fisheye_model>\n", width, height
-    print "<camera_matrix type_id=\"opencv-matrix\"><rows>3</rows><cols>3</cols><dt>d</dt>"
-    printf "  <data>%.4f 0. %.4f 0. %.4f %.4f 0. 0. 1.</data></camera_matrix>\n", 561.83 * scale,
-      (641.71 + 0.5) * scale - 0.5, 561.27 * scale, (476.36 + 0.5) * scale - 0.5 - cut
-    print "<distortion_coefficients type_id=\"opencv-matrix\"><rows>4</rows><cols>1</cols><dt>d</dt>"
-    print "  <data>0.0432 0.0115 -0.0104 0.0021</data></distortion_coefficients>\n</opencv_storage>" }' >"$name.xml"
+  scaled_lens "$1" "$2" >"$name.xml"
 }
 
 # An ellipsoid of that many triangles, 10 m long; textured: with an image of 1024x1024 all round.

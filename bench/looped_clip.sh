@@ -1,22 +1,12 @@
-# Small footage of any length, and projects on it. Sourced; $here is the root of the tree, $lot a scratch folder.
+# Small footage of any length, and projects on it. Sourced in the root of the tree, $here; $lot is a scratch folder.
 #   small_clip                        makes $lot/small.mp4 (320x240, the sample scaled down) and $lot/lens.xml
 #   looped FRAMES                     makes $lot/FRAMES.mp4, the small clip again and again
 #   looped_project NAME FRAMES COUNT  makes $lot/NAME.json: so many intruders over FRAMES.mp4
+source bench/scaled_sample.sh
+
 small_clip() {
   ffmpeg -v error -i "$here/assets/footage/sample.mp4" -an -vf scale=320:240 -c:v libx264 -crf 20 -pix_fmt yuv420p "$lot/small.mp4"
-  # The sample's lens at a quarter of its size.
-  cat >"$lot/lens.xml" <<'XML'
-<?xml version="1.0"?>
-<opencv_storage>
-<image_width>320</image_width>
-<image_height>240</image_height>
-<fisheye_model>1</fisheye_model>
-<camera_matrix type_id="opencv-matrix"><rows>3</rows><cols>3</cols><dt>d</dt>
-  <data>140.4575 0. 160.3025 0. 140.3175 118.965 0. 0. 1.</data></camera_matrix>
-<distortion_coefficients type_id="opencv-matrix"><rows>4</rows><cols>1</cols><dt>d</dt>
-  <data>0.0432 0.0115 -0.0104 0.0021</data></distortion_coefficients>
-</opencv_storage>
-XML
+  scaled_lens 320 240 >"$lot/lens.xml"
 }
 
 looped() { # FRAMES
