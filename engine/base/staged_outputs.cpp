@@ -13,7 +13,6 @@
 #include <cstring>
 #include <fstream>
 #include <mutex>
-#include <ranges>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -184,7 +183,8 @@ Result<void> StagedOutputs::place(Output& output) const {
 // An older output that cannot be put back is named in the error and stays on the disk.
 Error StagedOutputs::undo_all(Error error) {
   error = with_final_names(std::move(error));
-  for (Output& output : outputs_ | std::views::reverse) {
+  for (auto place = outputs_.rbegin(); place != outputs_.rend(); ++place) {
+    Output& output = *place;
     std::error_code code;
     if (output.placed == Placed::as_new) code = rename_new(output.final_path, output.staged());
     if (output.placed == Placed::instead && type_of(output.final_path) == fs::file_type::not_found)
