@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/image_codecs.h"
+#include "base/image_file.h"
 #include "base/paths.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
@@ -65,10 +65,7 @@ Result<void> check_names(const EgoMotionOptions& options) {
 // Empty where no mask is asked for.
 Result<cv::Mat> mask_of(const fs::path& path) {
   if (path.empty()) return cv::Mat();
-  if (const Result<void> there = check_input_file(path, "mask"); !there) return fail(there.error());
-  cv::Mat mask = image_codecs::imread(path.string(), cv::IMREAD_GRAYSCALE);
-  if (mask.empty()) return fail(path.string(), "is no image that can be read");
-  return mask;
+  return read_image_file(path, cv::IMREAD_GRAYSCALE);
 }
 
 // What is found, and the log of the flight, if there is one.

@@ -8,11 +8,9 @@
 #include <system_error>
 #include <utility>
 
-#include "base/image_codecs.h"
-#include "base/input_file.h"
+#include "base/image_file.h"
 #include "base/paths.h"
 #include "base/text.h"
-#include "base/threads.h"
 #include "cli/process.h"
 #include "labels/labels.h"
 
@@ -54,16 +52,6 @@ Result<std::vector<fs::path>> images_by_number(const fs::path& folder, ImageName
   };
   std::ranges::stable_sort(*paths, {}, number_at_end);
   return paths;
-}
-
-// Empty: it cannot be read.
-cv::Mat read_image(const fs::path& file) {
-  try {
-    return image_codecs::imread(file.string(), cv::IMREAD_COLOR);
-  } catch (const cv::Exception&) {
-    if (is_out_of_memory()) throw;
-    return {};
-  }
 }
 
 }  // namespace
@@ -119,10 +107,9 @@ Result<cv::Mat> LabelledImages::at(int frame) {
     return bgr_of(*image);
   }
   const fs::path& file = files_[static_cast<std::size_t>(frame - footage_.first_frame)];
-  if (const Result<void> there = check_input_file(file, "image"); !there) return fail(there.error());
-  const cv::Mat image = read_image(file);
-  if (image.empty()) return fail(file.string(), "cannot be read as an image");
-  if (const Result<void> fits = check_size(file, image.size(), footage_); !fits) return fail(fits.error());
+  Result<cv::Mat> image = read_image_file(file, cv::IMREAD_COLOR);
+  if (!image) return fail(image.error());
+  if (const Result<void> fits = check_size(file, image->size(), footage_); !fits) return fail(fits.error());
   return image;
 }
 

@@ -2,6 +2,7 @@
 # Installs the packages that SIGS needs, on Debian 12 or Ubuntu 24.04, and builds it. Sourced by demo.sh and test.sh.
 #   sigs_install programs         the packages to build and run the two programs
 #   sigs_install programs tests   and those for tests and measurements
+#   sigs_install programs fuzz    and those for the fuzzers
 #   sigs_install programs package and those for the Python module and the Debian packages
 #   sigs_build PRESET [cmake options] [-- targets]
 # On its own, scripts/setup.sh installs all lists and builds nothing.
@@ -27,6 +28,10 @@ sigs_packages_tests=(
   slurmctld slurmd slurm-client munge
   python3-build python3-venv python3-pip mypy
   man-db zsh desktop-file-utils locales
+)
+# clang with libFuzzer and the sanitizers' libraries; FFmpeg's program makes videos to start from (scripts/fuzz.sh).
+sigs_packages_fuzz=(
+  clang-14 libclang-rt-14-dev ffmpeg
 )
 
 sigs_as_root() {
@@ -72,4 +77,4 @@ sigs_build() {
 }
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-[ "${BASH_SOURCE[0]}" != "$0" ] || sigs_install programs tests package
+[ "${BASH_SOURCE[0]}" != "$0" ] || sigs_install programs tests package fuzz

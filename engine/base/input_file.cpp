@@ -3,7 +3,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/magic.h>
 #include <sys/stat.h>
+#include <sys/statfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -40,6 +42,15 @@ Result<void> check_mode(const fs::path& path, mode_t mode, const std::string& th
               ErrorKind::cannot_read);
 }
 
+// Files of /proc, /sys and the like are regular ones by their mode, and some of them never end (/proc/kmsg).
+Result<void> check_file_system(const fs::path& path, const struct statfs& found, const std::string& thing) {
+  for (const long kernels : {PROC_SUPER_MAGIC, SYSFS_MAGIC, DEBUGFS_MAGIC, TRACEFS_MAGIC})
+    if (found.f_type == kernels)
+      return fail(path.string(), fmt::format("is a file of the kernel's (/proc, /sys), not a {}", thing),
+                  ErrorKind::cannot_read);
+  return {};
+}
+
 tl::unexpected<Error> too_large(const fs::path& path, std::uint64_t limit_bytes) {
   return fail(path.string(),
               fmt::format("is larger than {} MiB, the most that is read of such a file", limit_bytes / kMebibyte));
@@ -50,7 +61,10 @@ tl::unexpected<Error> too_large(const fs::path& path, std::uint64_t limit_bytes)
 Result<void> check_input_file(const fs::path& path, const std::string& thing) {
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) return cannot_read(path, errno);
-  return check_mode(path, found.st_mode, thing);
+  if (const Result<void> regular = check_mode(path, found.st_mode, thing); !regular) return regular;
+  struct statfs system {};
+  if (statfs(path.c_str(), &system) != 0) return cannot_read(path, errno);
+  return check_file_system(path, system, thing);
 }
 
 Result<std::string> read_text(const fs::path& path, std::uint64_t limit_bytes) {
@@ -60,6 +74,9 @@ Result<std::string> read_text(const fs::path& path, std::uint64_t limit_bytes) {
   struct stat found {};
   if (!file.is_open() || fstat(file.number(), &found) != 0) return cannot_read(path, errno);
   if (const Result<void> regular = check_mode(path, found.st_mode, "file"); !regular) return fail(regular.error());
+  struct statfs system {};
+  if (fstatfs(file.number(), &system) != 0) return cannot_read(path, errno);
+  if (const Result<void> usual = check_file_system(path, system, "file"); !usual) return fail(usual.error());
   if (static_cast<std::uint64_t>(found.st_size) > limit_bytes) return too_large(path, limit_bytes);
   std::string text;
   text.resize(static_cast<std::size_t>(found.st_size) + 1);  // the last read shows that there is no more
@@ -73,8 +90,7 @@ Result<std::string> read_text(const fs::path& path, std::uint64_t limit_bytes) {
       text.resize(filled);
       return text;
     }
-    if (filled == text.size())
-      text.resize(filled + std::max(filled / 2, kPiece_bytes));  // files of /proc report the size 0; others may grow
+    if (filled == text.size()) text.resize(filled + std::max(filled / 2, kPiece_bytes));  // it grows
   }
 }
 

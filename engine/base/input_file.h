@@ -24,7 +24,7 @@ inline constexpr std::uint64_t kTextLimit_bytes = 1024 * kMebibyte;  // attitude
 // Checks that the path names a regular file, or a symbolic link to one: reading a device or a pipe may never end.
 // Opens nothing.
 //   thing  what is expected, for the message: "is a folder, not a video"
-// Error cannot_read: no such file, or a folder, a device, a pipe, a socket.
+// Error cannot_read: no such file, or a folder, a device, a pipe, a socket, a file of the kernel's (/proc, /sys).
 [[nodiscard]] Result<void> check_input_file(const std::filesystem::path& path, const std::string& thing = "file");
 
 // The contents of a regular file of at most limit_bytes. A file that grows while it is read is read up to the limit.

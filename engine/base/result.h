@@ -27,8 +27,9 @@ struct Error {
   std::string what;
   ErrorKind kind = ErrorKind::bad_data;
 
-  // "where: what", as it is printed.
-  [[nodiscard]] std::string text() const { return where.empty() ? what : where + ": " + what; }
+  // "where: what" as it is printed: on one line, without control characters, in UTF-8 (line_text() in base/xml_text.h).
+  // Both may quote what a stranger's file contains; of more than 4800 bytes the middle is left out.
+  [[nodiscard]] std::string text() const;
 };
 
 // Something that the user should know but that stops nothing: a missing texture, an unknown key.
@@ -36,7 +37,8 @@ struct Warning {
   std::string where;
   std::string what;
 
-  [[nodiscard]] std::string text() const { return where.empty() ? what : where + ": " + what; }
+  // As Error::text().
+  [[nodiscard]] std::string text() const;
 };
 
 // A value, or the error that prevented it. Functions that can fail for reasons outside the program return it.

@@ -9,9 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/image.h"
-#include "base/image_codecs.h"
-#include "base/input_file.h"
+#include "base/image_file.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "base/threads.h"
@@ -25,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int kBatch = 8;           // images searched side by side
 constexpr int kLooksForOthers = 4;  // images in which another board is looked for
-constexpr int kLargestImage_px = 1 << 28;
 
 struct Candidate {
   std::string name;
@@ -124,24 +121,10 @@ Result<void> search_video(const fs::path& path, const BoardSearch& search, Searc
   return {};
 }
 
-Result<cv::Mat> luma_of_image(const fs::path& path) {
-  if (const Result<void> there = check_input_file(path, "image"); !there) return fail(there.error());
-  if (const std::optional<cv::Size> size_px = image_size_px(path); size_px)
-    if (static_cast<double>(size_px->width) * size_px->height > kLargestImage_px)
-      return fail(path.string(), fmt::format("is {}: too large", image_size_text(*size_px)));
-  try {
-    cv::Mat luma = image_codecs::imread(path.string(), cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-    if (!luma.empty()) return luma;
-  } catch (const cv::Exception&) {
-    if (is_out_of_memory()) throw;
-  }
-  return fail(path.string(), "is no image that can be read");
-}
-
 Result<void> search_images(const std::vector<fs::path>& paths, Searcher& searcher) {
   int done = 0;
   for (const fs::path& path : paths) {
-    Result<cv::Mat> luma = luma_of_image(path);
+    Result<cv::Mat> luma = read_image_file(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
     if (!luma) return fail(luma.error());
     searcher.add({path.filename().string(), std::move(*luma)});
     searcher.tell(++done, static_cast<int>(paths.size()));

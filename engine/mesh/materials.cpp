@@ -63,9 +63,10 @@ std::map<std::string, OpacityHints> opacity_hints_of(std::string_view text) {
   return hints_of_name;
 }
 
-void read_library(const fs::path& path, MtlMaterials& found) {
+// Adds its materials to those that are known. What cannot be parsed has none. Errors of read_text().
+Result<void> read_library(const fs::path& path, MtlMaterials& found) {
   const Result<std::string> text = read_text(path, kMaterialsLimit_bytes);
-  if (!text) return;
+  if (!text) return fail(text.error());
   std::map<std::string, int> index_of_name;
   std::vector<tinyobj::material_t> materials;
   try {
@@ -75,13 +76,14 @@ void read_library(const fs::path& path, MtlMaterials& found) {
     tinyobj::LoadMtl(&index_of_name, &materials, &stream, &warning, &error);
   } catch (const std::exception&) {
     if (is_out_of_memory()) throw;  // a model without its materials would be wrong
-    return;
+    return {};
   }
   std::map<std::string, OpacityHints> hints_of_name = opacity_hints_of(*text);
   for (const tinyobj::material_t& material : materials) {
     const std::string name(trimmed(material.name));
     found.emplace(name, MtlMaterial{material, hints_of_name[name], path.parent_path()});
   }
+  return {};
 }
 
 // The files that an mtllib line names: one whose name may contain blanks, or several.
@@ -99,10 +101,10 @@ MtlMaterials read_libraries(const std::vector<std::string>& libraries, const fs:
   for (const std::string& line : libraries)
     for (const std::string& name : names_in(line, obj_path.parent_path())) {
       const fs::path path = found_file(obj_path.parent_path(), name);
-      if (path.empty())
-        warnings.push_back({obj_path.filename().string(), name + " is missing; what it describes is drawn grey"});
-      else
-        read_library(path, found);
+      const Result<void> read = path.empty() ? fail(name, "is missing") : read_library(path, found);
+      if (!read)
+        warnings.push_back({obj_path.filename().string(),
+                            fmt::format("{} {}; what it describes is drawn grey", name, read.error().what)});
     }
   return found;
 }

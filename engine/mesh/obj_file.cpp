@@ -139,6 +139,22 @@ Result<int> check_positions(const std::string& text, const std::string& name) {
   return colored;
 }
 
+// Counted before anything is kept of the faces: each triangle takes some hundred bytes until it is a mesh.
+Result<void> check_triangle_count(std::string_view text, const std::string& name) {
+  std::size_t triangles = 0;
+  while (!text.empty()) {
+    std::string_view line = next_line(text);
+    if (next_token(line) != "f") continue;
+    std::size_t corners = 0;
+    while (!next_token(line).empty()) ++corners;
+    triangles += corners < 3 ? 0 : corners - 2;
+    if (triangles > kMaxTriangles)
+      return fail(name, fmt::format("has more than {} triangles, the most that are read; reduce the model's detail",
+                                    kMaxTriangles));
+  }
+  return {};
+}
+
 // The format of a file that is not OBJ, recognized by its beginning; empty: the file may be OBJ.
 std::string_view other_format(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return "UTF-16 text; save it as UTF-8";
@@ -212,6 +228,7 @@ Result<ObjFile> parse_obj(std::string text, const std::string& name) {
   join_continued_lines(text);
   const Result<int> colored = check_positions(text, name);
   if (!colored) return fail(colored.error());
+  if (const Result<void> few = check_triangle_count(text, name); !few) return fail(few.error());
   auto reading = read_with_tinyobj(text, name);
   if (!reading) return fail(reading.error());
   if (reading->polygons.empty()) return fail(name, "has no faces");

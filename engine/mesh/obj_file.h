@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -36,11 +37,14 @@ struct ObjFile {
   int colored_vertices = 0;                 // number of vertices with a colour of their own, which is ignored
 };
 
+// The most triangles that a model may have (docs/limits.md).
+inline constexpr std::size_t kMaxTriangles = 10'000'000;
+
 // Parses an OBJ file (tinyobjloader), checks each index and cuts polygons into triangles.
 //   text  the whole file
 //   name  the file's name, for errors
 // Errors (bad_data): coordinates that are not finite numbers, indices out of range (with the number of faces), no
-// faces, or a file of another format (UTF-16, STL, PLY, glTF ...), which is named.
+// faces, more than kMaxTriangles, or a file of another format (UTF-16, STL, PLY, glTF ...), which is named.
 [[nodiscard]] Result<ObjFile> parse_obj(std::string text, const std::string& name);
 
 // Cuts a polygon, which may be concave and need not be quite flat, into triangles by ear clipping (Meisters 1975).

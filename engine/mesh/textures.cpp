@@ -13,6 +13,7 @@
 
 #include "base/image.h"
 #include "base/image_codecs.h"
+#include "base/input_file.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
@@ -33,8 +34,7 @@ fs::path any_case(const fs::path& path) {
 }
 
 bool is_file(const fs::path& path) {
-  std::error_code code;
-  return fs::is_regular_file(path, code);
+  return check_input_file(path).has_value();
 }
 
 // One step of 8 bits is 257 steps of 16 bits; floating-point textures run from 0 to 1.

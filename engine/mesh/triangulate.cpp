@@ -89,7 +89,7 @@ class PointGrid {
     }
     const glm::dvec2 size = glm::max(high - low_, glm::dvec2(1e-300));
     const double wanted = std::max(1.0, 0.5 * static_cast<double>(points.size()));
-    across_ = std::clamp(static_cast<int>(std::sqrt(wanted * size.x / size.y)), 1, static_cast<int>(wanted));
+    across_ = static_cast<int>(std::clamp(std::sqrt(wanted * size.x / size.y), 1.0, wanted));
     down_ = std::max(1, static_cast<int>(wanted) / across_);
     per_unit_ = glm::dvec2(across_, down_) / size;
     squares_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_));

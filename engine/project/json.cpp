@@ -73,10 +73,17 @@ Result<std::vector<WaypointSettings>> empty_waypoints(const Json& intruder, std:
   return waypoints;
 }
 
+tl::unexpected<Error> too_many(std::string where, std::size_t count, std::size_t most) {
+  return fail(std::move(where), fmt::format("has {} entries; at most {} are read", count, most),
+              ErrorKind::bad_project);
+}
+
 Result<void> make_room_for_lists(const Json& json, const std::string& file, Project& project) {
   const Result<std::size_t> intruders = list_size(json, "/intruders", file + ": intruders");
   if (!intruders) return fail(intruders.error());
+  if (*intruders > kMaxIntruders) return too_many(file + ": intruders", *intruders, kMaxIntruders);
   project.intruders.resize(*intruders);
+  std::size_t waypoints_so_far = 0;
   for (std::size_t i = 0; i < *intruders; ++i) {
     const std::string key = fmt::format("intruders[{}]", i);
     const Json& intruder = json.at("intruders").at(i);
@@ -84,6 +91,10 @@ Result<void> make_room_for_lists(const Json& json, const std::string& file, Proj
     const Result<std::size_t> waypoints =
         list_size(intruder, "/trajectory/waypoints", fmt::format("{}: {}.trajectory.waypoints", file, key));
     if (!waypoints) return fail(waypoints.error());
+    waypoints_so_far += *waypoints;
+    if (waypoints_so_far > kMaxWaypoints)
+      return too_many(fmt::format("{}: {}.trajectory.waypoints, with those of the intruders before", file, key),
+                      waypoints_so_far, kMaxWaypoints);
     Result<std::vector<WaypointSettings>> empty = empty_waypoints(intruder, *waypoints, file + ": " + key);
     if (!empty) return fail(empty.error());
     project.intruders[i].trajectory.waypoints = *std::move(empty);

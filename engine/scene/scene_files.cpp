@@ -19,12 +19,11 @@
 #include <utility>
 
 #include "base/image.h"
-#include "base/image_codecs.h"
+#include "base/image_file.h"
 #include "base/input_file.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "base/threads.h"
 #include "telemetry/read_track.h"
 
 namespace sigs {
@@ -79,15 +78,6 @@ cv::Mat gray_of(const cv::Mat& image) {
   cv::Mat gray;
   cv::cvtColor(image, gray, image.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
   return gray;
-}
-
-cv::Mat image_in(const std::filesystem::path& path) {
-  try {
-    return image_codecs::imread(path.string(), cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    if (is_out_of_memory()) throw;
-    return {};
-  }
 }
 
 // Number of entries of each kind that are kept though no scene uses them. Dragging a size makes a model at every step.
@@ -217,15 +207,17 @@ Result<std::vector<AttitudeAtFrame>> read_attitude_file(const std::filesystem::p
 
 Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px) {
   if (const Result<void> file = check_input_file(path, "image"); !file) return fail(file.error());
-  const std::optional<cv::Size> stated_px = image_size_px(path);  // before anything is decoded
-  const bool is_other_size = stated_px && *stated_px != footage_size_px;
-  const cv::Mat image = is_other_size ? cv::Mat() : image_in(path);
-  if (image.empty() && !is_other_size)
-    return fail(path.string(), "is not an image that can be read (png, jpeg, bmp, tiff, ...)");
-  const cv::Size size_px = is_other_size ? *stated_px : image.size();
-  if (size_px != footage_size_px)
+  const auto check_size = [&](cv::Size size_px) -> Result<void> {
+    if (size_px == footage_size_px) return {};
     return fail(path.string(), fmt::format("is {}, the footage is {}; they must agree", image_size_text(size_px),
                                            image_size_text(footage_size_px)));
+  };
+  const std::optional<cv::Size> stated_px = image_size_px(path);  // before anything is decoded
+  if (const Result<void> fits = check_size(stated_px.value_or(footage_size_px)); !fits) return fail(fits.error());
+  const Result<cv::Mat> read = read_image_file(path, cv::IMREAD_UNCHANGED);
+  if (!read) return fail(read.error());
+  const cv::Mat& image = *read;
+  if (const Result<void> fits = check_size(image.size()); !fits) return fail(fits.error());
   if (image.depth() != CV_8U && image.depth() != CV_16U)
     return fail(path.string(), "has neither 8 nor 16 bits a sample");
   cv::Mat mask;

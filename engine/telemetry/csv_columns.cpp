@@ -90,7 +90,7 @@ std::vector<double> csv_numbers(std::string_view, double value) {
 
 bool csv_value(std::string_view, std::span<const double> numbers, GeodeticPosition& value) {
   value = {numbers[0], numbers[1], numbers[2]};
-  return std::abs(numbers[0]) <= 90 && std::abs(numbers[1]) <= 180;
+  return check_place(value).has_value();
 }
 
 bool csv_value(std::string_view channel, std::span<const double> numbers, glm::dvec3& value) {

@@ -128,15 +128,15 @@ class DjiReading {
 
   void take_place(const DjiValues& values, double t_s, const HeightKind* height) {
     if (!values.has_place) return places_.samples.leave_out("latitude or longitude is not a number", t_s);
+    const std::optional<double> height_m = height ? values.*height->field : std::optional<double>(0);
     GeodeticPosition place = values.place;
+    place.height_m = height_m.value_or(0);
     if (const char* const why = why_no_place(place)) {
       const bool by_order = values.place_form != DjiPlaceForm::named;
       return places_.samples.leave_out(
           by_order ? fmt::format("{}; {}", why, order_text(values.place_form)) : std::string(why), t_s);
     }
-    if (height && !(values.*height->field))
-      return places_.samples.leave_out("no height of the kind that the others have", t_s);
-    if (height) place.height_m = *(values.*height->field);
+    if (!height_m) return places_.samples.leave_out("no height of the kind that the others have", t_s);
     decimals_ = std::max(decimals_, values.place_decimals);
     form_ = values.place_form;
     add(places_, t_s, values.local_time_s, place);

@@ -42,6 +42,7 @@ const char* why_no_place(const GeodeticPosition& place) {
   if (std::abs(place.longitude_deg) > 180) return "a longitude beyond 180 degrees is impossible";
   if (std::abs(place.latitude_deg) < kNoFix_deg && std::abs(place.longitude_deg) < kNoFix_deg)
     return "latitude and longitude are 0, as receivers write without a fix";
+  if (!check_place(place)) return "a height below every trench or above every orbit is impossible";
   return nullptr;
 }
 

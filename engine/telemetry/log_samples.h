@@ -29,8 +29,8 @@ inline constexpr std::uint64_t kLogLimit_bytes = std::uint64_t{2} << 30;
 [[nodiscard]] bool all_finite(const glm::dquat& value);
 [[nodiscard]] bool all_finite(const GeodeticPosition& value);
 
-// Why the place cannot be one: beyond the range of latitude or longitude, not finite, or within 1e-6 degrees of 0, 0,
-// which receivers write before they have a fix. nullptr: it can.
+// Why the place cannot be one: what check_place() refuses, or within 1e-6 degrees of 0, 0, which receivers write before
+// they have a fix. nullptr: it can.
 [[nodiscard]] const char* why_no_place(const GeodeticPosition& place);
 
 // Samples that were left out, by reason.

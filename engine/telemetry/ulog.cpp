@@ -100,7 +100,7 @@ class UlogReading {
     const GeodeticPosition reference{.latitude_deg = v[14], .longitude_deg = v[15], .height_m = v[16]};
     if (why_no_place(reference)) return;
     if (!reference_ || reference_->origin() != reference) reference_.emplace(reference, 0);
-    referred_.add(t_s, reference_->place_of({v[2], v[3], v[4]}));
+    add_place(referred_, t_s, reference_->place_of({v[2], v[3], v[4]}));
   }
 
   void take_global_position(TopicValues v) {

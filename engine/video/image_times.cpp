@@ -127,9 +127,12 @@ Result<std::vector<double>> read_image_times(const fs::path& file, const std::ve
   std::vector<double> times_s;
   for (std::size_t i = 0; i < lines->size(); ++i) {
     const TimeLine& line = (*lines)[i];
-    if (i > 0 && !(reader.between_s((*lines)[i - 1], line) > 0))
+    const double time_s = reader.between_s(lines->front(), line);
+    if (!std::isfinite(time_s))
+      return fail(reader.place_of(line.line), "the time is too far from that of the first image");
+    if (i > 0 && !(reader.between_s((*lines)[i - 1], line) > 0 && time_s > times_s.back()))
       return fail(reader.place_of(line.line), "the time is not after that of the image before");
-    times_s.push_back(reader.between_s(lines->front(), line));
+    times_s.push_back(time_s);
   }
   return times_s;
 }

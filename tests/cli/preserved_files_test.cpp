@@ -7,11 +7,13 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <vector>
 
 #include "base/staged_outputs.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "cli/tiny_recipe.h"
+#include "labels/labels.h"
 #include "occlusion/synthetic_clip.h"
 #include "support/files.h"
 #include "support/test_data.h"
@@ -221,6 +223,55 @@ TEST_CASE("names that cannot be file names are refused before anything is writte
   refused("");
   tiny.change(R"("name": "tiny\u0000.mkv")", R"("name": "tiny\u007f")");
   refused("");
+}
+
+// Names that would lead out of a folder, or break a line, if a file were called so.
+TEST_CASE("whatever a stranger's project calls its intruders, nothing is written outside of the output folder") {
+  for (const std::string& name : {std::string("../../../evil"), std::string("/tmp/sigs-evil"), std::string("a\\nb"),
+                                  std::string("a\\u0000b"), std::string(5000, 'n')}) {
+    TinyProject tiny;
+    tiny.change(R"("name": "cube")", R"("name": ")" + name + R"(", "category": ")" + name + "\"");
+    std::string labels;
+    for (const LabelFormat& format : label_formats()) labels += (labels.empty() ? "" : ",") + std::string(format.name);
+    const std::map<std::string, std::string> before = contents_of(tiny.file(""));
+    const Run run = run_sigs("export " + tiny.project() + " --codec png --masks png --labels " + labels + " --out '" +
+                             tiny.out() + "'");
+    CHECK_MESSAGE((run.status == 0 || run.status == 78), run.err);
+    fs::remove_all(tiny.out());
+    CHECK(contents_of(tiny.file("")) == before);
+    CHECK_FALSE(fs::exists("/tmp/sigs-evil"));
+  }
+}
+
+TEST_CASE("an output whose name is a link to somewhere else replaces the link, and nothing is written there") {
+  const TinyProject tiny;
+  REQUIRE(run_sigs("export " + tiny.project() + " --out '" + tiny.out() + "'").status == 0);
+  fs::create_directory(tiny.file("elsewhere"));
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(tiny.out())) names.push_back(entry.path().filename().string());
+  for (const std::string& name : names) {
+    fs::rename(fs::path(tiny.out()) / name, tiny.file("elsewhere") / name);
+    fs::create_symlink(tiny.file("elsewhere") / name, fs::path(tiny.out()) / name);
+  }
+  const std::map<std::string, std::string> before = contents_of(tiny.file("elsewhere"));
+  const Run run = run_sigs("export " + tiny.project() + " --set light.ambient=1 --force --out '" + tiny.out() + "'");
+  CHECK_MESSAGE(run.status == 0, run.err);
+  CHECK(contents_of(tiny.file("elsewhere")) == before);
+  for (const std::string& name : names) CHECK_FALSE(fs::is_symlink(fs::path(tiny.out()) / name));
+}
+
+TEST_CASE("a dataset's folder that is a link to somewhere else is not written into") {
+  const TinyRecipe recipe;
+  REQUIRE(recipe.run("set", "").status == 0);
+  const fs::path set = recipe.file("set");
+  fs::rename(set / "red LR", recipe.file("elsewhere"));
+  fs::create_directory_symlink(recipe.file("elsewhere"), set / "red LR");
+  fs::remove(recipe.file("elsewhere") / "red LR.xml");
+  const std::map<std::string, std::string> before = contents_of(recipe.file("elsewhere"));
+  const Run run = recipe.run("set", "--resume");
+  CAPTURE(run.status);
+  CAPTURE(run.err);
+  CHECK(contents_of(recipe.file("elsewhere")) == before);
 }
 
 }  // namespace sigs::test

@@ -11,6 +11,8 @@
 
 #include "cli/shell.h"
 #include "cli/tiny_project.h"
+#include "project/fields.h"
+#include "project/project.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -29,11 +31,21 @@ struct Special {
 std::vector<Special> specials(const TinyProject& tiny, const std::string& extension) {
   const std::vector<Special> all{{tiny.file("zero" + extension).string(), "device"},
                                  {tiny.file("pipe" + extension).string(), "pipe"},
-                                 {tiny.file("folder" + extension).string(), "folder"}};
+                                 {tiny.file("folder" + extension).string(), "folder"},
+                                 {tiny.file("kernel" + extension).string(), "kernel"}};
   fs::create_symlink("/dev/zero", all[0].path);
   REQUIRE(mkfifo(all[1].path.c_str(), 0600) == 0);
   fs::create_directory(all[2].path);
+  fs::create_symlink("/proc/kmsg", all[3].path);  // a regular file by its mode; reading it waits for ever
   return all;
+}
+
+// Replaces the footage by a folder of images, as which alone it may have a file of times.
+void put_images_in_place_of_video(TinyProject& tiny) {
+  fs::create_directory(tiny.file("images"));
+  for (const char* const name : {"0.png", "1.png"})
+    REQUIRE(cv::imwrite((tiny.file("images") / name).string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(90))));
+  tiny.change("clip.mkv", "images");
 }
 
 Run run_limited(const std::string& arguments) {
@@ -55,28 +67,35 @@ void check_refused(const TinyProject& tiny, const std::string& extension, const 
 
 }  // namespace
 
-TEST_CASE("a device, a pipe or a folder is refused as project and as recipe") {
+TEST_CASE("a device, a pipe, a folder or a file of the kernel is refused as project and as recipe") {
   check_refused(TinyProject(), ".json", "check ");
   check_refused(TinyProject(), ".json", "dataset --dry-run ");
 }
 
-TEST_CASE("a device, a pipe or a folder is refused wherever a project names a file") {
-  for (const auto& [key, extension] :
-       {std::pair{"footage.video", ".mkv"}, std::pair{"footage.calibration", ".xml"},
-        std::pair{"footage.own_body_mask", ".png"}, std::pair{"camera.attitude_file", ".csv"},
-        std::pair{"intruders[0].model.file", ".obj"}}) {
-    const TinyProject tiny;
-    check_refused(tiny, extension, "export " + tiny.project() + " --out " + tiny.out() + " --set '" + key + "=", "'");
+TEST_CASE("a device, a pipe, a folder or a file of the kernel is refused wherever a project names a file") {
+  Project project;
+  project.intruders.resize(1);
+  int tried = 0;
+  for (const Field& field : fields_of(project)) {
+    if (!field.is_path) continue;
+    TinyProject tiny;
+    if (field.key == "footage.timestamps") put_images_in_place_of_video(tiny);
+    const std::string extension = field.key == "footage.video" ? ".mkv" : field.key.ends_with("mask") ? ".png" : ".txt";
+    check_refused(tiny, extension, "export " + tiny.project() + " --out " + tiny.out() + " --set '" + field.key + "=",
+                  "'");
+    ++tried;
   }
+  CHECK(tried >= 8);  // those of version 0.1.0
 }
 
-TEST_CASE("a device, a pipe or a folder is refused by info and mask") {
+TEST_CASE("a device, a pipe, a folder or a file of the kernel is refused by info and mask") {
   for (const char* const extension : {".mkv", ".xml", ".json", ".obj"})
     check_refused(TinyProject(), extension, "info ");
   check_refused(TinyProject(), ".mkv", "mask ");
 }
 
-TEST_CASE("a device, a pipe or a folder is refused as labels, results and images of an evaluation") {
+TEST_CASE(
+    "a device, a pipe, a folder or a file of the kernel is refused as labels, results and images of an evaluation") {
   TinyProject made;
   REQUIRE(run_shell("$SIGS export " + made.project() + " --out " + made.out()).status == 0);
   const std::string labels = made.out() + "/tiny.xml";
@@ -85,9 +104,9 @@ TEST_CASE("a device, a pipe or a folder is refused as labels, results and images
   check_refused(TinyProject(), ".xml", "evaluate track ", " --results " + labels);
 }
 
-TEST_CASE("a texture or a library of materials that is a pipe is left out with a warning") {
+TEST_CASE("a texture or a library of materials that is a pipe or a file of the kernel is left out with a warning") {
   const TinyProject tiny;
-  REQUIRE(mkfifo(tiny.file("paint.png").c_str(), 0600) == 0);
+  fs::create_symlink("/proc/kmsg", tiny.file("paint.png"));
   write_file(tiny.file("cube.mtl"), "newmtl paint\nKd 1 1 1\nmap_Kd paint.png\n");
   const Run textured = run_limited("export " + tiny.project() + " --out " + tiny.out());
   CHECK_MESSAGE(textured.status == 0, textured.err);
@@ -97,6 +116,36 @@ TEST_CASE("a texture or a library of materials that is a pipe is left out with a
   const Run coloured = run_limited("export --force " + tiny.project() + " --out " + tiny.out());
   CHECK_MESSAGE(coloured.status == 0, coloured.err);
   CHECK_MESSAGE(has(coloured.err, "cube.mtl"), coloured.err);
+}
+
+TEST_CASE(
+    "images and videos whose headers claim a hundred thousand pixels a side are refused and nothing is allocated") {
+  const TinyProject tiny;
+  const std::string ppm = "P6\n100000 100000\n255\n" + std::string(100, 'x');
+  const std::string y4m = "YUV4MPEG2 W16400 H8000 F25:1 Ip A1:1 C420jpeg\nFRAME\n" + std::string(100, 'x');
+  write_file(tiny.file("large.ppm"), ppm);
+  write_file(tiny.file("large.y4m"), y4m);
+  write_file(tiny.file("cube.mtl"), "newmtl paint\nKd 1 1 1\nmap_Kd large.ppm\n");
+  const std::string check = "check " + tiny.project();
+  const Run textured = run_limited(check);
+  CHECK_MESSAGE(textured.status == 0, textured.err);
+  CHECK_MESSAGE(has(textured.err, "is 100000x100000; at most 8192x8192"), textured.err);
+  for (const char* const field : {"footage.own_body_mask", "footage.occluder_mask"}) {
+    const Run masked = run_limited(check + " --set " + field + "=large.ppm");
+    CHECK_MESSAGE(masked.status == 65, masked.err);
+    CHECK_MESSAGE(has(masked.err, "is 100000x100000, the footage is 64x48"), masked.err);
+  }
+  const Run video = run_limited("info " + tiny.file("large.y4m").string());
+  CHECK_MESSAGE(video.status == 65, video.err);
+  CHECK_MESSAGE(has(video.err, "is 16400x8000; images of at most 16384 pixels a side"), video.err);
+  fs::create_directory(tiny.file("images"));
+  // The size is that of the header alone; the checksum of the chunk is not looked at before it.
+  write_file(
+      tiny.file("images") / "0.png",
+      std::string("\x89PNG\r\n\x1A\n\0\0\0\rIHDR\0\1\x86\xA0\0\1\x86\xA0\x8\2\0\0\0", 29) + std::string(100, 'x'));
+  const Run images = run_limited("info " + tiny.file("images").string());
+  CHECK_MESSAGE(images.status == 65, images.err);
+  CHECK_MESSAGE(has(images.err, "is 100000x100000; images of at most 16384"), images.err);
 }
 
 TEST_CASE("links to regular files are inputs like any other") {

@@ -298,6 +298,7 @@ TEST_CASE("a truth that is wrong is refused in one line that says where") {
   mot("1,1,1,1,5,5,1,1,1.5\n", "line 1: the visible share is not from 0 to 1");
   mot("", "gt.txt: has no row", "[Sequence]\n");
   mot("1,1,1,1,5,5\n", "line 1: seqlength: 'x' is no whole number", "seqLength=x\n");
+  mot("1,1,1,1,5,5\n", "seqLength is 101001, but there are 1 row", "seqLength=101001\n");
   mot("1,1,1,1,5,5\n", "seqLength is 9000000, but there are 1 row", "seqLength=9000000\n");
   mot("1,1,1,1,5,5\n", "line 1: framerate: '0' is no rate", "frameRate=0\n");
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "mesh/mesh.h"
+#include "mesh/obj_file.h"
 #include "mesh/written.h"
 #include "support/test_data.h"
 
@@ -230,6 +231,18 @@ TEST_CASE("a missing file cannot be read") {
   CHECK(mesh.error().kind == ErrorKind::cannot_read);
   CHECK(mesh.error().text().find("nowhere.obj") != std::string::npos);
   CHECK_FALSE(read_obj(folder.path()));
+}
+
+TEST_CASE("a triangle more than are read is refused before the faces are kept") {
+  // Polygons of a thousand corners have 998 triangles each.
+  std::string face = "f";
+  for (int corner = 0; corner < 1000; ++corner) face += " 1";
+  std::string text = kTriangle;
+  for (std::size_t triangles = 0; triangles <= kMaxTriangles; triangles += 998) text.append(face).append("\n");
+  const Result<ObjFile> refused_file = parse_obj(text, "model.obj");
+  REQUIRE_FALSE(refused_file);
+  CHECK(refused_file.error().kind == ErrorKind::bad_data);
+  CHECK(refused_file.error().text().starts_with("model.obj: has more than 10000000 triangles"));
 }
 
 TEST_CASE("any bytes are read or refused and never cause a crash") {

@@ -235,6 +235,25 @@ TEST_CASE("a project with hundreds of thousands of unknown keys is read and writ
   alarm(0);
 }
 
+TEST_CASE("a waypoint or an intruder more than are read is refused, however they are spread") {
+  const auto listed_times = [](const std::string& item, std::size_t count) {
+    std::string list = "[" + item;
+    for (std::size_t i = 1; i < count; ++i) list.append(",").append(item);
+    return list + "]";
+  };
+  const auto intruder = [&](std::size_t waypoints) {
+    return R"({"trajectory": {"waypoints": )" + listed_times(R"({"position_m": [1, 2, 3]})", waypoints) + "}}";
+  };
+  const auto error_of = [](const std::string& intruders) {
+    const Result<ReadProject> read = parse_project(R"({"sigs": 1, "intruders": )" + intruders + "}", "p.json");
+    return read ? std::string() : read.error().text();
+  };
+  CHECK(error_of("[" + intruder(kMaxWaypoints + 1) + "]").find("at most 250000 are read") != std::string::npos);
+  const std::string spread = error_of("[" + intruder(kMaxWaypoints / 2) + "," + intruder(kMaxWaypoints / 2 + 1) + "]");
+  CHECK(spread.starts_with("p.json: intruders[1].trajectory.waypoints"));
+  CHECK(error_of(listed_times("{}", kMaxIntruders + 1)).starts_with("p.json: intruders: has 10001 entries"));
+}
+
 TEST_CASE("of several values under one key the last counts") {
   CHECK(parse_project(R"({"sigs": 1, "name": "a", "name": "b"})", "p.json")->project.name == "b");
 }

@@ -7,7 +7,9 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "base/image_file.h"
 #include "base/input_file.h"
 
 namespace sigs::libav {
@@ -93,6 +95,26 @@ bool is_video(const AVStream& stream) {
          !is_text_art(stream.codecpar->codec_id);
 }
 
+// Of what the container states, and of what the first packets of the streams showed.
+Result<void> check_image_sizes(const AVFormatContext& input, const fs::path& path) {
+  for (unsigned i = 0; i < input.nb_streams; ++i) {
+    const AVCodecParameters& stream = *input.streams[i]->codecpar;
+    if (stream.codec_type != AVMEDIA_TYPE_VIDEO) continue;
+    if (const Result<void> checked = check_image_size({stream.width, stream.height}); !checked)
+      return fail(path.string(), checked.error().what);
+  }
+  return {};
+}
+
+// Looks at the first packets of all streams, as FFmpeg does to know their formats. Negative: an error.
+int probe(AVFormatContext& input) {
+  std::vector<AVDictionary*> options(input.nb_streams, nullptr);
+  for (AVDictionary*& option : options) av_dict_set_int(&option, "max_pixels", kMaxImagePixels, 0);
+  const int probed = avformat_find_stream_info(&input, options.data());
+  for (AVDictionary*& option : options) av_dict_free(&option);
+  return probed;
+}
+
 }  // namespace
 
 tl::unexpected<Error> interrupted() {
@@ -110,7 +132,9 @@ Result<InputPtr> open_input(const fs::path& path, const std::atomic<bool>* cance
   av_dict_free(&options);
   if (error < 0) return open_failed(path, error);
   InputPtr input(opened);
-  if (const int probed = avformat_find_stream_info(input.get(), nullptr); probed < 0) return open_failed(path, probed);
+  if (const Result<void> stated = check_image_sizes(*input, path); !stated) return fail(stated.error());
+  if (const int probed = probe(*input); probed < 0) return open_failed(path, probed);
+  if (const Result<void> shown = check_image_sizes(*input, path); !shown) return fail(shown.error());
   return input;
 }
 

@@ -16,8 +16,8 @@ namespace sigs::libav {
 // Opens one regular file as a container and looks at its streams; no playlists, no network. Which streams are there is
 // the caller's to see: a file of sound or of data alone opens too.
 //   cancel  while it is true, opening, reading and seeking soon end; null, or outlives the input
-// Errors: cannot_read (missing, a device or pipe, no container, a playlist), bad_data (an MP4 without its index),
-// interrupted.
+// Errors: cannot_read (missing, a device or pipe, no container, a playlist), bad_data (an MP4 without its index, images
+// that check_image_size() refuses), interrupted.
 [[nodiscard]] Result<InputPtr> open_input(const std::filesystem::path& path, const std::atomic<bool>* cancel);
 
 // The stream whose images are the file's video, as FrameSource reads it: no cover image, no text drawn as images.

@@ -29,6 +29,7 @@ Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const Decoder
   context->thread_count = alone ? 1 : settings.threads;
   if (settings.quantisers) context->export_side_data |= AV_CODEC_EXPORT_DATA_VIDEO_ENC_PARAMS;
   context->has_b_frames = std::max(context->has_b_frames, settings.reorder_depth);
+  context->max_pixels = kMaxImagePixels;
   if (error >= 0) error = avcodec_open2(context.get(), codec, nullptr);
   if (error < 0 && settings.threads > 1)  // perhaps no more threads can be started; one gives the same images
     return open_decoder(parameters,

@@ -13,6 +13,8 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include "base/image.h"
+#include "base/image_file.h"
 #include "base/input_file.h"
 #include "video/libav/color_tags.h"
 #include "video/libav/demuxer.h"
@@ -57,6 +59,7 @@ FramePtr decoded(AVCodecID id, const std::string& bytes) {
   const CodecPtr context(avcodec_alloc_context3(codec));
   if (context == nullptr) throw std::bad_alloc();
   context->thread_count = 1;
+  context->max_pixels = kMaxImagePixels;
   DecoderErrors errors;
   errors.restart(0);
   context->opaque = errors.tag_of(0);
@@ -87,6 +90,8 @@ Result<StillImage> decoded_still(const fs::path& path, bool quantisers) {
   if (!bytes) return fail(bytes.error());
   StillImage still{.codec = codec_of_bytes(*bytes)};
   if (still.codec == AV_CODEC_ID_NONE) return fail(path.string(), "is neither a PNG nor a TIFF nor a JPEG image");
+  if (const Result<void> size = check_image_size(image_size_px(path).value_or(cv::Size())); !size)
+    return fail(path.string(), size.error().what);
   still.frame = decoded(still.codec, *bytes);
   if (still.frame == nullptr) return fail(path.string(), "is damaged: it cannot be decoded as a whole");
   const Result<Orientation> orientation = orientation_of(matrix_of(*still.frame));
