@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>  // for the flags
 
+#include "base/image_codecs.h"  // for the flags
 #include "base/result.h"
 
 namespace sigs {

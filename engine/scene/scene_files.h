@@ -27,9 +27,10 @@ struct AttitudeAtFrame {
 // order mark and blank lines are skipped. The result is never empty. Errors name file and line: cannot_read; bad_data.
 [[nodiscard]] Result<std::vector<AttitudeAtFrame>> read_attitude_file(const std::filesystem::path& path);
 
-// Reads a mask of the UAV's own body: an image that read_image_file() (base/image_file.h) reads, 8 or 16 bits a sample, of the footage's size, white
-// where the own body is; soft edges are kept, of a colour image the luma is taken. Returns CV_32FC1, 0..1. Errors:
-// cannot_read; bad_data (not an image, another depth, or another size: both sizes are named).
+// Reads a mask of the UAV's own body: an image that read_image_file() (base/image_file.h) reads, 8 or 16 bits a
+// sample, of the footage's size, white where the own body is; soft edges are kept, of a colour image the luma is taken.
+// Returns CV_32FC1, 0..1. Errors: cannot_read; bad_data (not an image, another depth, or another size: both sizes are
+// named).
 [[nodiscard]] Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px);
 
 // A cache of the files that scenes are made from: a scene that is opened again after an edit reads only what has
