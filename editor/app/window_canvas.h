@@ -2,60 +2,15 @@
 #pragma once
 
 #include <imgui.h>
-#include <cstdint>
 #include <optional>
-#include <vector>
+
+#include "editor/app/changed_regions.h"
 
 namespace sigs::editor {
 
-// Finds the parts of the window that look different from the update before. ImGui issues all draw commands in each
-// update; with OpenGL in software most of the time would be spent on pixels that do not change. Draw commands are
-// compared by a digest of their vertices, so a texture whose content changes has to be another texture (Textures sees
-// to that).
-class ChangedRegions {
- public:
-  // Rectangles (left, top, right, bottom, in ImGui's coordinates) that together contain every pixel that may differ
-  // from the data of the call before; none: nothing differs. At most three, which do not overlap.
-  //   first  a place in those coordinates, or none. Changes of the panels that lie elsewhere then wait, unless they
-  //          touch a rectangle that is returned: a later call returns them, at the latest one without a place.
-  [[nodiscard]] std::vector<ImVec4> of(const ImDrawData& data, const std::optional<ImVec2>& first = std::nullopt);
-
-  // The next call returns the whole window.
-  void forget() { panels_.clear(); }
-
- private:
-  // One draw command: one texture, one clip rectangle.
-  struct Piece {
-    // Of its texture, clip rectangle, vertices and the order of their indices.
-    std::uint64_t fingerprint = 0;
-    ImVec4 bounds{0, 0, 0, 0};  // of the pixels that it may touch
-  };
-  // The draw commands of one ImGui window.
-  struct Panel {
-    // Address of ImGui's draw list; only compared.
-    const void* list = nullptr;
-    std::vector<Piece> pieces;
-  };
-  // What ImGui draws, as far as it is compared.
-  [[nodiscard]] static Piece piece_of(const ImDrawList& list, const ImDrawCmd& command);
-  [[nodiscard]] static Panel panel_of(const ImDrawList& list);
-  // The region of a panel in which it differs; of no size where it does not.
-  [[nodiscard]] static ImVec4 changed(const Panel& before, const Panel& after);
-  [[nodiscard]] static bool lies_at(const Panel& panel, const ImVec2& place);
-  // Those of all panels. What waits is put back into `panels` as it was drawn last.
-  [[nodiscard]] std::vector<ImVec4> changes(std::vector<Panel>& panels, const std::optional<ImVec2>& first);
-
-  // Of the call before, and the window's size then. Empty: the next call returns the whole window.
-  std::vector<Panel> panels_;
-  ImVec2 size_{0, 0};
-};
-
-// Intersection of two rectangles; where they have none, its right edge lies left of its left one, or its bottom above
-// its top.
-[[nodiscard]] ImVec4 common_part(const ImVec4& a, const ImVec4& b);
-
-// The image of the window, kept in a framebuffer from update to update. Changed regions are drawn into it, then it is
-// copied to the window. Needs a current OpenGL context in every call, the destructor included.
+// The image of the window, kept in a framebuffer from update to update, upside down as windows have it: so a driver
+// that draws in software copies it by rows, not by drawing it. Changed regions are drawn into it, then it is copied to
+// the window. Needs a current OpenGL context in every call, the destructor included.
 class Canvas {
  public:
   Canvas() = default;
@@ -64,6 +19,7 @@ class Canvas {
   Canvas& operator=(const Canvas&) = delete;
 
   // Draws the regions that differ from the update before and copies all to the window's back buffer; the caller swaps.
+  // Leaves the data upside down.
   // Size in pixels of the framebuffer; another one than before has everything drawn. False: nothing differs, or the
   // size is 0, and the window was not touched.
   //   first  as for ChangedRegions: what changes elsewhere may be drawn by a later call
@@ -75,10 +31,11 @@ class Canvas {
  private:
   // Makes the framebuffer anew in this size.
   void make(int width_px, int height_px);
+  // Both are upside down.
   void draw_region(ImDrawData& data, const ImVec4& region) const;
 
   ChangedRegions changed_;
-  // OpenGL's names of the framebuffer and its image; 0: not made yet.
+  // OpenGL's names of the framebuffer and its texture; 0: not made yet.
   unsigned int framebuffer_ = 0;
   unsigned int color_ = 0;
   int width_px_ = 0;

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/pose.h"
-#include "mesh/model_shape.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 #include "telemetry/gopro_header.h"
@@ -36,9 +35,9 @@ std::string axes_to_set(const ModelSettings& model, const std::string& forward, 
   return "set " + set_forward + (set_forward.empty() || set_up.empty() ? "" : " and ") + set_up;
 }
 
-std::optional<Problem> axes_mistake(const ModelSettings& settings, const Mesh& mesh, const std::string& key) {
-  const ModelShape shape = shape_of(mesh);
-  const glm::dvec3 size(mesh.high_m - mesh.low_m);
+std::optional<Problem> axes_mistake(const ModelSettings& settings, const Model& model, const std::string& key) {
+  const ModelShape& shape = model.shape;
+  const glm::dvec3 size(model.mesh.high_m - model.mesh.low_m);
   const auto problem = [&](const std::string& what) {
     return Problem{key + (settings.forward == file_axis(shape.nose, file_axes_of(settings)) ? ".up" : ".forward"),
                    fmt::format("{}: by its shape, {}; if the model is meant so, leave it", what,
@@ -173,7 +172,7 @@ std::vector<Problem> likely_mistakes(const Project& project, std::size_t intrude
   const SceneIntruder& placed = scene.intruders[scene_intruder];
   const IntruderSettings& settings = project.intruders[intruder];
   if (placed.model != nullptr && !placed.is_distractor && !placed.model->mesh.indices.empty())
-    add(axes_mistake(settings.model, placed.model->mesh, key + ".model"));
+    add(axes_mistake(settings.model, *placed.model, key + ".model"));
   add(frames_mistake(settings.trajectory, scene, key + ".trajectory"));
   add(positions_mistake(project, intruder, scene, key + ".trajectory"));
   return mistakes;

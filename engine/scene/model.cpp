@@ -124,6 +124,7 @@ Model model_of(Mesh mesh) {
   model.points_m = measuring_points(model.mesh);
   model.point_groups = point_tree_of(model.points_m);
   model.outermost_m = outermost_points(model.points_m);
+  model.shape = shape_of(model.mesh);
   return model;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/point_tree.h"
 #include "mesh/mesh.h"
+#include "mesh/model_shape.h"
 
 namespace sigs {
 
@@ -15,9 +16,10 @@ struct Model {
   std::vector<glm::vec3> points_m;     // measuring_points(mesh)
   PointTree point_groups;              // the same in groups
   std::vector<glm::vec3> outermost_m;  // outermost_points(points_m)
+  ModelShape shape;                    // shape_of(mesh)
 };
 
-// The mesh with its measuring points.
+// The mesh with its measuring points and shape. It has triangles.
 [[nodiscard]] Model model_of(Mesh mesh);
 
 // The points by which a mesh is measured, each once: its vertices, and points along its edges at most a hundredth of
