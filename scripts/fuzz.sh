@@ -21,7 +21,8 @@ done
 sigs_install programs fuzz
 build=$PWD/build/fuzz
 [ -e "$build/CMakeCache.txt" ] || cmake -G Ninja -S . -B "$build" -DSIGS_FUZZ=ON -DSIGS_UNITY=ON -DSIGS_EDITOR=OFF \
-  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 >/dev/null
+  -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 \
+  -DCMAKE_COMPILE_WARNING_AS_ERROR="${SIGS_WERROR:-OFF}" >/dev/null
 cmake --build "$build" --parallel "$(nproc)" --target "${targets[@]/#/fuzz_}"
 mkdir -p "$build"/{logs,finds}
 python3 tests/fuzz/seeds.py "$build/seeds" ../shared/data

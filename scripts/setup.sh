@@ -4,6 +4,7 @@
 #   sigs_install programs tests   and those for tests and measurements
 #   sigs_install programs fuzz    and those for the fuzzers
 #   sigs_install programs package and those for the Python module and the Debian packages
+#   sigs_install lint, coverage   what scripts/lint.sh and scripts/coverage.sh need besides
 #   sigs_build PRESET [cmake options] [-- targets]
 # On its own, scripts/setup.sh installs all lists and builds nothing.
 set -euo pipefail
@@ -33,6 +34,10 @@ sigs_packages_tests=(
 sigs_packages_fuzz=(
   clang-14 libclang-rt-14-dev ffmpeg
 )
+# For scripts/lint.sh.
+sigs_packages_lint=(clang-14 clang-tidy-14 clang-tools-14)
+# For scripts/coverage.sh.
+sigs_packages_coverage=(gcovr)
 
 sigs_as_root() {
   if [ "$(id -u)" -eq 0 ]; then
@@ -62,11 +67,13 @@ sigs_install() {
 }
 
 # sigs_build PRESET [cmake options] [-- targets]: without targets everything is built. A build from nothing compiles
-# several sources at a time (SIGS_UNITY); a build folder that is there keeps its setting.
+# several sources at a time (SIGS_UNITY); a build folder that is there keeps its setting. With SIGS_WERROR=1 in the
+# environment, as in CI, a warning of the compiler ends the build.
 sigs_build() {
   local preset=$1 options=()
   shift
   [ -e "build/$preset/CMakeCache.txt" ] || options+=(-DSIGS_UNITY=ON)
+  [ -z "${SIGS_WERROR:-}" ] || options+=(-DCMAKE_COMPILE_WARNING_AS_ERROR=ON)
   while [ $# -gt 0 ] && [ "$1" != -- ]; do
     options+=("$1")
     shift

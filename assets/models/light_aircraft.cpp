@@ -3,7 +3,6 @@
 // Proportions after public three-view drawings of that class; shape, numbers and livery are our own. "s" is metres
 // behind the spinner's tip.
 #include <cmath>
-#include <numbers>
 
 #include "light_aircraft_livery.h"
 #include "loft.h"
@@ -15,7 +14,6 @@ namespace sigs::models {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const glm::dmat3 kStraight(1.0);
 
 glm::dvec3 at(double s_m, double y_m, double z_m) {

@@ -2,7 +2,6 @@
 // A quadcopter of 1.4 kg, 0.35 m from motor to motor across the middle, with a camera below the nose. Shape and paint
 // are our own. The origin lies amid the four motors, in the height of the body's middle.
 #include <cmath>
-#include <numbers>
 
 #include "finishes.h"
 #include "loft.h"
@@ -14,7 +13,6 @@ namespace sigs::models {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kMotor_m = 0.35 / 2 * 0.7071;  // forward and to the left of the middle
 constexpr double kRotorHeight_m = 0.052;
 const glm::dmat3 kStraight(1.0);

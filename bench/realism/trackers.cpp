@@ -21,7 +21,7 @@ namespace sigs::bench {
 namespace {
 
 const std::vector<std::string> kTrackers{"csrt", "kcf", "mosse", "medianflow"};
-constexpr int kBootstraps = 2000;
+constexpr int kTrackerBootstraps = 2000;
 
 // Success of one tracker on one target.
 struct Followed {
@@ -107,15 +107,15 @@ Difference difference_of(const std::vector<Followed>& all, const std::string& tr
   difference.difference = difference.inserted - difference.real;
   cv::RNG random(7);
   std::vector<double> means;
-  for (int n = 0; n < kBootstraps; ++n) {
+  for (int n = 0; n < kTrackerBootstraps; ++n) {
     double sum = 0;
     for (int i = 0; i < difference.clips; ++i)
       sum += differences[static_cast<std::size_t>(random.uniform(0, difference.clips))];
     means.push_back(sum / difference.clips);
   }
   std::sort(means.begin(), means.end());
-  difference.low = means[kBootstraps / 40];
-  difference.high = means[kBootstraps - 1 - kBootstraps / 40];
+  difference.low = means[kTrackerBootstraps / 40];
+  difference.high = means[kTrackerBootstraps - 1 - kTrackerBootstraps / 40];
   return difference;
 }
 

@@ -69,7 +69,7 @@ std::map<Corners, Colors> faces_of(const Mesh& mesh, const Clusters& clusters) {
         corners[k] = clusters.of_vertex[mesh.indices[i + k]];
       }
       if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-      std::ranges::rotate(corners, std::ranges::min_element(corners));
+      std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
       const float area = glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
       Colors& colors = faces[corners];
       colors.sum += color * area;

@@ -10,6 +10,17 @@
 
 namespace sigs {
 
+// light = air + land * exp(-3 r / visibility) for one visibility; the prior draws `air` to the sky's colour.
+struct HazeLine {
+  double air = 0, land = 0, cost = std::numeric_limits<double>::infinity();
+};
+
+// The visibility of least cost, with the deviation at which the cost grows by one of its mean per point.
+struct FoundHazeLine {
+  HazeLine line;
+  double visibility_m = 0, sd_m = 0;
+};
+
 namespace {
 
 constexpr double kSkyFrom_deg = 1, kSkyTo_deg = 8, kSkyBin_deg = 0.25;
@@ -73,12 +84,7 @@ HazePoint at_zero(const std::vector<HazePoint>& points, bool is_straight) {
   return {0, solution(0, 0)};
 }
 
-// light = air + land * exp(-3 r / visibility) for one visibility; the prior draws `air` to the sky's colour.
-struct Line {
-  double air = 0, land = 0, cost = std::numeric_limits<double>::infinity();
-};
-
-Line line_for(const std::vector<HazePoint>& points, double visibility_m, const Estimate& sky) {
+HazeLine line_for(const std::vector<HazePoint>& points, double visibility_m, const Estimate& sky) {
   double stt = 0, st = 0, s = 0, sty = 0, sy = 0;
   const auto weight = [&](const HazePoint& p) {
     return 1 / squared(std::hypot(kPatches * (sky.value - p.y), kFloor + kTexture * p.y));
@@ -92,29 +98,23 @@ Line line_for(const std::vector<HazePoint>& points, double visibility_m, const E
   sy += prior * sky.value;
   const double det = s * stt - st * st;
   if (!(det > 1e-9 * s * stt)) return {};
-  Line line{.air = (stt * sy - st * sty) / det, .land = (s * sty - st * sy) / det};
+  HazeLine line{.air = (stt * sy - st * sty) / det, .land = (s * sty - st * sy) / det};
   line.cost = prior * squared(line.air - sky.value);
   for (const HazePoint& p : points)
     line.cost += weight(p) * squared(line.air + line.land * std::exp(-3 * p.x / visibility_m) - p.y);
   return line;
 }
 
-// The visibility of least cost, with the deviation at which the cost grows by one of its mean per point.
-struct Found {
-  Line line;
-  double visibility_m = 0, sd_m = 0;
-};
-
 // around_m: of the luminance, which that of a colour is drawn to; 0: none.
-Found best_line(const std::vector<HazePoint>& points, const Estimate& sky, double around_m = 0) {
-  Found found;
+FoundHazeLine best_line(const std::vector<HazePoint>& points, const Estimate& sky, double around_m = 0) {
+  FoundHazeLine found;
   const auto line_at = [&](double visibility_m) {
-    Line line = line_for(points, visibility_m, sky);
+    HazeLine line = line_for(points, visibility_m, sky);
     if (around_m > 0) line.cost += squared(std::log(visibility_m / around_m) / kColorsApart);
     return line;
   };
   for (double v = kLeastVisibility_m; v < kMostVisibility_m; v *= kStep)
-    if (const Line line = line_at(v); line.cost < found.line.cost) found = {line, v, 0};
+    if (const HazeLine line = line_at(v); line.cost < found.line.cost) found = {line, v, 0};
   const double degrees = std::max(1.0, static_cast<double>(points.size()) - 2);
   // Bins side by side see the same woods and clouds' shadows: about three of them count as one.
   const double limit = found.line.cost + 3 * std::max(1.0 / 3, found.line.cost / degrees);
@@ -126,7 +126,7 @@ Found best_line(const std::vector<HazePoint>& points, const Estimate& sky, doubl
 }
 
 // Whether the land is darker than its haze, and grows paler with distance by more than its patches differ.
-bool is_usable(const std::vector<HazePoint>& points, const Found& found) {
+bool is_usable(const std::vector<HazePoint>& points, const FoundHazeLine& found) {
   const double far_share = std::exp(-3 * points.back().x / found.visibility_m);
   return found.line.land < 0 && found.sd_m <= kMostRelativeSd * found.visibility_m && far_share < kLeastFading;
 }
@@ -145,7 +145,7 @@ std::array<Estimate, 3> default_airlight(const std::string& why) {
 // Of luminance, and of red, green and blue.
 struct Haze::Fit {
   std::array<std::vector<HazePoint>, 4> points;
-  std::array<Found, 4> found;
+  std::array<FoundHazeLine, 4> found;
   double cost = 0;  // of the luminance, for each point
 };
 
@@ -252,7 +252,7 @@ Haze::Fit Haze::fit(const std::array<Estimate, 3>& sky) const {
   for (double dip_deg = 0; dip_deg <= most_dip_deg; dip_deg += kDipStep_deg) {
     auto points = ground_points(rad_of_deg(dip_deg));
     if (points[0].size() < kLeastBins) continue;
-    const Found found = best_line(points[0], limit);
+    const FoundHazeLine found = best_line(points[0], limit);
     const double cost = found.line.cost / static_cast<double>(points[0].size());
     if (!fit.points[0].empty() && cost >= fit.cost) continue;
     fit.cost = cost;
@@ -279,7 +279,7 @@ HazeEstimate Haze::finish() const {
   if (!sky[0].is_known) return {.visibility_m = not_known(0, sky[0].why), .airlight = sky};
   HazeEstimate haze{.visibility_m = not_known(0, ""), .airlight = airlight_of(sky, nullptr)};
   const Fit best = fit(sky);
-  const Found& found = best.found[0];
+  const FoundHazeLine& found = best.found[0];
   if (with_angles_ == 0)
     haze.visibility_m.why = "the camera's calibration is not known";
   else if (with_height_ == 0)
@@ -304,7 +304,7 @@ HazeCurve Haze::curve() const {
   for (const HazePoint& p : best.points[0]) {
     curve.distance_m.push_back(p.x);
     curve.ground_luminance.push_back(compressed(p.y));
-    const Line& line = best.found[0].line;
+    const HazeLine& line = best.found[0].line;
     const bool is_fitted = best.found[0].visibility_m > 0;
     curve.fitted_luminance.push_back(
         is_fitted ? compressed(line.air + line.land * std::exp(-3 * p.x / best.found[0].visibility_m))

@@ -131,7 +131,7 @@ void remove_abandoned_staging(const fs::path& folder) {
 }
 
 Result<StagingFolder> StagingFolder::create(const fs::path& folder) {
-  constexpr int kTries = 20;  // other runs may take a folder without a lock file for one that was left behind
+  constexpr int kStagingTries = 20;  // other runs may take a folder without a lock file for one that was left behind
   remove_abandoned_staging(folder);
   for (int i = 1;; ++i) {
     Descriptor spare(open("/", O_PATH | O_CLOEXEC));
@@ -141,7 +141,7 @@ Result<StagingFolder> StagingFolder::create(const fs::path& folder) {
     StagingFolder staging(folder, path, std::move(spare));
     if (staging.begin()) return staging;
     const Error error = not_created(folder);
-    if (errno != ENOENT || i == kTries) return fail(error);
+    if (errno != ENOENT || i == kStagingTries) return fail(error);
   }
 }
 

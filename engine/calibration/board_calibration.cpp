@@ -72,8 +72,10 @@ std::optional<FittedModel> fitted_model(FitModel model, std::span<const FitView>
   fit.intrinsics = converted(reference, model, angle_rad);
   fit = refined(counting, std::move(fit), all_free(model), {.iterations = 100});
   if (!std::isfinite(fit.cost) || !Lens::make(lens_of(model, fit.intrinsics))) return std::nullopt;
-  FittedModel fitted{.model = {.model = model, .lens = lens_of(model, fit.intrinsics)},
-                     .squares = held_out_squares(counting, fit)};
+  FittedModel fitted;
+  fitted.model.model = model;
+  fitted.model.lens = lens_of(model, fit.intrinsics);
+  fitted.squares = held_out_squares(counting, fit);
   const Eigen::VectorXd sd = standard_deviations(counting, fit);
   fitted.model.sd.assign(sd.begin(), sd.end());
   fitted.model.held_out_px = held_out_px(fitted.squares);

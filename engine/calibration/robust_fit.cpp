@@ -78,7 +78,8 @@ std::optional<LensFit> fit_of_set(std::span<const FitView> views, cv::Size size_
     if (!pose) return std::nullopt;
     fit.poses.push_back(*pose);
   }
-  fit = refined(views, std::move(fit), focal_length_alone(fit.model), quick);
+  const FreeIntrinsics focal_alone = focal_length_alone(fit.model);
+  fit = refined(views, std::move(fit), focal_alone, quick);
   fit = refined(views, std::move(fit), first_free(), {.huber_px = kFirstHuber_px, .iterations = 25});
   return std::isfinite(fit.cost) ? std::optional(fit) : std::nullopt;
 }
@@ -101,8 +102,7 @@ double score_of(LensFit& fit, std::span<const FitView> views) {
     const std::optional<BoardPose> pose =
         pose_seen(fit.model, fit.intrinsics, view, {.huber_px = kFirstHuber_px, .iterations = 10});
     fit.poses.push_back(pose.value_or(BoardPose{}));
-    errors_px.push_back(pose ? quantile(lengths(residuals_px(fit.model, fit.intrinsics, *pose, view)), 0.5)
-                             : kNoError);
+    errors_px.push_back(pose ? quantile(lengths(residuals_px(fit.model, fit.intrinsics, *pose, view)), 0.5) : kNoError);
   }
   return quantile(std::move(errors_px), kBestShare);
 }

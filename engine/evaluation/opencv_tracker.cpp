@@ -22,8 +22,6 @@
 
 namespace sigs {
 
-namespace {
-
 // What OpenCV's two interfaces to its trackers, with whole and with fractional pixels, have in common. In OpenCV's
 // boxes x is the first column covered.
 class TrackerAdapter {
@@ -32,6 +30,8 @@ class TrackerAdapter {
   virtual bool init(const cv::Mat& image, const cv::Rect& box) = 0;
   virtual std::optional<cv::Rect2d> update(const cv::Mat& image) = 0;
 };
+
+namespace {
 
 class CurrentTracker : public TrackerAdapter {
  public:

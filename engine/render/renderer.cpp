@@ -36,6 +36,12 @@ struct Programs {
   std::array<Program, 3> all;
 };
 
+// What only frames in the sun need.
+struct SunTools {
+  Programs programs;
+  ShadowMap shadow;
+};
+
 namespace {
 
 // --- Projection.
@@ -144,12 +150,6 @@ PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const 
   gpu.bind_sorted(sorted);
   return draw_runs(programs, gpu, sorted.runs, false, false);
 }
-
-// What only frames in the sun need.
-struct SunTools {
-  Programs programs;
-  ShadowMap shadow;
-};
 
 Result<SunTools> sun_tools() {
   Result<Programs> programs = compiled_programs("#define SUN\n");

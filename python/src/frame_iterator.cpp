@@ -15,7 +15,8 @@ namespace py = pybind11;
 FrameIterator::FrameIterator(const ProjectObject& project, const std::optional<FrameRange>& frames, int jobs) {
   const auto made = std::make_shared<Stream>();
   made->jobs = jobs;
-  const Project copy = project.project();
+  // A copy, as Python may change the project while the footage is opened on another thread.
+  const Project copy = project.project();  // NOLINT(performance-unnecessary-copy-initialization)
   made->stream.emplace(
       made->opener.wait_for([&](const std::atomic<bool>* cancel) { return FrameStream::open(copy, frames, cancel); }));
   range_ = made->stream->range();

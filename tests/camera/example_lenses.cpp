@@ -21,8 +21,8 @@ Lens lens_of(LensModel model, double fx, double fy, glm::dvec2 center, std::vect
 }
 
 std::vector<ExampleLens> example_lenses() {
-  constexpr auto kBrown = LensModel::brown_conrady;
-  constexpr auto kFisheye = LensModel::kannala_brandt;
+  constexpr auto kBrownConrady = LensModel::brown_conrady;
+  constexpr auto kKannalaBrandt = LensModel::kannala_brandt;
   const cv::Size vga(640, 480);
   const std::vector<double> oak{-3.4751670360565186, -38.5734748840332,   0.00034309603506699204, 9.377215610584244e-05,
                                 286.4400939941406,   -3.6408045291900635, -36.68898010253906,     279.0523681640625};
@@ -36,34 +36,39 @@ std::vector<ExampleLens> example_lenses() {
   std::vector<double> tilt_alone(14, 0.0);
   tilt_alone[12] = 0.3;
   return {
-      {"pinhole", lens_of(kBrown, 535, 535, {342, 235}, {}), vga},
-      {"pinhole with zeros", lens_of(kBrown, 535, 530, {342, 235}, {0, 0, 0, 0, 0}), vga},
-      {"4 coefficients", lens_of(kBrown, 535, 535, {342, 235}, {-0.28, 0.07, 0.0018, -0.0003}), vga},
-      {"4, pincushion", lens_of(kBrown, 535, 535, {320, 240}, {0.2, 0.05, 0, 0}), vga},
-      {"4, strong tangential", lens_of(kBrown, 535, 535, {320, 240}, {-0.1, 0.02, 0.05, -0.08}), vga},
-      {"5 coefficients", lens_of(kBrown, 535.9, 535.9, {342.3, 235.6}, five), vga},
-      {"5, folds", lens_of(kBrown, 233.6, 233.6, {320, 240}, {-0.32744, 0.12814, 0, 0, -0.023876}), vga},
-      {"5, folds, tangential", lens_of(kBrown, 233.6, 233.6, {320, 240}, {-0.3274, 0.1281, 0.01, 0.02, -0.0239}), vga},
-      {"8, large numbers", lens_of(kBrown, 202.6, 202.6, {124.3, 127.3}, oak), {250, 250}},
-      {"8, pole at 45 degrees", lens_of(kBrown, 500, 500, {320, 240}, {0, 0, 0, 0, 0, -1, 0, 0}), vga},
-      {"12 coefficients", lens_of(kBrown, 535.9, 535.9, {342.3, 235.6}, twelve), vga},
+      {"pinhole", lens_of(kBrownConrady, 535, 535, {342, 235}, {}), vga},
+      {"pinhole with zeros", lens_of(kBrownConrady, 535, 530, {342, 235}, {0, 0, 0, 0, 0}), vga},
+      {"4 coefficients", lens_of(kBrownConrady, 535, 535, {342, 235}, {-0.28, 0.07, 0.0018, -0.0003}), vga},
+      {"4, pincushion", lens_of(kBrownConrady, 535, 535, {320, 240}, {0.2, 0.05, 0, 0}), vga},
+      {"4, strong tangential", lens_of(kBrownConrady, 535, 535, {320, 240}, {-0.1, 0.02, 0.05, -0.08}), vga},
+      {"5 coefficients", lens_of(kBrownConrady, 535.9, 535.9, {342.3, 235.6}, five), vga},
+      {"5, folds", lens_of(kBrownConrady, 233.6, 233.6, {320, 240}, {-0.32744, 0.12814, 0, 0, -0.023876}), vga},
+      {"5, folds, tangential", lens_of(kBrownConrady, 233.6, 233.6, {320, 240}, {-0.3274, 0.1281, 0.01, 0.02, -0.0239}),
+       vga},
+      {"8, large numbers", lens_of(kBrownConrady, 202.6, 202.6, {124.3, 127.3}, oak), {250, 250}},
+      {"8, pole at 45 degrees", lens_of(kBrownConrady, 500, 500, {320, 240}, {0, 0, 0, 0, 0, -1, 0, 0}), vga},
+      {"12 coefficients", lens_of(kBrownConrady, 535.9, 535.9, {342.3, 235.6}, twelve), vga},
       {"12, strong prism",
-       lens_of(kBrown, 500, 500, {320, 240}, {-0.2, 0.05, 0, 0, 0, 0, 0, 0, 0.1, -0.02, 0.05, 0.03}), vga},
+       lens_of(kBrownConrady, 500, 500, {320, 240}, {-0.2, 0.05, 0, 0, 0, 0, 0, 0, 0.1, -0.02, 0.05, 0.03}), vga},
       // Distorted so much that Newton's method from the radial answer misses parts of the field.
       {"12, wild",
-       lens_of(kBrown, 500, 600, {320, 240},
+       lens_of(kBrownConrady, 500, 600, {320, 240},
                {-2.31165, 0.535954, 1.95676, 0.00111828, -5.10527, 0.00055061, 2.78996, 1.27892, 1.88511, -1.49008,
                 -6.21959, 0.0733618}),
        vga},
-      {"14 coefficients", lens_of(kBrown, 535.9, 535.9, {342.3, 235.6}, tilted_slightly), vga},
-      {"14, tilted far", lens_of(kBrown, 535.9, 535.9, {342.3, 235.6}, tilted_far), vga},
-      {"14, tilt alone", lens_of(kBrown, 400, 400, {320, 240}, tilt_alone), vga},
-      {"fx ten times fy", lens_of(kBrown, 5000, 500, {320, 240}, five), vga},
-      {"principal point outside", lens_of(kBrown, 500, 500, {-300, 900}, {-0.2, 0.05, 0.001, 0.002}), vga},
-      {"fisheye", lens_of(kFisheye, 558.3, 558.4, {636.6, 469.5}, {0.05294, 0.008357, 0.003, -0.0035}), {1280, 960}},
-      {"fisheye of 200 degrees", lens_of(kFisheye, 260, 260, {480, 480}, {-0.01, 0.002, -0.0003, 0.00001}), {960, 960}},
-      {"fisheye without coefficients", lens_of(kFisheye, 100, 100, {320, 240}, {0, 0, 0, 0}), vga},
-      {"fisheye that folds", lens_of(kFisheye, 300, 310, {320, 240}, {-0.1, -0.05, 0.01, 0}), vga},
+      {"14 coefficients", lens_of(kBrownConrady, 535.9, 535.9, {342.3, 235.6}, tilted_slightly), vga},
+      {"14, tilted far", lens_of(kBrownConrady, 535.9, 535.9, {342.3, 235.6}, tilted_far), vga},
+      {"14, tilt alone", lens_of(kBrownConrady, 400, 400, {320, 240}, tilt_alone), vga},
+      {"fx ten times fy", lens_of(kBrownConrady, 5000, 500, {320, 240}, five), vga},
+      {"principal point outside", lens_of(kBrownConrady, 500, 500, {-300, 900}, {-0.2, 0.05, 0.001, 0.002}), vga},
+      {"fisheye",
+       lens_of(kKannalaBrandt, 558.3, 558.4, {636.6, 469.5}, {0.05294, 0.008357, 0.003, -0.0035}),
+       {1280, 960}},
+      {"fisheye of 200 degrees",
+       lens_of(kKannalaBrandt, 260, 260, {480, 480}, {-0.01, 0.002, -0.0003, 0.00001}),
+       {960, 960}},
+      {"fisheye without coefficients", lens_of(kKannalaBrandt, 100, 100, {320, 240}, {0, 0, 0, 0}), vga},
+      {"fisheye that folds", lens_of(kKannalaBrandt, 300, 310, {320, 240}, {-0.1, -0.05, 0.01, 0}), vga},
   };
 }
 

@@ -175,25 +175,25 @@ TEST_CASE("invalid parameters are refused with a reason") {
     CHECK(lens.error().kind == ErrorKind::bad_data);
     return lens.error().what;
   };
-  constexpr auto kBrown = LensModel::brown_conrady;
+  constexpr auto kBrownConrady = LensModel::brown_conrady;
   for (const std::size_t count : {1, 2, 3, 6, 7, 9, 10, 11, 13, 15})
-    CHECK(reason({kBrown, 1, 1, 0, 0, std::vector<double>(count)}) ==
+    CHECK(reason({kBrownConrady, 1, 1, 0, 0, std::vector<double>(count)}) ==
           "expected 0, 4, 5, 8, 12 or 14 distortion coefficients, found " + std::to_string(count));
   for (const std::size_t count : {0, 3, 5})
     CHECK(reason({LensModel::kannala_brandt, 1, 1, 0, 0, std::vector<double>(count)}) ==
           "expected 4 fisheye coefficients, found " + std::to_string(count));
   for (const double bad : {0.0, -500.0}) {
-    CHECK(reason({kBrown, bad, 1, 0, 0, {}}) == "the focal length must be positive");
-    CHECK(reason({kBrown, 1, bad, 0, 0, {}}) == "the focal length must be positive");
+    CHECK(reason({kBrownConrady, bad, 1, 0, 0, {}}) == "the focal length must be positive");
+    CHECK(reason({kBrownConrady, 1, bad, 0, 0, {}}) == "the focal length must be positive");
   }
   for (const double bad : {kNan, kInf, -kInf}) {
-    CHECK(reason({kBrown, bad, 1, 0, 0, {}}) == "focal length and principal point must be finite");
-    CHECK(reason({kBrown, 1, 1, 0, bad, {}}) == "focal length and principal point must be finite");
-    CHECK(reason({kBrown, 1, 1, 0, 0, {0, bad, 0, 0}}) == "distortion coefficients must be finite");
+    CHECK(reason({kBrownConrady, bad, 1, 0, 0, {}}) == "focal length and principal point must be finite");
+    CHECK(reason({kBrownConrady, 1, 1, 0, bad, {}}) == "focal length and principal point must be finite");
+    CHECK(reason({kBrownConrady, 1, 1, 0, 0, {0, bad, 0, 0}}) == "distortion coefficients must be finite");
   }
   std::vector<double> tilt(14);
   tilt[13] = 1.6;
-  CHECK(reason({kBrown, 1, 1, 0, 0, tilt}).find("tilt") != std::string::npos);
+  CHECK(reason({kBrownConrady, 1, 1, 0, 0, tilt}).find("tilt") != std::string::npos);
 }
 
 }  // namespace sigs::test

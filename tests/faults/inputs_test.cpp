@@ -46,8 +46,8 @@ TEST_CASE("an input that is cut, emptied, continued, overwritten or removed whil
       const Run run = run_with_change(place, job, input, change, at_read);
       ++(run.status == 0 ? done : refused);
       if (run.status != 0) place.check_all_or_nothing(job, run);
-      for (const auto& [name, text] : place.files_out())
-        CHECK_MESSAGE(name.find(".sigs-") == std::string::npos, job.name, ": left behind: ", name);
+      for (const auto& file : place.files_out())
+        CHECK_MESSAGE(file.first.find(".sigs-") == std::string::npos, job.name, ": left behind: ", file.first);
     }
     place.check_next_run(job);
   }

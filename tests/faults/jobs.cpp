@@ -265,30 +265,32 @@ void Workplace::check_all_or_nothing(const Job& job, const Run& run) {
   CHECK((job.name == "dataset" ? are_errors_of_videos(run.err) : is_one_error_after_warnings(run.err)));
   const Contents left = files_out();
   if (job.name != "dataset") {
-    for (const auto& [name, text] : left) FAIL_CHECK("left behind: ", name);
+    for (const auto& file : left) FAIL_CHECK("left behind: ", file.first);
     return;
   }
-  for (const auto& [name, text] : left) CHECK_MESSAGE(!is_below_staging(name), "left behind: ", name);
+  for (const auto& file : left) CHECK_MESSAGE(!is_below_staging(file.first), "left behind: ", file.first);
   CHECK_FALSE(left.contains("index.json"));
   check_final_names(job);
 }
 
 void Workplace::check_without_plots(const Job& job) {
   const Contents files = files_out();
-  for (const auto& [name, text] : whole(job).files)
+  for (const auto& file : whole(job).files) {
+    const std::string& name = file.first;
     if (name.ends_with(".csv") || name.ends_with(".json"))
-      CHECK_MESSAGE((files.contains(name) && files.at(name) == text), name);
-  for (const auto& [name, text] : files) CHECK_MESSAGE(whole(job).files.contains(name), name);
+      CHECK_MESSAGE((files.contains(name) && files.at(name) == file.second), name);
+  }
+  for (const auto& file : files) CHECK_MESSAGE(whole(job).files.contains(file.first), file.first);
 }
 
 void Workplace::check_final_names(const Job& job) {
   CAPTURE(job.name);
   const Contents& expected = whole(job).files;
-  for (const auto& [name, text] : files_out()) {
-    if (is_below_staging(name)) continue;
-    const auto it = expected.find(name);
-    CHECK_MESSAGE(it != expected.end(), "not an output: ", name);
-    if (it != expected.end()) CHECK_MESSAGE(it->second == text, "not as it should be: ", name);
+  for (const auto& file : files_out()) {
+    if (is_below_staging(file.first)) continue;
+    const auto it = expected.find(file.first);
+    CHECK_MESSAGE(it != expected.end(), "not an output: ", file.first);
+    if (it != expected.end()) CHECK_MESSAGE(it->second == file.second, "not as it should be: ", file.first);
   }
 }
 
@@ -297,7 +299,7 @@ void Workplace::check_next_run(const Job& job) {
   const Run next = RunningProgram(words(job, job.again)).ended();
   CHECK_MESSAGE(next.status == 0, next.err);
   const Contents files = files_out();
-  for (const auto& [name, text] : files) CHECK_MESSAGE(!is_below_staging(name), "left behind: ", name);
+  for (const auto& file : files) CHECK_MESSAGE(!is_below_staging(file.first), "left behind: ", file.first);
   CHECK(files == whole(job).files);
 }
 

@@ -85,8 +85,8 @@ TEST_CASE("killed before a command replaces what is there, or while it does, the
       static_cast<void>(program.ended());
       place.check_final_names(job);
       const Contents left = place.files_out();
-      for (const auto& [name, text] : place.whole(job).files)
-        CHECK_MESSAGE(left.contains(name), job.name, ": lost: ", name);
+      for (const auto& file : place.whole(job).files)
+        CHECK_MESSAGE(left.contains(file.first), job.name, ": lost: ", file.first);
       place.check_next_run(job);
     }
   }

@@ -23,8 +23,10 @@ TEST_CASE("every number is read and written with a decimal point where the local
     CHECK_MESSAGE(run.status == 0, job.name, ": ", run.err);
     CHECK_MESSAGE(run.out == place.whole(job).printed, job.name);
     const Contents files = place.files_out();
-    for (const auto& [name, text] : place.whole(job).files)
-      CHECK_MESSAGE((files.contains(name) && files.at(name) == text), job.name, ": ", name);
+    for (const auto& file : place.whole(job).files) {
+      const std::string& name = file.first;
+      CHECK_MESSAGE((files.contains(name) && files.at(name) == file.second), job.name, ": ", name);
+    }
   }
 }
 

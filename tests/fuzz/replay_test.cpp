@@ -33,7 +33,8 @@ const std::map<std::string, Target>& fuzz_targets() {
 
 TEST_CASE("every reader takes or refuses the kept cases and keeps its promises") {
   const std::filesystem::path cases = source_dir() / "tests" / "fuzz" / "cases";
-  for (const auto& [name, target] : fuzz_targets()) {
+  for (const auto& [folder_name, target] : fuzz_targets()) {
+    const std::string name = folder_name;
     REQUIRE_MESSAGE(std::filesystem::is_directory(cases / name), name);
     const TemporaryFolder folder;
     for (const std::string& file : files_below(cases / name)) {

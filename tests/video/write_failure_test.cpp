@@ -77,11 +77,13 @@ TEST_CASE("a full disk is an error for every codec and container") {
     say_skipped("no /dev/full");
     return;
   }
-  for (const auto& [codec, container] :
+  for (const auto& output :
        {std::pair{VideoCodec::ffv1, Container::mkv}, std::pair{VideoCodec::ffv1, Container::avi},
         std::pair{VideoCodec::h264, Container::mp4}, std::pair{VideoCodec::h264, Container::mkv},
         std::pair{VideoCodec::mjpeg, Container::avi}, std::pair{VideoCodec::mjpeg, Container::mp4}})
     for (const int frames : {1, 60}) {  // one frame may fit into a buffer and fail only at the end
+      const VideoCodec codec = output.first;
+      const Container container = output.second;
       CAPTURE(static_cast<int>(codec));
       CAPTURE(static_cast<int>(container));
       const Result<void> result = outcome("/dev/full", plain_format(codec, container, {64, 48}), frames);

@@ -100,7 +100,8 @@ std::vector<SampleModel> sample_models_in(const fs::path& folder) {
     std::ranges::replace(name, '-', ' ');
     samples.push_back({file, name});
   }
-  std::ranges::stable_partition(samples, [](const SampleModel& one) { return one.file.stem() == kFirstSample; });
+  std::stable_partition(samples.begin(), samples.end(),
+                        [](const SampleModel& one) { return one.file.stem() == kFirstSample; });
   return samples;
 }
 
