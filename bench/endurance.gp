@@ -11,7 +11,7 @@ set y2label "descriptors, threads" textcolor rgb ink
 set y2tics textcolor rgb ink scale 0.6
 set yrange [0:*]
 set y2range [0:*]
-set key right bottom
+set key above horizontal
 plot samples using 2:($3 / 1024) every ::1 with lines lc rgb direct4 title "own memory", \
   samples using 2:($6 / 1024) every ::1 with lines lc rgb grey title "resident, with files and libraries", \
   samples using 2:4 every ::1 axes x1y2 with lines lc rgb classic title "descriptors", \
