@@ -6,6 +6,9 @@
 uniform mat4 clip_from_body;
 uniform mat3 view_from_body;
 
+// Drawn twice, to find what is visible and to shade it: both times at the same depth.
+invariant gl_Position;
+
 layout(location = 0) in vec3 position_m;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;

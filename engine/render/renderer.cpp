@@ -130,6 +130,20 @@ Result<Programs> compiled_programs(const std::string& light) {
   return Programs{{std::move(*plain), std::move(*textured), std::move(*layered)}};
 }
 
+// Puts the depth of solid parts into the depth buffer, so that draw_solid() shades nothing that is behind them. The
+// program in use draws depth alone.
+void draw_depth(const GpuMesh& gpu, bool from_outside) {
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  for (const Run& run : gpu.bind_solid()) {
+    if (run.surface != Surface::solid) continue;
+    leave_out(from_outside ? run.hidden : CullFace::none);
+    gpu.draw(run);
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 // Draws solid parts and the opaque texels of cutouts, with the depth buffer.
 //   from_outside  nothing of the body is at or behind the eye: faces that point inward need not be drawn
 PassCounts draw_solid(const Programs& programs, GpuMesh& gpu, bool from_outside) {
@@ -165,7 +179,8 @@ struct Renderer::State {
   EglContext context;
   Programs programs;
   Target target;
-  std::optional<SunTools> sun;  // made by the first draw() in the sun
+  std::optional<SunTools> sun;   // made by the first draw() in the sun
+  std::optional<Program> depth;  // made by the first draw() of a large view
   std::map<const Mesh*, GpuMesh> meshes;
   RenderCounts counts;
 
@@ -173,11 +188,14 @@ struct Renderer::State {
   [[nodiscard]] Result<const Programs*> lit_programs(const Mesh& mesh, const GpuMesh& gpu,
                                                      const Pose<frame::Camera, frame::Body>& camera_from_body,
                                                      const Light& light, const VirtualCamera& view);
+  [[nodiscard]] Result<void> draw_depth_first(const GpuMesh& gpu, const glm::mat4& clip_from_body, bool from_outside);
 };
 
 namespace {
 
 constexpr int kLargestView_px = 16384;
+// Of a piece: below, drawing solid triangles twice takes longer than shading what is hidden.
+constexpr int kMinPixelsForDepth = 250'000;
 using ViewFromBody = Pose<frame::View, frame::Body>;
 
 bool is_finite(const glm::dvec3& v) {
@@ -244,7 +262,7 @@ Result<Renderer> Renderer::create(int samples_per_pixel) {
   Result<Programs> programs = compiled_programs("");
   if (!programs) return fail(programs.error());
   return Renderer(std::unique_ptr<State>(
-      new State{std::move(*context), std::move(*programs), Target(samples_per_pixel), {}, {}, {}}));
+      new State{std::move(*context), std::move(*programs), Target(samples_per_pixel), {}, {}, {}, {}}));
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -290,6 +308,18 @@ Result<const Programs*> Renderer::State::lit_programs(const Mesh& mesh, const Gp
   return &sun->programs;
 }
 
+Result<void> Renderer::State::draw_depth_first(const GpuMesh& gpu, const glm::mat4& clip_from_body, bool from_outside) {
+  if (!depth) {
+    Result<Program> made = Program::create("#define DEPTH\n");
+    if (!made) return fail(made.error());
+    depth.emplace(std::move(*made));
+  }
+  depth->use();
+  depth->set("clip_from_body", clip_from_body);
+  draw_depth(gpu, from_outside);
+  return {};
+}
+
 Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
                              const Light& light, const VirtualCamera& view) {
   const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
@@ -317,6 +347,8 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
       program.use();
       program.set("clip_from_body", glm::mat4(*clip));
     }
+    if (piece.area() >= kMinPixelsForDepth)
+      if (const auto drawn = state_->draw_depth_first(gpu, *clip, from_outside); !drawn) return fail(drawn.error());
     count(draw_solid(**programs, gpu, from_outside), state_->counts);
     count(draw_transparent(**programs, gpu, sorted), state_->counts);
     state_->target.read(layer.color(piece), layer.coverage(piece));

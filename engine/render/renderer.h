@@ -19,7 +19,7 @@ namespace sigs {
 // Counts of a renderer's operations since its creation.
 struct RenderCounts {
   std::int64_t pixels_drawn = 0;     // of all views
-  std::int64_t triangles_drawn = 0;  // given to OpenGL, once for each piece of a large view and for shadows
+  std::int64_t triangles_drawn = 0;  // to be shaded, once for each piece of a large view, and for shadows
   std::int64_t bytes_uploaded = 0;   // vertices, triangles and textures; uniforms are not counted
   std::int64_t draw_calls = 0;
 };

@@ -205,4 +205,43 @@ TEST_CASE("a view larger than one piece is drawn without seams") {
   CHECK(cv::countNonZero(layer.color(inner).reshape(1) != 1.0F) == 0);
 }
 
+TEST_CASE("of surfaces at the same place the last one is seen, in small views and in large ones") {
+  Mesh mesh = facing_quad({-1, -1}, {1, 1}, paint({1, 0, 0}));
+  for (const glm::vec3& color : {glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)}) {
+    mesh.materials.push_back(paint(color));
+    add_quad(mesh, {0, -1, 1}, {0, 2, 0}, {0, 0, -2}, static_cast<int>(mesh.materials.size()) - 1);
+  }
+  for (const int side : {100, 700}) {  // the large one is drawn with depth first
+    const Layer layer = drawn(measured(mesh), at({4, 0, 0}), ambient_only(), view_of({side, side}, 3.0 * side));
+    CHECK(cv::countNonZero(layer.coverage != 1.0F) == 0);
+    CHECK(cv::norm(cv::mean(layer.color) - cv::Scalar(0, 0, 1, 1)) < 1e-6);  // floats
+  }
+}
+
+TEST_CASE("a large view shows what is nearest in it, however its triangles are ordered") {
+  constexpr int kSide_px = 600;
+  for (const bool is_near_first : {true, false}) {
+    Mesh mesh;
+    mesh.materials = {paint({1, 0, 0}), paint({0, 1, 0}), paint({0, 0, 1}, 0.5F)};
+    const auto add = [&mesh](float x_m, float half_m, int material) {
+      add_quad(mesh, {x_m, -half_m, half_m}, {0, 2 * half_m, 0}, {0, 0, -2 * half_m}, material);
+    };
+    if (is_near_first) add(-1, 0.5F, 0);
+    add(0, 1, 1);
+    if (!is_near_first) add(-1, 0.5F, 0);
+    add(1, 3, 2);       // glass behind both
+    add(-2, 0.25F, 2);  // and before both
+    const Layer layer =
+        drawn(measured(mesh), at({10, 0, 0}), ambient_only(), view_of({kSide_px, kSide_px}, 2.0 * kSide_px));
+    const auto seen = [&layer](double y_m, double distance_m) {
+      const int column = static_cast<int>(std::lround((kSide_px - 1) / 2.0 + y_m / distance_m * 2 * kSide_px));
+      return layer.color.at<cv::Vec4f>(kSide_px / 2, column);
+    };
+    CHECK(seen(0, 8) == cv::Vec4f(0.5F, 0, 0.5F, 1));   // glass over red
+    CHECK(seen(0.4, 9) == cv::Vec4f(1, 0, 0, 1));       // red over green
+    CHECK(seen(0.9, 10) == cv::Vec4f(0, 1, 0, 1));      // green
+    CHECK(seen(2, 11) == cv::Vec4f(0, 0, 0.5F, 0.5F));  // glass alone
+  }
+}
+
 }  // namespace sigs
