@@ -21,6 +21,7 @@
 #include "base/text.h"
 #include "base/transfer.h"
 #include "camera/virtual_camera.h"
+#include "render/buffer_pool.h"
 #include "render/draw_list.h"
 #include "render/egl_context.h"
 #include "render/gl_objects.h"
@@ -181,6 +182,7 @@ struct Renderer::State {
   Target target;
   std::optional<SunTools> sun;   // made by the first draw() in the sun
   std::optional<Program> depth;  // made by the first draw() of a large view
+  BufferPool buffers;
   std::map<const Mesh*, GpuMesh> meshes;
   RenderCounts counts;
 
@@ -262,7 +264,7 @@ Result<Renderer> Renderer::create(int samples_per_pixel) {
   Result<Programs> programs = compiled_programs("");
   if (!programs) return fail(programs.error());
   return Renderer(std::unique_ptr<State>(
-      new State{std::move(*context), std::move(*programs), Target(samples_per_pixel), {}, {}, {}, {}}));
+      new State{std::move(*context), std::move(*programs), Target(samples_per_pixel), {}, {}, {}, {}, {}}));
 }
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -331,17 +333,18 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
   if (!state_->context.make_current())
     return fail("OpenGL", "the context cannot be made current", ErrorKind::unavailable);
 
-  Layer layer = blank(view.size_px);
-  if (mesh.indices.empty()) return layer;
+  if (mesh.indices.empty()) return blank(view.size_px);
   GpuMesh& gpu = uploaded_mesh(state_->meshes, mesh);
   const DrawList sorted = gpu.sorted_for(inverse(view_from_body).translation_m);
   const bool from_outside = is_eye_outside(view_from_body, mesh);
   set_fixed_state();
   const Result<const Programs*> programs = state_->lit_programs(mesh, gpu, camera_from_body, light, view);
   if (!programs) return fail(programs.error());
+  Layer layer{cv::Rect({0, 0}, view.size_px), state_->buffers.image(view.size_px, CV_32FC4),
+              state_->buffers.image(view.size_px, CV_32FC1)};
   for (const cv::Rect& piece : pieces_of(view.size_px)) {
     const std::optional<glm::dmat4> clip = clip_from_body(view_from_body, mesh.radius_m, view, piece);
-    if (!clip) return layer;
+    if (!clip) return blank(view.size_px);
     if (const auto begun = state_->target.begin(piece.size()); !begun) return fail(begun.error());
     for (const Program& program : (*programs)->all) {
       program.use();
