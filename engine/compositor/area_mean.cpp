@@ -2,7 +2,10 @@
 #include "compositor/area_mean.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -21,18 +24,40 @@ cv::Mat halved(const cv::Mat& image) {
   return half;
 }
 
-cv::Range span_of_row(const cv::Vec4f* color, const float* coverage, int width) {
-  const auto is_empty = [&](int i) {
-    const auto zero = [](float value) { return static_cast<unsigned>(value == 0); };
-    const cv::Vec4f& c = color[i];
-    // No short cuts: one comparison of vectors.
-    return (zero(c[0]) & zero(c[1]) & zero(c[2]) & zero(c[3]) & zero(coverage[i])) != 0;
-  };
+constexpr int kBlock = 16;
+
+// Whether all bits of a block of samples are 0: integers, which are compared many at a time.
+bool is_empty_block(const float* samples) {
+  std::array<std::uint64_t, kBlock / 2> bits{};
+  std::memcpy(bits.data(), samples, sizeof(bits));
+  std::uint64_t all = 0;
+  for (const std::uint64_t two : bits) all |= two;
+  return all == 0;
+}
+
+// Index of the first sample that is not 0, before `end`; `end` where all are.
+int first_occupied(const float* samples, int end) {
   int first = 0;
-  while (first < width && is_empty(first)) ++first;
-  int end = width;
-  while (end > first && is_empty(end - 1)) --end;
-  return {first, end};
+  while (first + kBlock <= end && is_empty_block(samples + first)) first += kBlock;
+  while (first < end && samples[first] == 0) ++first;
+  return first;
+}
+
+// One beyond the last sample that is not 0, from `first` on; `first` where all are.
+int end_of_occupied(const float* samples, int first, int end) {
+  while (end - kBlock >= first && is_empty_block(samples + end - kBlock)) end -= kBlock;
+  while (end > first && samples[end - 1] == 0) --end;
+  return end;
+}
+
+// Coverage lies closer together than colours, of which only those are read that it leaves in question.
+cv::Range span_of_row(const cv::Vec4f* color, const float* coverage, int width) {
+  const float* const colors = color->val;
+  const int covered = first_occupied(coverage, width);
+  const int first = first_occupied(colors, 4 * covered) / 4;
+  if (first == width) return {width, width};
+  const int end_covered = end_of_occupied(coverage, first, width);
+  return {first, (end_of_occupied(colors, 4 * end_covered, 4 * width) + 3) / 4};
 }
 
 LayerPyramid::Level level_of(cv::Mat color, cv::Mat coverage) {

@@ -106,6 +106,38 @@ TEST_CASE("quadrilaterals that tile a layer divide all of its energy, thin ones 
   }
 }
 
+TEST_CASE("a level knows between which columns of each row there is anything, in any of the colours or in coverage") {
+  const auto wanted_span = [](const Layer& layer, int row) {
+    int first = layer.color.cols;
+    int end = 0;
+    for (int i = 0; i < layer.color.cols; ++i) {
+      const bool occupied =
+          layer.color.at<cv::Vec4f>(row, i) != cv::Vec4f(0, 0, 0, 0) || layer.coverage.at<float>(row, i) != 0;
+      if (occupied) first = std::min(first, i), end = i + 1;
+    }
+    return cv::Range(first, std::max(first, end));
+  };
+  cv::RNG random(3);
+  for (const int width : {1, 7, 16, 33, 70}) {
+    Layer layer = even_layer(cv::Rect(0, 0, width, 60), {0, 0, 0, 0});
+    layer.coverage.setTo(0);
+    for (int row = 1; row < 60; ++row)  // the first row is empty
+      for (int n = 0; n < row % 4; ++n) {
+        const int channel = random.uniform(0, 5);
+        const int column = random.uniform(0, width);
+        if (channel < 4) layer.color.at<cv::Vec4f>(row, column)[channel] = 1e-30F;
+        if (channel == 4) layer.coverage.at<float>(row, column) = 1;
+      }
+    LayerPyramid pyramid(layer);
+    for (int row = 0; row < 60; ++row) {
+      const cv::Range wanted = wanted_span(layer, row);
+      const cv::Range& span = pyramid.level(0).spans[static_cast<std::size_t>(row)];
+      CHECK(span.size() == wanted.size());
+      if (wanted.size() > 0) CHECK(span == wanted);
+    }
+  }
+}
+
 TEST_CASE("a quadrilateral without area, without a place or beside the layer has an empty mean") {
   const Layer layer = noise({8, 8}, 6);
   AreaReader reader(layer);
