@@ -82,6 +82,25 @@ TEST_CASE("an export gives the same bytes on one thread and on several and every
     }
 }
 
+TEST_CASE("intruders larger than the image give the same bytes on every number of threads") {
+  constexpr int kNearFrames = 8;
+  Scenario scenario({640, 480}, kNearFrames);
+  write_footage(scenario.path("footage.mkv"), scenario.size_px(), kNearFrames, PixelLayout::yuv420);
+  write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
+  scenario.add("aircraft.obj", {}).trajectory.waypoints = {{.frame = 0, .position_m = {6, -3, -148}},
+                                                           {.frame = 7, .position_m = {4, 2, -149}}};
+  scenario.add("aircraft.obj", {}).trajectory.waypoints = {
+      {.frame = 0, .position_m = {2, 4, -151}}, {.frame = 7, .position_m = {-1, -2, -150}}};  // past the camera
+  exported(scenario, "one", 1);
+  const auto files = contents_of(scenario.path("one"));
+  for (const int jobs : {2, 3, 8}) {
+    CAPTURE(jobs);
+    const std::string name = "on" + std::to_string(jobs);
+    exported(scenario, name, jobs);
+    CHECK(files == contents_of(scenario.path(name)));
+  }
+}
+
 TEST_CASE("an exported frame is the very image that compose_frame gives") {
   for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444, PixelLayout::gray})
     for (const MethodChoice method : kMethods) {
