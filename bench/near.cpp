@@ -25,7 +25,6 @@ using accuracy::median;
 using accuracy::stop;
 
 constexpr int kFirstFrame = 60, kFrames = 4, kMiddleFrame = 61;
-constexpr double kFrameRate_hz = 25, kCameraSpeed_mps = 22;
 
 using Settings = std::vector<std::string>;
 
