@@ -80,7 +80,8 @@ int main(int argc, char** argv) {
   const OpenedProject opened = value_or_exit(open_project(project, nullptr));
   const Scene& scene = opened.scene;
   const FrameRange range{scene.first_frame, scene.last_frame};
-  LabelSequence clip{.name = project.name};
+  LabelSequence clip;
+  clip.name = project.name;
   clip.footage.first_frame = range.first;
   clip.footage.last_frame = range.last;
   for (std::size_t i = 0; i < scene.intruders.size(); ++i)
