@@ -113,13 +113,19 @@ class RandomInput {
   std::string one_of(const std::vector<std::string>& words) {
     return words[static_cast<std::size_t>(below(static_cast<int>(words.size())))];
   }
+  // Whether a click on the place's middle comes to the window, below the menu bar.
+  bool is_in_window(const Json& rect) const {
+    const double x = rect[0].get<double>() + rect[2].get<double>() / 2;
+    const double y = rect[1].get<double>() + rect[3].get<double>() / 2;
+    return x >= 0 && x < width_px_ - 1 && y > kMenu_px && y < height_px_ - 1;
+  }
   // Of what the window shows now, except the menu bar.
   std::string one_of_the_places() {
     std::vector<std::string> names;
     const Json state = editor_.state();
     if (state.contains("places"))
       for (const auto& [name, rect] : state["places"].items())
-        if (!name.starts_with("menu/") && rect[1] > kMenu_px && rect[1] < height_px_ - 10) names.push_back(name);
+        if (!name.starts_with("menu/") && is_in_window(rect)) names.push_back(name);
     return names.empty() ? "timeline/ruler" : one_of(names);
   }
 
