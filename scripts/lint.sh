@@ -16,7 +16,7 @@ cmake --build --preset lint --parallel "$(nproc)" --target sigs_precompiled_fast
 # check FOLDERS COMMAND...: calls the command with each source of these folders, then fails where one of the calls failed.
 check() {
   sed -n "s#^ *\"file\": \"$PWD/\(.*\)\",*\$#\1#p" build/lint/compile_commands.json | grep -v /sigs_precompiled |
-    grep -E "^(build/lint/)?($1)/" | { grep -e "$pattern" || true; } |
+    grep -E "^(build/lint/)?($1)/" | { grep -E -e "$pattern" || true; } |
     xargs -r -P "$(nproc)" -n 1 "${@:2}" -p build/lint 2>&1 |
     { grep --line-buffered -vE '^[0-9]+ warnings? (generated|treated as errors?)' || true; }
 }
