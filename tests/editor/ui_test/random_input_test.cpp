@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <glm/glm.hpp>
 #include <random>
 
 #include "editor/ui_test/ui_test.h"
@@ -38,10 +38,10 @@ class RandomInput {
         editor_.click(x(), y(), button());
         break;
       case 1:
-        editor_.drag(one_of_the_places(), below(300) - 150, below(300) - 150, 1, one_of({"", "", "shift", "ctrl"}));
+        drag_place();
         break;
       case 2:
-        editor_.click(one_of_the_places(), button());
+        click_place();
         break;
       case 3:
         editor_.drag(x(), y(), x(), y(), button(), one_of({"", "", "shift", "ctrl", "alt"}));
@@ -79,6 +79,17 @@ class RandomInput {
     if (key != "F11" || kinds_ == kKinds) editor_.key(key);
   }
 
+  void click_place() {
+    const glm::dvec2 at = one_of_the_places();
+    editor_.click(at.x, at.y, button());
+  }
+
+  void drag_place() {
+    const glm::dvec2 at = one_of_the_places();
+    const glm::dvec2 to(at.x + below(300) - 150, at.y + below(300) - 150);
+    editor_.drag(at.x, at.y, to.x, to.y, 1, one_of({"", "", "shift", "ctrl"}));
+  }
+
   void send_rare_event() {
     switch (below(4)) {
       case 0:
@@ -113,20 +124,23 @@ class RandomInput {
   std::string one_of(const std::vector<std::string>& words) {
     return words[static_cast<std::size_t>(below(static_cast<int>(words.size())))];
   }
-  // Whether a click on the place's middle comes to the window, below the menu bar.
-  bool is_in_window(const Json& rect) const {
-    const double x = rect[0].get<double>() + rect[2].get<double>() / 2;
-    const double y = rect[1].get<double>() + rect[3].get<double>() / 2;
-    return x >= 0 && x < width_px_ - 1 && y > kMenu_px && y < height_px_ - 1;
+  static glm::dvec2 middle_of(const Json& rect) {
+    return {rect[0].get<double>() + rect[2].get<double>() / 2, rect[1].get<double>() + rect[3].get<double>() / 2};
   }
-  // Of what the window shows now, except the menu bar.
-  std::string one_of_the_places() {
-    std::vector<std::string> names;
+  // Below the menu bar, and not on the window's last pixels.
+  bool is_in_window(const glm::dvec2& at) const {
+    return at.x >= 0 && at.x < width_px_ - 1 && at.y > kMenu_px && at.y < height_px_ - 1;
+  }
+  // The middle of something that the window shows now, except the menu bar. It may be gone when the mouse comes there.
+  glm::dvec2 one_of_the_places() {
+    std::vector<glm::dvec2> middles;
     const Json state = editor_.state();
     if (state.contains("places"))
       for (const auto& [name, rect] : state["places"].items())
-        if (!name.starts_with("menu/") && is_in_window(rect)) names.push_back(name);
-    return names.empty() ? "timeline/ruler" : one_of(names);
+        if (const glm::dvec2 middle = middle_of(rect); !name.starts_with("menu/") && is_in_window(middle))
+          middles.push_back(middle);
+    if (middles.empty()) return {width_px_ / 2, height_px_ / 2};
+    return middles[static_cast<std::size_t>(below(static_cast<int>(middles.size())))];
   }
 
   EditorDriver& editor_;
