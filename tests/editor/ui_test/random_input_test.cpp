@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
