@@ -33,7 +33,7 @@ ffmpeg -v error -i assets/footage/sample.mp4 -an -vf "scale=$width:-2,crop=$widt
 scaled_lens "$width" "$height" >"$work/lens.xml"
 cat >"$work/project.json" <<JSON
 {"sigs": 1, "name": "dragged", "footage": {"video": "clip.mp4", "calibration": "lens.xml"},
- "camera": {"position_m": [0, 0, -150], "speed_mps": 22.0, "roll_deg": 0, "pitch_deg": 0},
+ "camera": {"position_m": [0, 0, -150], "speed_mps": 22.0},
  "intruders": [{"name": "one", "model": {"file": "$PWD/assets/models/light-aircraft/light-aircraft.obj",
   "forward": "+x", "up": "+z"}, "trajectory": {"waypoints": [{"frame": 0, "position_m": [90, -10, -155]},
   {"frame": 100, "position_m": [200, 0, -165]}, {"frame": 199, "position_m": [330, 20, -160]}]}}]}
