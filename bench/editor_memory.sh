@@ -23,7 +23,7 @@ cat >"$work/lens.xml" <<'XML'
 XML
 cat >"$work/project.json" <<JSON
 {"sigs": 1, "name": "4k", "footage": {"video": "clip.mp4", "calibration": "lens.xml"},
- "camera": {"position_m": [0, 0, -150], "speed_mps": 22.0, "roll_deg": 0, "pitch_deg": 0},
+ "camera": {"position_m": [0, 0, -150], "speed_mps": 22.0},
  "intruders": [{"name": "one", "model": {"file": "$PWD/assets/models/light-aircraft/light-aircraft.obj",
   "forward": "+x", "up": "+z"}, "trajectory": {"waypoints": [{"frame": 0, "position_m": [90, -30, -170]},
   {"frame": 299, "position_m": [350, 30, -160]}]}}]}
