@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/allocator.h"
 #include "base/text.h"
 #include "cli/dataset_coverage.h"
 #include "cli/dataset_table.h"

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <thread>
 
+#include "base/allocator.h"
 #include "base/output_stream.h"
 #include "base/text.h"
 #include "cli/options.h"

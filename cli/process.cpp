@@ -2,7 +2,6 @@
 #include "cli/process.h"
 
 #include <fcntl.h>
-#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <cerrno>
@@ -15,14 +14,6 @@
 #include "base/result.h"
 
 namespace sigs::cli {
-
-void tune_allocator() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the maximum that glibc accepts
-  mallopt(M_TRIM_THRESHOLD, 256 << 20);
-  mallopt(M_ARENA_MAX, 2);
-#endif
-}
 
 namespace {
 

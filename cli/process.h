@@ -29,11 +29,6 @@ void defer_interrupts();
 // library, goes to standard error. Error cannot_create.
 [[nodiscard]] Result<int> taken_standard_output();
 
-// Makes the allocator keep memory of up to 32 MiB a block instead of returning it to the system. Images and layers of
-// some megabytes are allocated for every frame; memory that is kept costs no page faults when it is used again. All
-// threads share two heaps: a heap for each thread, glibc's default, keeps that memory many times (docs/reliability.md).
-void tune_allocator();
-
 // Sets variables that Mesa reads when it is loaded: it prints nothing on stderr, since its errors are returned to the
 // program. Where the process's memory is limited, its software renderer uses no threads of its own: it would wait for
 // ever for those that it could not start.

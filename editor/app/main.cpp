@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "base/allocator.h"
 #include "base/threads.h"
 #include "editor/app/app.h"
 #include "editor/app/command_line.h"
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return program->exit(error) == 0 ? 0 : static_cast<int>(sigs::ErrorKind::usage);
   }
+  sigs::tune_allocator();
   const sigs::Result<int> status =
       sigs::guarded([&]() -> sigs::Result<int> { return run(options.project, options.probe); });
   if (status) return *status;

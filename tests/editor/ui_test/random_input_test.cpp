@@ -18,6 +18,7 @@ using Json = nlohmann::json;
 namespace {
 
 constexpr int kEvents = 300;
+constexpr int kEventsOfAProject = 400;  // of a long run: random input makes projects larger and larger
 constexpr int kKinds = 8;  // of events; one more has dialogs, other sizes of the window and attempts to quit
 
 // SIGS_TEST_MINUTES: for so long instead, with events of all kinds.
@@ -62,6 +63,29 @@ class RandomInput {
     }
   }
 
+  // As a person does who wants nothing of what was done.
+  void open_instead(UiTest& ui_test, const fs::path& project) {
+    answer_all();
+    editor_.set_hurried(false);
+    set_size(1600, 960);
+    const int before = revision_of(editor_.state());
+    editor_.key("ctrl+o");
+    ui_test.wait_for_place("browser/answer");
+    editor_.settle();
+    editor_.key("ctrl+l");
+    editor_.settle();
+    editor_.type(project.string());
+    editor_.key("Return");
+    const auto is_there = [before](const Json& now) { return revision_of(now) > before && !is_unsaved(now); };
+    while (!is_there(editor_.state())) {
+      const char* const no = "question/Don't save";
+      editor_.wait_for("the project, or a question", [&](const Json& now) { return is_there(now) || shows(now, no); });
+      if (editor_.has_place(no)) editor_.click(no);
+    }
+    editor_.wait_for_image();
+    editor_.set_hurried(true);
+  }
+
   // Out of every dialog and text field.
   void answer_all() {
     for (int i = 0; i < 6; ++i) editor_.key("Escape");
@@ -70,6 +94,11 @@ class RandomInput {
   }
 
  private:
+  void set_size(int width_px, int height_px) {
+    width_px_ = width_px;
+    height_px_ = height_px;
+    editor_.resize(width_px_, height_px_);
+  }
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
   // Not F11 where the window changes its size otherwise too: which size it has then would not be known.
   void send_key() {
@@ -94,9 +123,7 @@ class RandomInput {
   void send_rare_event() {
     switch (below(4)) {
       case 0:
-        width_px_ = 900 + below(701);
-        height_px_ = 600 + below(361);
-        editor_.resize(width_px_, height_px_);
+        set_size(900 + below(701), 600 + below(361));
         break;
       case 1:
         editor_.key(one_of({"ctrl+o", "ctrl+n", "ctrl+shift+s", "ctrl+e", "ctrl+s"}));
@@ -168,6 +195,8 @@ TEST_CASE("no sequence of keys and mouse input crashes the editor, and it still 
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double, std::ratio<60>>(minutes);
   int events = 0;
   for (; minutes > 0 ? std::chrono::steady_clock::now() < end : events < kEvents; ++events) {
+    if (minutes > 0 && events % kEventsOfAProject == kEventsOfAProject - 1)
+      random_input.open_instead(ui_test, put(sample_project("two-intruders"), project));
     random_input.send_event();
     revision = std::max(revision, revision_of(editor.state()));
     if (events % 8 == 0) editor.key("Escape");  // a dialog swallows what comes
