@@ -138,10 +138,10 @@ Settings taken_settings(std::string_view& text, int& line_number) {
     if (colon == std::string_view::npos) continue;
     const std::string key(trimmed(line.substr(1, colon - 1)));
     const std::string value(trimmed(line.substr(colon + 1)));
-    if (key == "warning")
-      settings.warnings.push_back(value);
-    else
+    if (key != "warning")
       settings.values[key] = value;
+    else if (!value.empty())
+      settings.warnings.push_back(value);
   }
   return settings;
 }

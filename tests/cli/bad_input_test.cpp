@@ -155,7 +155,7 @@ TEST_CASE("a folder that cannot be created exits with status 73") {
 
 TEST_CASE("a full disk exits with status 74 and leaves no file") {
   const TinyProject tiny;
-  const Run run = run_sigs_after("ulimit -f 1;", "export " + tiny.project() + " --out " + tiny.out());
+  const Run run = run_sigs_after(kFullDisk, "export " + tiny.project() + " --out " + tiny.out());
   CHECK_MESSAGE(run.status == 74, run.err);
   CHECK_MESSAGE(has(run.err, "tiny.mkv"), run.err);
   CHECK(tiny.files_out() == 0);

@@ -204,8 +204,8 @@ TEST_CASE("a mask's folder that cannot be created exits with status 73") {
 TEST_CASE("a full disk leaves no mask and exits with status 74") {
   const Folder in;
   write_flight(in.video, 10);
-  const Run run = run_sigs_after("ulimit -f 1;", "mask " + in.video + " --method paper --out " + in.out() +
-                                                     "/m.png --confidence " + in.out() + "/c.png");
+  const Run run = run_sigs_after(kFullDisk, "mask " + in.video + " --method paper --out " + in.out() +
+                                                "/m.png --confidence " + in.out() + "/c.png");
   CHECK_MESSAGE(run.status == 74, run.err);
   CHECK_MESSAGE(run.err.find("c.png: could not be written: ") != std::string::npos, run.err);
   CHECK(in.files_out() == 0);
