@@ -51,12 +51,7 @@ for _ in $(seq "$runs"); do
   timed kept dataset "$lot/first" --resume
 done
 
-awk -v frames="$frames" -v cores="$(nproc)" '
-  function median(key,   n, i, j, t, v) {
-    n = split(values[key], v, " ")
-    for (i = 1; i <= n; i++) for (j = i + 1; j <= n; j++) if (v[j] + 0 < v[i] + 0) { t = v[i]; v[i] = v[j]; v[j] = t }
-    return n % 2 ? v[(n + 1) / 2] : (v[n / 2] + v[n / 2 + 1]) / 2
-  }
+awk -v frames="$frames" -v cores="$(nproc)" "$(cat bench/median.awk)"'
   { values[$1 " wall"] = values[$1 " wall"] " " $2; values[$1 " work"] = values[$1 " work"] " " ($3 + $4) }
   END {
     printf "%d frames, %d cores\n\n", frames, cores

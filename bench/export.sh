@@ -89,12 +89,7 @@ for _ in $(seq "$runs"); do
 done >"$lot/times"
 
 # Medians of wall-clock and of processor time (user and system).
-awk '
-  function median(key,   n, i, j, t, v) {
-    n = split(values[key], v, " ")
-    for (i = 1; i <= n; i++) for (j = i + 1; j <= n; j++) if (v[j] + 0 < v[i] + 0) { t = v[i]; v[i] = v[j]; v[j] = t }
-    return n % 2 ? v[(n + 1) / 2] : (v[n / 2] + v[n / 2 + 1]) / 2
-  }
+awk "$(cat bench/median.awk)"'
   { row = $1 " " $2; if (!(row in seen)) { seen[row] = 1; order[++rows] = row }
     values[row " " $3 " wall"] = values[row " " $3 " wall"] " " $4
     values[row " " $3 " work"] = values[row " " $3 " work"] " " ($5 + $6) }
