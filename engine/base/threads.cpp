@@ -12,6 +12,12 @@ namespace sigs {
 
 namespace {
 
+#ifdef __SANITIZE_THREAD__
+// OpenCV shares its loops among TBB's threads. TBB is not instrumented, so that ThreadSanitizer does not see its locks:
+// under it each loop runs on the thread that asks for it.
+[[maybe_unused]] const bool loops_are_not_shared = (cv::setNumThreads(1), true);
+#endif
+
 // What TBB throws, by which OpenCV shares its loops among threads: a plain runtime_error without a code.
 bool is_thread_not_started(const std::exception& problem) {
   return std::string_view(problem.what()).starts_with("pthread_create has failed");
