@@ -226,7 +226,9 @@ void add_aot_options(CLI::App& command, DetectOptions& options) {
                   "of the options above --min-score alone counts")
       ->check(CLI::IsMember({"sigs", "aot"}))
       ->option_text("sigs|aot");
-  command.add_option("--min-track-length", options.aot.min_track_length, "aot: a track counts from this report on")
+  command
+      .add_option("--min-track-length", options.aot.min_track_length,
+                  "aot: a track counts from its N-th frame on, gaps included")
       ->type_name("N")
       ->check(from_to(0, 1e6));
   for (const auto& [name, value, help] :

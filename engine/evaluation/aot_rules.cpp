@@ -24,6 +24,8 @@ constexpr double kInTime_m = 300;
 constexpr int kMaxStep = 3;  // from a row's frame to the next one's
 constexpr std::size_t kRows = 30;
 constexpr double kFlight_h = 2.0 / 60;
+constexpr double kScorePrecision = 1e-5;  // both as the published program's default
+constexpr double kRatePrecision = 1e-5;
 
 bool is_small(const AotBox& box) {
   return box.width_px * box.height_px < kGrown_px2;
@@ -126,20 +128,19 @@ class Scorer {
   }
 
  private:
-  // Tracks count from their min_track_length-th report on.
+  // Reports count from the frame on at which their track is min_track_length frames long, gaps included.
   void count_so_far() {
-    std::map<std::string, int> frames;
-    for (const AotObject& o : truth_.objects) frames.emplace(o.image, o.frame);
-    std::map<std::pair<int, int>, std::vector<std::pair<int, std::size_t>>> tracks;
+    std::unordered_map<std::string, int> frame_of_image;
+    for (const AotObject& o : truth_.objects) frame_of_image.emplace(o.image, o.frame);
+    std::map<std::pair<int, int>, std::map<int, std::vector<std::size_t>>> tracks;  // reports by frame
     for (std::size_t i = 0; i < reports_.size(); ++i)
       if (flights_[i] >= 0 && reports_[i].score >= policy_.min_score)
-        tracks[{flights_[i], reports_[i].track}].emplace_back(frames.at(reports_[i].image), i);
+        tracks[{flights_[i], reports_[i].track}][frame_of_image.at(reports_[i].image)].push_back(i);
     is_long_.assign(reports_.size(), 0);
-    for (auto& [track, rows] : tracks) {
-      std::sort(rows.begin(), rows.end());
-      for (std::size_t k = 0; k < rows.size(); ++k)
-        is_long_[rows[k].second] = static_cast<int>(k) + 1 >= policy_.min_track_length ? 1 : 0;
-    }
+    for (const auto& [track, by_frame] : tracks)
+      for (const auto& [frame, rows] : by_frame)
+        for (const std::size_t row : rows)
+          is_long_[row] = frame - by_frame.begin()->first + 1 >= policy_.min_track_length ? 1 : 0;
   }
 
   [[nodiscard]] bool counts(std::size_t report, double score) const {
@@ -159,20 +160,22 @@ class Scorer {
     return static_cast<double>(tracks.size()) / hours_;
   }
 
-  // The first score, halving the interval from the least one to 1, at which the rate is just the target; where it never
-  // is, the least one found at which it is below.
-  [[nodiscard]] Result<double> target_score(double least) const {
+  // Halves the interval from the lowest score to 1 until the rate, rounded to 5 decimals, is the target, or the
+  // interval is no longer than 1e-5: its upper end then, the lowest score found with a lower rate.
+  [[nodiscard]] Result<double> target_score(double lowest) const {
     const double target = policy_.target_fppi ? *policy_.target_fppi : *policy_.target_hfar;
-    const auto rate = [&](double score) { return policy_.target_fppi ? fppi(score) : hfar(score); };
-    if (rate(least) <= target) return least;
-    double low = least;
+    const auto rate = [&](double score) {
+      const double exact = policy_.target_fppi ? fppi(score) : hfar(score);
+      return std::round(exact / kRatePrecision) * kRatePrecision;
+    };
+    double low = lowest;
     double high = 1;
-    if (rate(std::nextafter(high, 2.0)) > target)
-      return fail("", "no score up to 1 brings the rate of false alarms down to the target");
-    for (int step = 0; step < 60; ++step) {
-      const double middle = (low + high) / 2;
+    if (rate(low) <= target) return low;
+    if (rate(high) > target) return fail("", "no score up to 1 brings the rate of false alarms down to the target");
+    while (high - low > kScorePrecision) {
+      const double middle = low + (high - low) / 2;
       const double found = rate(middle);
-      if (std::abs(found - target) <= 1e-9 * target) return middle;
+      if (std::abs(found - target) < kRatePrecision / 2) return middle;
       (found > target ? low : high) = middle;
     }
     return high;

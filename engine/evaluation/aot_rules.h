@@ -14,10 +14,11 @@ namespace sigs {
 // our own (detection_score.h).
 
 struct AotPolicy {
-  double min_score = 0;               // reports with a lower score are ignored
-  int min_track_length = 0;           // a track's reports count from its min_track_length-th on
-  std::optional<double> target_fppi;  // at most one of the two: min_score is raised until the rate is met,
-  std::optional<double> target_hfar;  // by halving the interval from the lowest score to 1
+  double min_score = 0;      // reports with a lower score are ignored
+  int min_track_length = 0;  // frames, gaps included, since its track's first report; earlier ones do not count
+  std::optional<double> target_fppi;  // at most one of the two: min_score is raised until the rate, rounded to 5
+  std::optional<double>
+      target_hfar;  // decimals, is met, by halving the interval from the lowest score to 1 down to 1e-5
 };
 
 // A true object beside a report of the same image; no report: the image has none.
