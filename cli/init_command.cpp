@@ -7,6 +7,7 @@
 
 #include "cli/options.h"
 #include "cli/process.h"
+#include "cli/progress.h"
 #include "first_project/first_project.h"
 
 namespace sigs::cli {
@@ -17,6 +18,7 @@ struct InitOptions {
   FirstProjectOptions project;
   double frame_rate_hz = 0;  // 0: not given
   double fov_deg = 0;
+  std::string progress = "auto";
 };
 
 Result<void> init(const InitOptions& options, bool has_fov) {
@@ -24,7 +26,12 @@ Result<void> init(const InitOptions& options, bool has_fov) {
   if (has_fov) project.horizontal_fov_deg = options.fov_deg;
   if (options.frame_rate_hz > 0) project.frame_rate_hz = options.frame_rate_hz;
   defer_interrupts();
-  const Result<FirstProject> made = make_first_project(project, {.progress = {}, .cancel = &interrupt_flag()});
+  Progress progress(progress_style(options.progress));
+  const auto tell = [&](int done, int total, const std::string& step) {
+    if (done > 0) progress.update(done, total, step);
+  };
+  const Result<FirstProject> made = make_first_project(project, {.progress = tell, .cancel = &interrupt_flag()});
+  progress.end();
   if (!made) return fail(made.error());
   for (const Warning& warning : made->warnings) print_warning(warning);
   for (const FirstProjectNote& note : made->notes)
@@ -63,7 +70,9 @@ Command add_init_command(CLI::App& program) {
       ->check(output_path());
   command->add_option("--name", options->project.name, "the project's name; default: that of the file")
       ->option_text("NAME");
+  command->add_flag("--plain", options->project.plain, "leave out what makes the intruder look as the footage does");
   command->add_flag("--force", options->project.overwrite, "replace files that are there already");
+  add_progress_option(*command, options->progress);
   return [options, fov] { return init(*options, fov->count() > 0); };
 }
 

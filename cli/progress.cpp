@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/progress.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -34,16 +35,19 @@ Progress::Progress(ProgressStyle style) : style_(style) {
   color_ = bar_ && std::getenv("NO_COLOR") == nullptr;
 }
 
-void Progress::update(int done, int total) {
-  const bool last = done == total;
+void Progress::update(int done, int total, const std::string& step) {
+  const bool is_due = done == total || step != step_;
+  step_ = step;
   const Clock::time_point now = Clock::now();
-  if (!last && drawn_ != Clock::time_point::min() && now - drawn_ < std::chrono::milliseconds(bar_ ? 100 : 1000))
+  if (!is_due && drawn_ != Clock::time_point::min() && now - drawn_ < std::chrono::milliseconds(bar_ ? 100 : 1000))
     return;
   drawn_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   const double left_s = elapsed_s * (total - done) / done;
   if (bar_) {
-    draw_bar(done, total, elapsed_s);
+    draw_bar(done, total, elapsed_s, step);
+  } else if (style_ == ProgressStyle::plain && !step.empty()) {
+    std::fprintf(stderr, "%d %%: %s\n", static_cast<int>(100LL * done / total), step.c_str());
   } else if (style_ == ProgressStyle::plain) {
     std::fprintf(stderr, "frame %d of %d, %s left\n", done, total, clock_text(left_s).c_str());
   } else if (style_ == ProgressStyle::json) {
@@ -52,16 +56,18 @@ void Progress::update(int done, int total) {
   }
 }
 
-void Progress::draw_bar(int done, int total, double elapsed_s) {
+void Progress::draw_bar(int done, int total, double elapsed_s, const std::string& step) {
   const int filled = static_cast<int>(static_cast<long long>(kBarWidth) * done / total);
   std::string full;
   for (int i = 0; i < filled; ++i) full += "█";
   std::string rest;
   for (int i = filled; i < kBarWidth; ++i) rest += "░";
   const double left_s = elapsed_s * (total - done) / done;
-  std::fprintf(stderr, "\r%s%s%s%s %3d%%  %d/%d frames  %.1f/s  %s left\033[K", color_ ? "\033[36m" : "", full.c_str(),
-               rest.c_str(), color_ ? "\033[0m" : "", static_cast<int>(100LL * done / total), done, total,
-               done / std::max(elapsed_s, 1e-3), clock_text(left_s).c_str());
+  const std::string what =
+      step.empty() ? fmt::format("{}/{} frames  {:.1f}/s", done, total, done / std::max(elapsed_s, 1e-3)) : step;
+  std::fprintf(stderr, "\r%s%s%s%s %3d%%  %s  %s left\033[K", color_ ? "\033[36m" : "", full.c_str(), rest.c_str(),
+               color_ ? "\033[0m" : "", static_cast<int>(100LL * done / total), what.c_str(),
+               clock_text(left_s).c_str());
   std::fflush(stderr);
   line_open_ = true;
 }

@@ -19,6 +19,18 @@ constexpr std::string_view kTuning[] = {"V_AIRPLANE_001",   "V_AIRPLANE_004",   
                                         "V_AIRPLANE_027",   "V_AIRPLANE_034",   "V_AIRPLANE_037",  "V_HELICOPTER_008",
                                         "V_HELICOPTER_013", "V_HELICOPTER_024", "V_HELICOPTER_025"};
 
+// Clips of a kind in a run of five numbers (001 to 005, 006 to 010, ...) often show the same sky on the same day:
+// "V_AIRPLANE_004" and "V_AIRPLANE_001" are "V_AIRPLANE_ 0".
+std::string run_of(std::string_view name) {
+  const std::size_t digits = name.rfind('_') + 1;
+  return std::string(name.substr(0, digits)) + " " + std::to_string((std::stoi(std::string(name.substr(digits))) - 1) / 5);
+}
+
+bool is_like_tuning(std::string_view name) {
+  return std::any_of(std::begin(kTuning), std::end(kTuning),
+                     [&](std::string_view tuning) { return run_of(tuning) == run_of(name); });
+}
+
 }  // namespace
 
 std::vector<RealClip> real_clips() {
@@ -27,6 +39,9 @@ std::vector<RealClip> real_clips() {
   for (const auto& entry : fs::directory_iterator(fs::path(SIGS_TEST_DATA) / "track", ignored)) {
     if (entry.path().extension() != ".mp4") continue;
     const std::string name = entry.path().stem().string();
+    if (!name.starts_with("V_AIRPLANE_") && !name.starts_with("V_HELICOPTER_")) continue;  // birds and drones
+    const bool is_tuning = std::find(std::begin(kTuning), std::end(kTuning), name) != std::end(kTuning);
+    if (!is_tuning && is_like_tuning(name)) continue;  // neither tuned by nor apart
     const fs::path csv = entry.path().parent_path() / (name + "_gt.csv");
     if (!fs::exists(csv)) continue;
     const auto boxes = read_target_boxes(csv);
@@ -34,7 +49,7 @@ std::vector<RealClip> real_clips() {
     clips.push_back({.name = name,
                      .path = entry.path(),
                      .is_helicopter = name.find("HELICOPTER") != std::string::npos,
-                     .is_tuning = std::find(std::begin(kTuning), std::end(kTuning), name) != std::end(kTuning),
+                     .is_tuning = is_tuning,
                      .boxes = *boxes});
   }
   std::sort(clips.begin(), clips.end(), [](const RealClip& a, const RealClip& b) { return a.name < b.name; });

@@ -28,19 +28,29 @@ void apply_members(const Json& json, const std::string& key, Project& project) {
   }
 }
 
-void apply_file(const std::filesystem::path& file, Project& project) {
+Json json_of(const std::filesystem::path& from, const std::string& clip) {
+  const std::filesystem::path file = std::filesystem::is_directory(from) ? from / (clip + ".json") : from;
   const Result<std::string> text = read_text(file, kProjectLimit_bytes);
   if (!text) accuracy::stop(text.error().text());
-  const Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_project);
+  Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_project);
   if (!json) accuracy::stop(json.error().text());
-  apply_members(*json, "", project);
+  return *std::move(json);
 }
 
 }  // namespace
 
 void apply(const LookSettings& settings, const std::string& clip, Project& project) {
-  for (const std::filesystem::path& from : settings.from)
-    apply_file(std::filesystem::is_directory(from) ? from / (clip + ".json") : from, project);
+  for (const std::filesystem::path& from : settings.from) apply_members(json_of(from, clip), "", project);
+}
+
+bool shakes_in(const LookSettings& settings, const std::string& clip) {
+  for (const std::filesystem::path& from : settings.from) {
+    const Json json = json_of(from, clip);
+    if (!json.contains("intruders")) continue;
+    const Json::json_pointer track("/camera/track/file");
+    return json.contains(track) && json.at(track).is_string() && !json.at(track).get<std::string>().empty();
+  }
+  return settings.shakes;
 }
 
 }  // namespace sigs::bench

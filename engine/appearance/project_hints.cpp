@@ -18,6 +18,7 @@ namespace {
 struct KnownCamera {
   Scene scene;
   bool has_calibration = false;
+  bool has_height = true;
   cv::Mat own_body;  // CV_8UC1
 };
 
@@ -26,11 +27,26 @@ View view_at(const KnownCamera& known, int frame) {
   const Pose<frame::World, frame::Camera> pose = camera_at(known.scene.motion, time_s);
   View view{.camera = known.has_calibration ? &known.scene.camera : nullptr, .own_body = known.own_body};
   if (known.scene.horizon_is_known) view.world_from_camera = pose.rotation;
-  if (pose.translation_m.z < 0) view.height_m = -pose.translation_m.z;  // the ground is the world's plane z = 0
+  if (known.has_height && pose.translation_m.z < 0) view.height_m = -pose.translation_m.z;  // the ground is the world's plane z = 0
   return view;
 }
 
+AppearanceHints hints_by(std::shared_ptr<KnownCamera> known) {
+  AppearanceHints hints{.view = [known](int frame) { return view_at(*known, frame); }};
+  known->scene.light = {};  // the direction that the project states must not stand for the computed one
+  if (known->scene.earth && known->scene.utc_at_frame_0_s)
+    hints.to_sun_in_world = [known](int frame) {
+      return sunlight_at(known->scene, time_of_frame_s(known->scene.footage, frame)).to_sun;
+    };
+  return hints;
+}
+
 }  // namespace
+
+AppearanceHints hints_of(const Scene& scene) {
+  return hints_by(std::make_shared<KnownCamera>(
+      KnownCamera{.scene = scene, .has_calibration = true, .has_height = false}));
+}
 
 Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage,
                                  const std::function<void(const Warning&)>& warn) {
@@ -53,13 +69,7 @@ Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footag
   if (!own_body) return failed(own_body.error());
   if (!own_body->empty()) own_body->convertTo(known->own_body, CV_8U, 255);
   for (const Warning& warning : scene.warnings) warn(warning);
-  AppearanceHints hints{.view = [known](int frame) { return view_at(*known, frame); }};
-  scene.light = {};  // the direction that the project states must not stand for the computed one
-  if (scene.earth && scene.utc_at_frame_0_s)
-    hints.to_sun_in_world = [known](int frame) {
-      return sunlight_at(known->scene, time_of_frame_s(known->scene.footage, frame)).to_sun;
-    };
-  return hints;
+  return hints_by(known);
 }
 
 }  // namespace sigs

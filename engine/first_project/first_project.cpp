@@ -17,6 +17,7 @@
 #include "first_project/first_flight.h"
 #include "first_project/first_log.h"
 #include "first_project/first_look.h"
+#include "first_project/first_match.h"
 #include "first_project/first_model.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
@@ -31,6 +32,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLongestSpan_s = 60;  // an encounter lasts about that long
+
+// How far the making is when a step begins, by its run time of a clip of 10 s.
+constexpr int kLogStep_percent = 5, kLookStep_percent = 10, kMatchStep_percent = 25, kIntruderStep_percent = 95;
 
 // A path as the project names it: relative to its folder, so that both can be moved together.
 std::string relative_to(const fs::path& file, const fs::path& project_file) {
@@ -93,9 +97,9 @@ class Planning {
 
   Result<FirstProject> planned() {
     if (const Result<void> sound = check_options(options_); !sound) return fail(sound.error());
-    step("reading the video");
+    step(0, "reading the video");
     Result<FrameSource> source =
-        FrameSource::open(options_.video, control_.cancel, Quantisers::leave_out,
+        FrameSource::open(options_.video, control_.cancel, options_.plain ? Quantisers::leave_out : Quantisers::read,
                           {.frame_rate_hz = options_.frame_rate_hz.value_or(0), .times_file = {}});
     if (const Result<void> on = check_interrupt(control_.cancel); !on) return fail(on.error());
     if (!source) return fail(source.error());
@@ -105,17 +109,16 @@ class Planning {
     if (const Result<void> done = set_camera(info); !done) return fail(done.error());
     if (const Result<void> done = look(*source); !done) return fail(done.error());
     if (const Result<void> done = set_intruder(); !done) return fail(done.error());
-    step("");
+    if (const Result<void> on = check_interrupt(control_.cancel); !on) return fail(on.error());
+    step(100, "");
     first_.warnings.insert(first_.warnings.begin(), info.warnings.begin(), info.warnings.end());
     add_notes_file();
     return std::move(first_);
   }
 
  private:
-  void step(const std::string& next) {
-    constexpr int kSteps = 4;
-    if (control_.progress) control_.progress(steps_done_, kSteps, next);
-    ++steps_done_;
+  void step(int done_percent, const std::string& next) {
+    if (control_.progress) control_.progress(done_percent, 100, next);
   }
 
   Project& project() { return first_.project; }
@@ -145,7 +148,7 @@ class Planning {
   }
 
   Result<void> set_camera(const VideoInfo& info) {
-    step("reading the flight log");
+    step(kLogStep_percent, "reading the flight log");
     Result<FirstLog> log = log_of_video(options_.video, control_.cancel);
     if (!log) return fail(log.error());
     log_ = *std::move(log);
@@ -180,7 +183,7 @@ class Planning {
   }
 
   Result<void> look(FrameSource& source) {
-    step("looking at the footage");
+    step(kLookStep_percent, "looking at the footage");
     const Result<FirstLook> look = first_look(source, scene(), control_.cancel);
     if (!look) return fail(look.error());
     if (look->roll_rad) {
@@ -198,12 +201,28 @@ class Planning {
             .text = "not known: no horizon was found in the footage; the camera counts as level",
             .is_guess = true});
     }
-    note(set_light(*look, project()));
+    return match(source, *look);
+  }
+
+  Result<void> match(FrameSource& source, const FirstLook& look) {
+    if (options_.plain) {
+      note(set_light(look, project()));
+      return {};
+    }
+    constexpr const char* kStep = "matching the footage's appearance";
+    step(kMatchStep_percent, kStep);
+    const auto tell = [&](double share) {
+      step(kMatchStep_percent + static_cast<int>(share * (kIntruderStep_percent - kMatchStep_percent)), kStep);
+    };
+    const Result<std::vector<FirstProjectNote>> found =
+        match_appearance(source, scene(), project(), {.progress = tell, .cancel = control_.cancel});
+    if (!found) return fail(found.error());
+    for (const FirstProjectNote& one : *found) note(one);
     return {};
   }
 
   Result<void> set_intruder() {
-    step("placing the intruder");
+    step(kIntruderStep_percent, "placing the intruder");
     SceneFiles files;
     Result<FirstModel> model = is_sample() ? sample_model(options_.model, files) : users_model(options_.model, files);
     if (!model) return fail(model.error());
@@ -256,7 +275,6 @@ class Planning {
   FrameRange range_;
   FirstLog log_;
   std::optional<Camera> camera_;
-  int steps_done_ = 0;
 };
 
 }  // namespace

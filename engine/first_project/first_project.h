@@ -18,7 +18,8 @@ namespace sigs {
 //
 // What is not given is taken from the footage where the file tells it (field of view, flight log), else guessed, and
 // every guess is listed. The camera is a calibration beside the project; one intruder flies in view during most of the
-// frames used, 20 to 60 px wide at its closest; the light is found in a few frames.
+// frames used, 20 to 60 px wide at its closest. It looks as the footage's camera shows things: light, blur, noise, haze
+// and compression are those that `sigs appearance` finds in it.
 
 struct FirstProjectOptions {
   std::filesystem::path video;
@@ -29,10 +30,11 @@ struct FirstProjectOptions {
   std::filesystem::path out;    // the project file; empty: NAME/NAME.json in the current folder, of images NAME-project/NAME.json
   std::string name;             // empty: the project file's or else the video's name without extension, of images their folder's
   bool overwrite = false;       // whether files of these names are replaced
+  bool plain = false;           // appearance stays at the defaults; else it is matched to the footage
 };
 
 struct FirstProjectControl {
-  // done of total steps, and what is done next: "reading the video"; called on the calling thread. May be empty.
+  // done of total, and what is done next: "reading the video"; called on the calling thread. May be empty.
   std::function<void(int done, int total, const std::string& step)> progress;
   const std::atomic<bool>* cancel = nullptr;  // set to true: ends soon with the error `interrupted`; may be null
 };
@@ -59,7 +61,8 @@ struct FirstProject {
   std::vector<Warning> warnings;        // of the files that were read
 };
 
-// Plans the project; nothing is written. Reads the video's index, its log and at most 7 of its frames.
+// Plans the project; nothing is written. Reads the video's index, its log and, of the frames used, at most 7, and 48 more
+// where it is matched to them.
 // Errors: usage (options that contradict each other), cannot_read, bad_data (a calibration for another shape of
 // images, which names both; a model without a size), interrupted.
 [[nodiscard]] Result<FirstProject> planned_first_project(const FirstProjectOptions& options,

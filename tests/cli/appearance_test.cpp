@@ -91,3 +91,24 @@ TEST_CASE("a wrong request of appearance is refused and nothing is written") {
   CHECK(run_sigs("appearance " + (folder / "text.mp4").string() + " --plot " + png).status != 0);
   CHECK_FALSE(std::filesystem::exists(png));
 }
+
+TEST_CASE("init writes the appearance and light that appearance --into writes; --plain leaves them out") {
+  if (!has_real_data()) return;
+  // Without a horizon, so that neither takes a height or an attitude from the project.
+  const std::string video = (real_data() / "track/V_AIRPLANE_004.mp4").string();
+  const TemporaryFolder folder;
+  const std::string project = (folder / "p.json").string();
+  const Run made = run_sigs("init " + video + " --progress plain --out " + project);
+  REQUIRE_MESSAGE(made.status == 0, made.err);
+  CHECK_MESSAGE(has(made.err, "%: matching the footage's appearance"), made.err);
+  const nlohmann::json first = json_of(project);
+  CHECK(first["appearance"]["codec"]["match"] == "footage");
+  const std::string plain = (folder / "plain.json").string();
+  REQUIRE(run_sigs("init " + video + " --plain --out " + plain).status == 0);
+  CHECK(json_of(plain)["appearance"]["codec"]["match"] == "none");
+  REQUIRE(run_sigs("appearance " + plain + " --into " + plain).status == 0);
+  const nlohmann::json later = json_of(plain);
+  CHECK(first["appearance"] == later["appearance"]);
+  CHECK(first["compositing"] == later["compositing"]);
+  CHECK(first["light"] == later["light"]);
+}

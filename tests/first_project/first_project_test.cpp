@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
 
 #include "base/paths.h"
 #include "first_project/first_project.h"
@@ -53,6 +57,30 @@ bool notes_guess(const FirstProject& made, const std::string& field) {
   for (const FirstProjectNote& note : made.notes)
     if (note.field == field) return note.is_guess;
   return false;
+}
+
+const FirstProjectNote& note_on(const FirstProject& made, const std::string& field) {
+  for (const FirstProjectNote& note : made.notes)
+    if (note.field == field) return note;
+  FAIL("no note on " << field);
+  std::abort();
+}
+
+// Grey images of a slope of brightness with white noise of a known standard deviation, in code values.
+fs::path noisy_images(const test::TemporaryFolder& folder, double sd) {
+  const fs::path images = folder / "noisy";
+  fs::create_directory(images);
+  cv::RNG random(7);
+  for (int n = 0; n < 12; ++n) {
+    cv::Mat1f image(240, 320), noise(240, 320);
+    random.fill(noise, cv::RNG::NORMAL, 0, sd);
+    for (int y = 0; y < image.rows; ++y)
+      for (int x = 0; x < image.cols; ++x) image(y, x) = 60 + 0.4F * static_cast<float>(x) + noise(y, x);
+    cv::Mat codes;
+    image.convertTo(codes, CV_8U);
+    cv::imwrite((images / fmt::format("{:03}.png", n)).string(), codes);
+  }
+  return images;
 }
 
 }  // namespace
@@ -201,4 +229,61 @@ TEST_CASE("images give the project their folder's name, and leave their folder a
     fs::remove_all(folder / "flight-project");
   }
   fs::current_path(before);
+}
+
+TEST_CASE("the intruder of a first project has the footage's noise; a plain one has none") {
+  const test::TemporaryFolder folder;
+  const double sd = 4;
+  FirstProjectOptions options{.video = noisy_images(folder, sd), .frame_rate_hz = 25, .out = folder / "p.json"};
+  const FirstProject made = made_and_opened(options);
+  // 10 % is what the estimate of noise promises between 0.2 and 0.8 of the brightness (docs/appearance.md).
+  const GrainSettings& grain = made.project.appearance.grain;
+  CHECK(0.5 * (grain.sd_dark + grain.sd_bright) == doctest::Approx(sd).epsilon(0.1));
+  CHECK_FALSE(note_on(made, "appearance.grain").is_guess);
+  CHECK(made.project.appearance.codec.match == CodecMatchChoice::none);  // PNG keeps every sample
+  CHECK(made.project.compositing.blur_px_per_m == 0);
+  // What the footage does not tell is at its default, and said.
+  CHECK(note_on(made, "appearance.point_spread_px").is_guess);
+  CHECK(note_on(made, "appearance.haze.visibility_m").is_guess);
+  CHECK_FALSE(made.project.appearance.haze.visibility_m);
+
+  options.plain = true;
+  options.overwrite = true;
+  const FirstProject plain = made_and_opened(options);
+  CHECK(plain.project.appearance == AppearanceSettings{});
+  CHECK(plain.project.compositing == CompositingSettings{});
+}
+
+TEST_CASE("the intruder of a first project goes through the footage's codec, and is gray in gray footage") {
+  const test::TemporaryFolder folder;
+  const fs::path gray = made_clip(folder, "s=320x240:r=25:d=1", "-vf hue=s=0 -c:v libx264 -pix_fmt yuv420p");
+  const FirstProject made = made_and_opened({.video = gray, .out = folder / "p.json"});
+  CHECK(made.project.appearance.codec.match == CodecMatchChoice::footage);
+  CHECK(made.project.appearance.codec.carried_frames > 0);
+  CHECK(made.project.appearance.saturation == 0);
+  CHECK_FALSE(note_on(made, "appearance.saturation").is_guess);
+}
+
+TEST_CASE("making a first project tells its progress, and ends soon where it is stopped on the way") {
+  const test::TemporaryFolder folder;
+  std::vector<std::string> steps;
+  int before = -1;
+  const auto follow = [&](int done, int total, const std::string& step) {
+    CHECK(done >= std::exchange(before, done));
+    CHECK(done <= total);
+    if (steps.empty() || steps.back() != step) steps.push_back(step);
+  };
+  const FirstProjectOptions options{.video = sample_video(), .out = folder / "p.json"};
+  REQUIRE(planned_first_project(options, {.progress = follow}));
+  CHECK(before == 100);
+  REQUIRE(steps.size() > 4);
+  for (const std::string& step : steps) {
+    if (step.empty()) continue;  // nothing is next
+    std::atomic<bool> stop = false;
+    const auto stop_at_step = [&](int /*done*/, int /*total*/, const std::string& now) { stop = stop || now == step; };
+    const Result<FirstProject> made = make_first_project(options, {.progress = stop_at_step, .cancel = &stop});
+    REQUIRE_FALSE(made);
+    CHECK_MESSAGE(made.error().kind == ErrorKind::interrupted, step);
+    CHECK_FALSE(fs::exists(folder / "p.json"));
+  }
 }

@@ -234,6 +234,14 @@ void NewProjectDialog::draw_aircraft(const ViewContext& context) {
   draw_problem(context, FormRow::aircraft);
 }
 
+void NewProjectDialog::draw_look(const ViewContext& context) {
+  begin_group();
+  begin_setting("Look", "How the camera shows the aircraft");
+  if (ImGui::Checkbox("Match the footage", &form_.matches_footage)) changed();
+  context.ui_probe.note_item("new project/match the footage");
+  tooltip_for_item("Light, blur, noise, haze and compression as the footage shows them; takes some seconds");
+}
+
 void NewProjectDialog::draw_file(const ViewContext& context) {
   begin_group();
   begin_setting("Save as", "The project file; what the project needs beside it goes into the same folder");
@@ -271,6 +279,7 @@ void NewProjectDialog::draw_rows(const ViewContext& context, const FirstProjectS
     draw_video(context);
     draw_lens(context);
     draw_aircraft(context);
+    draw_look(context);
     draw_file(context);
     ImGui::EndTable();
   }

@@ -57,6 +57,7 @@ class NewProjectDialog {
   void draw_calibration(const ViewContext& context);
   void draw_aircraft(const ViewContext& context);
   void draw_model_file(const ViewContext& context);
+  void draw_look(const ViewContext& context);
   void draw_file(const ViewContext& context);
   // What is wrong with a row, below it.
   void draw_problem(const ViewContext& context, FormRow row) const;

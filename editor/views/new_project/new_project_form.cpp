@@ -165,7 +165,8 @@ std::optional<FormProblem> problem_of(const NewProjectForm& form) {
 }
 
 FirstProjectOptions options_of(const NewProjectForm& form, const std::vector<SampleModel>& samples) {
-  FirstProjectOptions options{.video = typed_path(form.video), .out = typed_path(form.file)};
+  FirstProjectOptions options{
+      .video = typed_path(form.video), .out = typed_path(form.file), .plain = !form.matches_footage};
   if (form.lens == LensChoice::field_of_view) options.horizontal_fov_deg = typed_number(form.fov_deg);
   if (form.lens == LensChoice::calibration) options.calibration = typed_path(form.calibration);
   if (!form.sample)

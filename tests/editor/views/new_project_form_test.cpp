@@ -47,6 +47,7 @@ TEST_CASE("a video alone is enough: its lens is guessed, and the project lies be
   CHECK_FALSE(options.horizontal_fov_deg);
   CHECK(options.model.empty());  // the sample light aircraft
   CHECK_FALSE(options.overwrite);
+  CHECK_FALSE(options.plain);
 }
 
 TEST_CASE("the project proposed for a video is never one that is there, and lies where it can be written") {
@@ -127,6 +128,8 @@ TEST_CASE("the lens and the aircraft that were chosen are those that are asked f
   CHECK(fs::is_regular_file(samples[1].file));
   d.form.sample.reset();
   CHECK(options_of(d.form, samples).model == "/models/jet.obj");
+  d.form.matches_footage = false;
+  CHECK(options_of(d.form, samples).plain);
 }
 
 TEST_CASE("a file dropped onto the dialog goes into the row of its kind; others say why they do not") {
