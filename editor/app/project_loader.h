@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 
 #include "base/result.h"
+#include "editor/document/content_id.h"
 #include "project/json.h"
 
 namespace sigs::editor {
@@ -15,6 +15,7 @@ namespace sigs::editor {
 // A project file that was asked for: the project, or why it could not be read.
 struct LoadedProject {
   std::filesystem::path path;
+  FileStamp as_read;  // from before it was read: what is written meanwhile counts as a change
   Result<ReadProject> read;
 };
 
@@ -38,32 +39,6 @@ class ProjectLoader {
   std::function<void()> wake_;
   // Shared with the thread that reads; null: nothing is asked for.
   std::shared_ptr<Pending> pending_;
-};
-
-// Notices that another program has written the project's file since it was last read or saved here. Looks at the disk
-// in the calls alone.
-class DiskChange {
- public:
-  // To be called right after reading or saving. "": there is no file.
-  void remember(const std::filesystem::path& file);
-
-  // Whether the file's size or time differs from what was remembered. A file that is gone counts as unchanged: there is
-  // nobody's work to lose.
-  [[nodiscard]] bool changed() const;
-
- private:
-  // A file by size and time; equal for all files that are not there.
-  struct State {
-    bool is_there = false;
-    std::uintmax_t bytes = 0;
-    std::filesystem::file_time_type time;
-
-    [[nodiscard]] bool operator==(const State&) const = default;
-  };
-  [[nodiscard]] static State state_of(const std::filesystem::path& file);
-
-  std::filesystem::path file_;
-  State known_;
 };
 
 }  // namespace sigs::editor

@@ -191,11 +191,10 @@ void ProjectSession::open(const fs::path& path) {
   loader_.start(path);
 }
 
-void ProjectSession::show(Project project) {
+void ProjectSession::show(Project project, std::optional<FileStamp> as_read) {
   recovery_.forget();
   requests_.emplace_back(ClearMessages{});
-  document_ = Document(std::move(project), document_.last_number() + 1);
-  disk_.remember(document_.project().file);
+  document_ = Document(std::move(project), document_.last_number() + 1, std::move(as_read));
   has_project_ = true;
 }
 
@@ -222,7 +221,7 @@ void ProjectSession::take_loaded() {
     leave_then([this, path = loaded->path] { open(path); });
     return;
   }
-  show(std::move(loaded->read->project));
+  show(std::move(loaded->read->project), std::move(loaded->as_read));
   remember_project(settings_, loaded->path);
   for (const Warning& warning : loaded->read->warnings) show_message(warning.text());
   if (const std::size_t missing = missing_files(document_.project()).size(); missing > 0)
@@ -237,7 +236,7 @@ void ProjectSession::save_then(Step next) {
     save_as_then({}, std::move(next));
     return;
   }
-  if (!disk_.changed()) {
+  if (!document_.file_has_changed()) {
     write_then(file, next);
     return;
   }
@@ -280,7 +279,6 @@ void ProjectSession::write_then(const fs::path& path, const Step& next) {
     show_message(saved.error().text() + "; nothing was saved", true);
     return;
   }
-  disk_.remember(place);
   keep_mask_after_saving();
   remember_project(settings_, place);
   show_message("Saved " + place.filename().string());
@@ -303,9 +301,8 @@ void ProjectSession::show_recovered(const AbandonedProject& abandoned) {
     return;
   }
   std::erase_if(abandoned_, [&](const auto& other) { return other.recovery_file == abandoned.recovery_file; });
-  document_ = Document(std::move(taken->read.project), document_.last_number() + 1);
+  document_ = Document(std::move(taken->read.project), document_.last_number() + 1, std::move(taken->as_read));
   document_.mark_unsaved();
-  disk_.remember(document_.project().file);
   has_project_ = true;
   recovered_mask_ = std::move(taken->mask);
   if (!taken->mask_problem.empty()) show_message("The own-body mask is lost: " + taken->mask_problem, true);

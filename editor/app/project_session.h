@@ -112,8 +112,8 @@ class ProjectSession {
   [[nodiscard]] std::uint64_t unsaved_mask() const;
   void quit();
   void open(const std::filesystem::path& path);
-  // Makes a project the document, without a question.
-  void show(Project project);
+  // Makes a project the document, without a question. as_read: see Document.
+  void show(Project project, std::optional<FileStamp> as_read = {});
   void close();
   // Under its name, else under one that is asked for. `next` is called only if it was written.
   void save_then(Step next);
@@ -131,8 +131,6 @@ class ProjectSession {
   Environment environment_;
   ProjectLoader loader_;
   Recovery recovery_;
-  // Notices that another program has written the project's file.
-  DiskChange disk_;
   std::vector<AbandonedProject> abandoned_;
   std::optional<RecoveredMask> recovered_mask_;
   std::optional<Question> question_;

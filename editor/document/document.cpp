@@ -82,6 +82,10 @@ bool finite(const Project& project) {
                      [](const IntruderSettings& intruder) { return finite(intruder); });
 }
 
+FileStamp stamp_of_file(const Project& project) {
+  return stamp_of(project.file.empty() ? project.file : std::filesystem::absolute(project.file));
+}
+
 std::size_t waypoints_in(const Project& project) {
   std::size_t count = 1;
   for (const IntruderSettings& intruder : project.intruders) count += intruder.trajectory.waypoints.size();
@@ -102,11 +106,12 @@ void Edits::move_waypoint(int intruder, int waypoint, const glm::dvec3& position
 
 Document::Document() : Document(Project()) {}
 
-Document::Document(Project project, std::uint64_t first_number)
+Document::Document(Project project, std::uint64_t first_number, std::optional<FileStamp> as_read)
     : revision_{first_number, std::make_shared<const Project>(std::move(project))},
       first_number_(first_number),
       last_number_(first_number),
-      saved_number_(first_number) {
+      saved_number_(first_number),
+      file_stamp_(as_read ? std::move(*as_read) : stamp_of_file(this->project())) {
   playhead_ = first_frame();
 }
 
@@ -173,6 +178,7 @@ void Document::change(const ChangeProject& change) {
   } catch (const std::exception&) {
     return;
   }
+  changed.file = project().file;
   if (!finite(changed) || changed == project()) return;
   keep_places(project(), changed);
   if (!finite(changed) || changed == project()) return;
@@ -213,7 +219,7 @@ void Document::step_back() {
   if (past_.empty()) return;
   Step step = std::move(past_.back());
   past_.pop_back();
-  future_.push_back({step.name, std::exchange(revision_, step.before), std::exchange(selection_, step.selection)});
+  future_.push_back(exchanged(std::move(step)));
 }
 
 void Document::step_forward() {
@@ -221,7 +227,17 @@ void Document::step_forward() {
   if (future_.empty()) return;
   Step step = std::move(future_.back());
   future_.pop_back();
-  past_.push_back({step.name, std::exchange(revision_, step.before), std::exchange(selection_, step.selection)});
+  past_.push_back(exchanged(std::move(step)));
+}
+
+// A state from before the document was saved under another name is moved there when it comes back, and not when that
+// was done: a long history would take long to move, and most of it never comes back.
+Document::Step Document::exchanged(Step step) {
+  const std::filesystem::path file = project().file;
+  if (step.before.project->file != file)
+    step.before = {++last_number_, std::make_shared<const Project>(moved_to(*step.before.project, file))};
+  return {std::move(step.name), std::exchange(revision_, std::move(step.before)),
+          std::exchange(selection_, step.selection)};
 }
 
 void Document::keep_selection_valid() {
@@ -254,8 +270,14 @@ Result<void> Document::save_as(const std::filesystem::path& path) {
   if (const Result<void> written = write_project(moved, path, true); !written) return written;
   if (moved != project()) revision_ = {++last_number_, std::make_shared<const Project>(std::move(moved))};
   saved_number_ = revision_.number;
+  file_stamp_ = stamp_of_file(project());
   end_gesture();
   return {};
+}
+
+bool Document::file_has_changed() const {
+  const FileStamp present = stamp_of(file_stamp_.path);
+  return present.exists && present != file_stamp_;
 }
 
 }  // namespace sigs::editor

@@ -209,13 +209,17 @@ struct Revision {
 // The project that is edited, its history, its selection and the playhead. It changes in apply(), which is called once
 // per update of the window's loop, after drawing, and in the other calls that are not const. Frames are indices of the
 // footage, from 0. For the window's thread; other threads work with the revision() that they were given.
+//
+// A document belongs to one file, the one that it was opened from or saved to last, which project().file names: no edit,
+// undo or redo changes that.
 class Document {
  public:
   // An empty project; file "" until it is saved.
   Document();
   // Opens a project as it was read; it counts as saved. Revisions are numbered from first_number on, so that documents
   // opened one after the other have no number in common. The playhead is at the project's first frame.
-  explicit Document(Project project, std::uint64_t first_number = 1);
+  //   as_read  the stamp of the project's file from before it was read; none: the file is looked at here
+  explicit Document(Project project, std::uint64_t first_number = 1, std::optional<FileStamp> as_read = {});
 
   [[nodiscard]] const Project& project() const { return *revision_.project; }
   // The present state; keep a copy, not the reference.
@@ -258,15 +262,21 @@ class Document {
   [[nodiscard]] bool has_unsaved_changes() const { return revision_.number != saved_number_; }
   [[nodiscard]] bool has_file() const { return !project().file.empty(); }
 
+  // The file that save() writes, as it was when it was last read or saved here; its path is absolute.
+  [[nodiscard]] const FileStamp& file_stamp() const { return file_stamp_; }
+  // Whether that file has another size or time since, so that saving would lose what another program wrote. A file
+  // that is gone counts as unchanged: nobody's work lies there. Asks the file system.
+  [[nodiscard]] bool file_has_changed() const;
+
   // Applies an edit. A change that leaves the project as it was makes no step of undo. A change that throws, or that
   // leaves a number in the project that is not finite, is refused as a whole. Waypoints that are places on the Earth
   // have place and position_m in step afterwards (project/places.h).
   void apply(const Edit& edit);
   void apply(const std::vector<Edit>& edits);
 
-  // Writes the project to its own file, or to another path; it belongs there from then on, and its relative paths are
-  // rewritten to mean the same files. A file that is there is replaced at once by the complete one. Errors:
-  // cannot_create (without a file name too), write_failed; then nothing has changed.
+  // Writes the project to its own file, or to another path; it belongs there from then on, with all that can be undone
+  // and redone, and its relative paths are rewritten to mean the same files. A file that is there is replaced at once by
+  // the complete one. Errors: cannot_create (without a file name too), write_failed; then nothing has changed.
   [[nodiscard]] Result<void> save();
   [[nodiscard]] Result<void> save_as(const std::filesystem::path& path);
 
@@ -274,7 +284,8 @@ class Document {
   void mark_unsaved() { saved_number_ = 0; }
 
  private:
-  // What an undo step goes back to. In future_ the same is what redo goes on to.
+  // What an undo step goes back to. In future_ the same is what redo goes on to. The state names the file that the
+  // document belonged to when it arose.
   struct Step {
     std::string name;
     Revision before;
@@ -289,6 +300,8 @@ class Document {
   void forget_oldest();
   void step_back();
   void step_forward();
+  // Makes the state of a step the present one, as a state of the document's file, and returns the step that leads back.
+  Step exchanged(Step step);
   // After every edit: indices and frames that no longer exist become the nearest that do.
   void keep_selection_valid();
   void keep_playhead_valid();
@@ -298,6 +311,7 @@ class Document {
   std::uint64_t last_number_;
   // Number of the state that lies in the file; 0: what is in memory was never written.
   std::uint64_t saved_number_;
+  FileStamp file_stamp_;
   std::vector<Step> past_;
   std::vector<Step> future_;
   // Of the last step, while it lasts; "": none.

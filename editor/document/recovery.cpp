@@ -66,11 +66,32 @@ bool is_abandoned(const fs::path& recovery_file) {
   return process && ::kill(*process, 0) != 0 && errno == ESRCH;
 }
 
-std::string text_of_recovery(const Project& project, const fs::path& mask_file, bool mask_has_strokes) {
+// A file that is not there has neither size nor time.
+Json json_of(const FileStamp& stamp) {
+  if (!stamp.exists) return Json::object();
+  return {{"bytes", stamp.bytes}, {"changed_ns", stamp.changed.time_since_epoch() / std::chrono::nanoseconds(1)}};
+}
+
+std::optional<FileStamp> stamp_from(const Json& json, const fs::path& path) {
+  if (!json.is_object()) return std::nullopt;
+  FileStamp stamp{.path = path};
+  const auto bytes = json.find("bytes");
+  const auto changed = json.find("changed_ns");
+  if (bytes == json.end() || changed == json.end() || !bytes->is_number_unsigned() || !changed->is_number_integer())
+    return stamp;
+  stamp.bytes = bytes->get<std::uintmax_t>();
+  stamp.changed = fs::file_time_type(std::chrono::nanoseconds(changed->get<std::int64_t>()));
+  stamp.exists = true;
+  return stamp;
+}
+
+std::string text_of_recovery(const Document& document, const fs::path& mask_file, bool mask_has_strokes) {
+  const Project& project = document.project();
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   Json json;
   json["sigs_recovery"] = kFormat;
   json["file"] = project.file.empty() ? std::string() : fs::absolute(project.file).lexically_normal().string();
+  json["file_as_read"] = json_of(document.file_stamp());
   json["name"] = project.name;
   json["written_unix_s"] = std::chrono::duration_cast<std::chrono::seconds>(now).count();
   if (!mask_file.empty()) {
@@ -86,6 +107,7 @@ struct RecoveryContent {
   std::string project;
   fs::path mask_file;  // "": none
   bool mask_has_strokes = false;
+  std::optional<FileStamp> as_read;
 };
 
 Result<RecoveryContent> read_recovery(const fs::path& file) {
@@ -103,6 +125,8 @@ Result<RecoveryContent> read_recovery(const fs::path& file) {
                           text_at("project")};
   if (const auto time = json.find("written_unix_s"); time != json.end() && time->is_number_integer())
     content.head.written_unix_s = time->get<std::int64_t>();
+  if (const auto stamp = json.find("file_as_read"); stamp != json.end())
+    content.as_read = stamp_from(*stamp, content.head.project_file);
   // Beside the file, wherever a name that was tampered with may point.
   if (const fs::path mask = fs::path(text_at("mask")).filename(); !mask.empty())
     content.mask_file = file.parent_path() / mask;
@@ -178,7 +202,7 @@ Result<void> Recovery::write(const Document& document, const MaskToKeep& mask) {
   if (const Result<void> held = hold_lock(); !held) return held;
   if (const Result<void> done = write_mask_of(mask); !done) return done;
   const fs::path mask_file = mask.state != 0 ? mask_of(file_) : fs::path();
-  const std::string text = text_of_recovery(document.project(), mask_file, mask.has_strokes);
+  const std::string text = text_of_recovery(document, mask_file, mask.has_strokes);
   if (const Result<void> done = write_text(file_, text, true); !done) return done;
   remove_mask_other_than(mask_file);
   written_ = true;
@@ -252,7 +276,7 @@ Result<RecoveredProject> Recovery::take_over(const AbandonedProject& abandoned) 
   written_ = true;
   kept_revision_ = kept_mask_ = 0;
   mask_file_ = content->mask_file;
-  RecoveredProject recovered{.read = std::move(*read)};
+  RecoveredProject recovered{.read = std::move(*read), .as_read = content->as_read};
   if (mask_file_.empty()) return recovered;
   Result<cv::Mat> mask = read_mask(mask_file_);
   if (mask)

@@ -48,6 +48,9 @@ struct RecoveredMask {
 // An abandoned project that was taken over.
 struct RecoveredProject {
   ReadProject read;
+  // The project's own file as that editor had read or saved it last; none: a recovery file of an older program, which
+  // does not tell.
+  std::optional<FileStamp> as_read;
   std::optional<RecoveredMask> mask;
   // Why there is no mask, where there should be one; "": all is there.
   std::string mask_problem;

@@ -3,11 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
 
+#include "base/input_file.h"
 #include "project/json.h"
 #include "support/test_data.h"
 
@@ -114,6 +116,101 @@ TEST_CASE("undo to the saved state counts as saved") {
   const Result<ReadProject> read = read_project(folder / "a.json");
   REQUIRE(read.has_value());
   CHECK(read->project == document.project());
+}
+
+TEST_CASE("a document belongs to the file that it was saved to last, whatever is undone and redone") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  Project first = with_waypoints(2);
+  first.footage.video = "clips/a.mp4";
+  REQUIRE(write_project(first, folder / "a.json", false).has_value());
+  const std::string bytes = *read_text(folder / "a.json");
+  Document document(read_project(folder / "a.json")->project);
+  document.apply(Edit(speed(1)));
+  document.apply(Edit(speed(2)));
+  document.apply(Edit(Undo{}));
+  REQUIRE(document.save_as(folder / "sub/b.json").has_value());
+  for (const Edit& edit : {Edit(Undo{}), Edit(Redo{}), Edit(Redo{}), Edit(Undo{}), Edit(Undo{})}) {
+    document.apply(edit);
+    CHECK(document.project().file == folder / "sub/b.json");
+    CHECK(document.project().footage.video == "../clips/a.mp4");
+    REQUIRE(document.save().has_value());
+    CHECK(read_project(folder / "sub/b.json")->project == document.project());
+  }
+  CHECK(document.project().camera.speed_mps == 0);
+  CHECK(*read_text(folder / "a.json") == bytes);
+}
+
+TEST_CASE("what was computed for a state is found again after the project was saved elsewhere") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  Project first = with_waypoints(2);
+  first.footage.video = "clips/a.mp4";
+  first.file = folder / "a.json";
+  Document document(first);
+  const ContentId content = document.revision().content;
+  document.apply(Edit(speed(1)));
+  REQUIRE(document.save_as(folder / "sub/b.json").has_value());
+  const std::uint64_t saved = document.revision().number;
+  document.apply(Edit(Undo{}));
+  CHECK(document.revision().content == content);
+  CHECK(document.has_unsaved_changes());
+  document.apply(Edit(Redo{}));
+  CHECK(document.revision().number == saved);
+  CHECK_FALSE(document.has_unsaved_changes());
+}
+
+TEST_CASE("no edit moves a document to another file") {
+  Project project = with_waypoints(1);
+  project.file = "/nowhere/a.json";
+  Document document(project);
+  document.apply(ChangeProject{"replace", [](Project& p) { p = Project(); }, {}});
+  CHECK(document.project().file == "/nowhere/a.json");
+  CHECK(document.project().intruders.empty());
+}
+
+TEST_CASE("another size or time of the file is a change by another program") {
+  const test::TemporaryFolder folder;
+  const auto path = folder / "p.json";
+  Document document;
+  CHECK_FALSE(document.file_has_changed());
+  REQUIRE(document.save_as(path).has_value());
+  CHECK_FALSE(document.file_has_changed());
+  const auto time = std::filesystem::last_write_time(path);
+  std::ofstream(path, std::ios::app) << "\n";
+  std::filesystem::last_write_time(path, time);
+  CHECK_MESSAGE(document.file_has_changed(), "the size alone");
+  REQUIRE(document.save().has_value());
+  CHECK_FALSE(document.file_has_changed());
+  std::filesystem::last_write_time(path, time + std::chrono::seconds(3));
+  CHECK_MESSAGE(document.file_has_changed(), "the time alone");
+}
+
+TEST_CASE("the file that counts as changed is the one that is written, after Save As and undo too") {
+  const test::TemporaryFolder folder;
+  REQUIRE(write_project(with_waypoints(2), folder / "a.json", false).has_value());
+  Document document(read_project(folder / "a.json")->project);
+  document.apply(Edit(speed(1)));
+  REQUIRE(document.save_as(folder / "b.json").has_value());
+  document.apply(Edit(Undo{}));
+  std::ofstream(folder / "a.json", std::ios::app) << "\n";
+  CHECK_FALSE(document.file_has_changed());
+  std::ofstream(folder / "b.json", std::ios::app) << "\n";
+  CHECK(document.file_has_changed());
+}
+
+TEST_CASE("a file that is gone can be saved again; one that appeared since it was read cannot be replaced") {
+  const test::TemporaryFolder folder;
+  const auto path = folder / "a.json";
+  REQUIRE(write_project(with_waypoints(2), path, false).has_value());
+  const FileStamp as_read = stamp_of(path);
+  const Project project = read_project(path)->project;
+  std::filesystem::remove(path);
+  CHECK_FALSE(Document(project, 1, as_read).file_has_changed());
+  Document gone(project);
+  test::write_file(path, "{}");
+  CHECK(gone.file_has_changed());
+  CHECK(Document(project, 1, as_read).file_has_changed());
 }
 
 TEST_CASE("a project that cannot be saved stays unsaved, and says why") {

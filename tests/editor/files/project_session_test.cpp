@@ -119,6 +119,37 @@ TEST_CASE("changes on disk by another program are not overwritten without a ques
   CHECK_FALSE(d.session.question());
 }
 
+TEST_CASE("what another program writes while a project is being read, or after a crash, is not overwritten unasked") {
+  SessionFixture d;
+  const fs::path path = d.written("a.json", "a");
+  d.session.handle(OpenProject{path});
+  d.wait_until_read(1);
+  d.written("a.json", "somebody else's, while the project waits to be shown");
+  d.wait();
+  d.edit("mine");
+  d.session.handle(SaveProject{});
+  REQUIRE(d.session.question());
+  d.session.answer(2);
+
+  d.open(d.written("b.json", "b"));
+  d.session.answer(1);
+  d.wait();
+  d.edit("mine");
+  {
+    Recovery crashed(d.folder / "state");
+    REQUIRE(crashed.write(d.document));
+  }
+  d.written("b.json", "somebody else's, after the crash");
+  const std::vector<AbandonedProject> abandoned = abandoned_projects(d.folder / "state");
+  REQUIRE(abandoned.size() == 1);
+  SessionFixture after;
+  after.session.recover(abandoned[0]);
+  CHECK(after.document.project().name == "mine");
+  after.session.handle(SaveProject{});
+  REQUIRE(after.session.question());
+  CHECK(after.session.question()->title == "Changed on disk");
+}
+
 TEST_CASE("a running export is not lost without a question") {
   SessionFixture d;
   d.exporting = true;

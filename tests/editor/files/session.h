@@ -3,9 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,12 +28,13 @@ struct SessionFixture {
   bool exporting = false;
   double now_s = 0;
   std::uint64_t unsaved_mask = 0;
+  std::shared_ptr<std::atomic<int>> files_read = std::make_shared<std::atomic<int>>(0);
   std::vector<std::function<void()>> to_save_mask;  // what goes on once its name is given
   ProjectSession session{
       document,
       settings,
       {folder / "state",
-       [] {},
+       [count = files_read] { ++*count; },
        [this] { return exporting; },
        {.unsaved = [this] { return unsaved_mask; },
         .save_then = [this](std::function<void()> next) { to_save_mask.push_back(std::move(next)); }}}};
@@ -65,6 +68,11 @@ struct SessionFixture {
       session.update(now_s);
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
+  }
+
+  // Until so many files were read in all; nothing is taken of them.
+  void wait_until_read(int count) const {
+    while (*files_read < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
   std::string errors() {
