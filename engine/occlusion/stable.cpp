@@ -57,12 +57,15 @@ constexpr Trust kSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 
 constexpr Trust kMaxSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.02};
 constexpr Trust kTrusting{.sure_reach = 5, .is_doubt_still = true, .still_near_cost = 0.12, .lone_boundary = 0.7};
 constexpr int kTrustReach = 10;  // pixels beside the borders
+constexpr int kSoftRounds =
+    16;  // of placing the borders by brightness: a boom grows out of a nose by 10 pixels in each
 
 constexpr double kStrong = 4;   // gray levels per pixel: edges of this strength hide half of the drift beside them
 constexpr int kDriftSpill = 6;  // pixels
 
 constexpr double kMaxShare = 0.85;      // of the image that a body can fill
 constexpr double kDoubtfulShare = 0.6;  // of the image that stays, though nothing in it looks like a body
+constexpr double kSoftWorld = 0.75;     // of what is not body that must move by brightness where gradients show nothing
 constexpr double kNothingPercent = 0.1;
 constexpr double kUnsureBorder = 3;  // pixels beside the border where its position is uncertain
 constexpr double kPlainWorld = 0.5;  // certainty of world that does not move
@@ -115,12 +118,17 @@ cv::Mat certainty_of_parts(const cv::Mat& odds) {
   return cv::max(2.0 / cv::Mat(1.0 + against) - 1.0, 0.0);
 }
 
-// The final border lies up to kTrustReach away from that of the parts: pixels added to a part get the part's odds.
+// The final border lies some way from that of the parts: pixels added to a part get the part's odds.
 cv::Mat odds_nearby(const cv::Mat& odds, const cv::Mat& body) {
-  cv::Mat near;
-  cv::dilate(odds, near, disc(kTrustReach));
-  odds.copyTo(near, odds > 0);
-  near.setTo(0, ~body);
+  cv::Mat near = odds.clone();
+  for (int reached = 0, before = -1; reached != before;) {
+    cv::Mat grown;
+    cv::dilate(near, grown, disc(kTrustReach));
+    near.copyTo(grown, near > 0);
+    grown.setTo(0, ~body);
+    near = grown;
+    before = std::exchange(reached, cv::countNonZero(near));
+  }
   return near;
 }
 
@@ -160,11 +168,10 @@ cv::Mat root(const cv::Mat& values) {
 }
 
 // settings: lengths in pixels of the means.
-StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanFrame>& segments,
-                               const StableOwnBodySettings& settings) {
-  StableDecision decision{.motion = motion_of(moments, settings.vibration_px)};
-  decision.boundaries = boundaries_of(decision.motion);
-  decision.drift = drifting(segments, decision.motion.ratio);
+StableDecision decision_by(const MotionEvidence& gradients, MotionEvidence motion, const cv::Mat& drift, int rounds,
+                           const StableOwnBodySettings& settings) {
+  StableDecision decision{.motion = std::move(motion), .drift = drift};
+  decision.boundaries = boundaries_of(gradients, decision.motion);
   decision.moving = cv::max(decision.motion.moving, decision.drift);
   const cv::Mat away = decision.drift.mul(away_from_edges(decision));
   const std::vector<cv::Mat> labellings = labellings_of(decision, away);
@@ -176,10 +183,33 @@ StableDecision stable_decision(const GradientMoments& moments, const std::vector
                             .middle = cv::max(decision.boundaries.ridge, decision.boundaries.motion)};
   const BodyParts parts =
       body_parts(labellings, inside, settings.least_area_percent / 100 * static_cast<double>(decision.labels.total()));
-  decision.body = cheapest_cut_near(parts.kept, kTrustReach, costs_of(decision, away, kTrusting));
+  decision.body = parts.kept;
+  const CutCosts costs = costs_of(decision, away, kTrusting);
+  for (int round = 0; round < rounds; ++round) {
+    const cv::Mat before = std::exchange(decision.body, cheapest_cut_near(decision.body, kTrustReach, costs));
+    if (cv::countNonZero(before != decision.body) == 0) break;
+  }
   decision.confidence = confidence_of(decision.moving, decision.body, parts);
   decision.undecided = why_undecided(decision, settings);
   return decision;
+}
+
+// Of what is not body, the share that moves.
+double share_moving_beside(const StableDecision& decision) {
+  const cv::Mat world = decision.body == 0;
+  return cv::countNonZero((decision.moving > 0.5) & world) / std::max(1.0, 1.0 * cv::countNonZero(world));
+}
+
+StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanFrame>& segments,
+                               const StableOwnBodySettings& settings) {
+  const MotionEvidence gradients = motion_of(moments, settings.vibration_px);
+  const cv::Mat drift = drifting(segments, gradients.ratio);
+  StableDecision decision = decision_by(gradients, gradients, drift, 1, settings);
+  if (!decision.undecided) return decision;
+  StableDecision soft = decision_by(gradients, brightness_motion_of(segments, gradients, settings.vibration_px), drift,
+                                    kSoftRounds, settings);
+  if (soft.undecided || share_moving_beside(soft) < kSoftWorld) return decision;
+  return soft;
 }
 
 // The steps as images, CV_8UC1 of the means' size, without the result.

@@ -45,12 +45,19 @@ cv::Mat where(const cv::Mat& values, const cv::Mat& mask) {
   return kept;
 }
 
+// The variation that noise alone gives.
+struct NoiseRange {
+  double no_signal = 0;  // less than any camera's
+  double minimum = 0;
+  double maximum = 0;
+};
+
 // Variation in the stillest part of the image. Where everything moves alike no part is still, and the stillest one
 // belongs to the world: the result is therefore limited to that of the strongest sensor noise, less in a mean of
 // frames.
-double stillest(const cv::Mat& variation, double share, double frames_per_mean) {
-  const double most = kMaxGrain * kMaxGrain * kGrainEnergy / frames_per_mean;
-  return std::clamp<double>(quantile(variation, share, kNoSignal), kMinNoise, std::max(most, kMinNoise));
+double stillest(const cv::Mat& variation, double share, const NoiseRange& range) {
+  return std::clamp<double>(quantile(variation, share, range.no_signal), range.minimum,
+                            std::max(range.maximum, range.minimum));
 }
 
 // Variation of the gradient of a shaken spot by the energy of its mean gradient: shaking spreads the spot, and its
@@ -63,6 +70,65 @@ double shaken_share(double vibration, double frames_per_mean) {
 double sure_ratio(const cv::Mat& variation, const cv::Mat& ratio, double noise) {
   const double typical = quantile(where(variation, ratio > 1), 0.5, 0);
   return std::max(kMinSpan, std::sqrt(typical / (kNoiseMargin * noise)));
+}
+
+// Completes the evidence from mean_square and variation. shaken_share: variation by mean_square where a body shakes.
+void judge_variation(MotionEvidence& motion, const NoiseRange& range, double shaken_share, double vibration) {
+  cv::Mat variation;
+  cv::GaussianBlur(motion.variation, variation, {5, 5}, 0);
+  motion.noise = stillest(variation, kQuietShare, range);
+  motion.quietest = stillest(variation, kQuietestShare, range);
+  cv::Mat shaken;
+  cv::GaussianBlur(motion.mean_square, shaken, {}, 1 + vibration);
+  motion.ratio = variation / cv::Mat(kNoiseMargin * motion.noise + shaken_share * shaken);
+  const double sure = sure_ratio(variation, motion.ratio, motion.noise);
+  cv::log(cv::max(motion.ratio, 1.0), motion.moving);
+  motion.moving = cv::min(motion.moving / std::log(sure), 1.0);
+}
+
+constexpr double kGrainBrightness = 0.141;  // of white noise of variance 1: its variance after the blur
+constexpr double kNoLight = 5e-4;           // squared gray levels, as kNoSignal
+constexpr double kMinFlicker = 0.1;         // squared gray levels: rounding and the codec's steps of plain areas
+constexpr int kExposureShrink = 4;          // of the images by which the exposure is found
+constexpr int kExposureRounds = 4;
+
+// Of each image, by how much it is brighter than the mean of all: by least squares, in which pixels count the less the
+// more they vary, so that what stays decides.
+std::vector<double> exposures_of(const std::vector<cv::Mat>& images) {
+  std::vector<cv::Mat> small;
+  cv::Mat mean;
+  for (const cv::Mat& image : images) {
+    cv::Mat& reduced = small.emplace_back();
+    const cv::Size size(std::max(1, image.cols / kExposureShrink), std::max(1, image.rows / kExposureShrink));
+    cv::resize(image, reduced, size, 0, 0, cv::INTER_AREA);
+    mean = mean.empty() ? reduced.clone() : cv::Mat(mean + reduced);
+  }
+  mean /= static_cast<double>(small.size());
+  std::vector<double> exposures(small.size(), 1);
+  for (int round = 0; round < kExposureRounds; ++round) {
+    cv::Mat doubt(mean.size(), CV_32FC1, cv::Scalar(kMinFlicker));
+    for (std::size_t i = 0; i < small.size(); ++i) {
+      const cv::Mat change = small[i] - mean * exposures[i];
+      doubt += change.mul(change) / static_cast<double>(small.size());
+    }
+    const cv::Mat weighted = mean / doubt.mul(doubt);
+    const double square = std::max(weighted.dot(mean), 1e-9);
+    for (std::size_t i = 0; i < small.size(); ++i) exposures[i] = small[i].dot(weighted) / square;
+  }
+  return exposures;
+}
+
+cv::Mat variation_of_brightness(const std::vector<cv::Mat>& images) {
+  const std::vector<double> exposures = exposures_of(images);
+  cv::Mat sum = cv::Mat::zeros(images.front().size(), CV_32FC1);
+  cv::Mat sum_square = sum.clone();
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const cv::Mat image = images[i] / std::max(exposures[i], 0.1);
+    sum += image;
+    sum_square += image.mul(image);
+  }
+  const double share = 1.0 / static_cast<double>(images.size());
+  return cv::max(sum_square * share - (sum * share).mul(sum * share), 0.0);
 }
 
 constexpr double kPassesCoherence = 0.3;  // coherence of edges that pass by the same place again and again: below
@@ -114,7 +180,7 @@ cv::Mat level_of(const cv::Mat& variation, const cv::Mat& floor) {
 
 // How sharply motion ends is measured down to the noise. Where it ends is measured at a share of the motion around:
 // below that only the last traces of a blurred border vanish, some pixels inside the body.
-void find_ends_of_motion(const MotionEvidence& motion, Boundaries& boundaries) {
+void find_ends_of_motion(const MotionEvidence& motion, const MotionEvidence& gradients, Boundaries& boundaries) {
   cv::Mat variation;
   cv::GaussianBlur(motion.variation, variation, {3, 3}, 0);
   const cv::Mat noise(variation.size(), CV_32FC1, cv::Scalar(motion.quietest));
@@ -129,9 +195,10 @@ void find_ends_of_motion(const MotionEvidence& motion, Boundaries& boundaries) {
   cv::boxFilter(around, around, CV_32F, {kAround, kAround}, {-1, -1}, true, cv::BORDER_REFLECT);
   const cv::Mat place = ridge_share(slope_square(level_of(variation, noise + around * kEndShare), 1));
   cv::Mat energy;
-  cv::GaussianBlur(motion.variation + motion.mean_square, energy, {3, 3}, 0);
+  cv::GaussianBlur(gradients.variation + gradients.mean_square, energy, {3, 3}, 0);
   cv::boxFilter(energy, around, CV_32F, {kAround, kAround}, {-1, -1}, true, cv::BORDER_REFLECT);
-  const cv::Mat crest = ridge_share(energy).mul(linear_step(energy / cv::Mat(around + motion.noise), kNoCrest, kCrest));
+  const cv::Mat crest =
+      ridge_share(energy).mul(linear_step(energy / cv::Mat(around + gradients.noise), kNoCrest, kCrest));
   boundaries.motion = sharp.mul(cv::max(place, crest)) * kMotionBoundary;
 }
 
@@ -189,17 +256,27 @@ MotionEvidence motion_of(const GradientMoments& moments, double vibration) {
   MotionEvidence motion;
   motion.mean_square = moments.mean_x.mul(moments.mean_x) + moments.mean_y.mul(moments.mean_y);
   motion.variation = cv::max(moments.mean_square - motion.mean_square, 0.0);
-  cv::Mat variation;
-  cv::GaussianBlur(motion.variation, variation, {5, 5}, 0);
-  motion.noise = stillest(variation, kQuietShare, moments.frames_per_mean);
-  motion.quietest = stillest(variation, kQuietestShare, moments.frames_per_mean);
-  cv::Mat shaken;
-  cv::GaussianBlur(motion.mean_square, shaken, {}, 1 + vibration);
+  const double grain_energy = kMaxGrain * kMaxGrain * kGrainEnergy / moments.frames_per_mean;
   const double share = std::max(kMinShaken, shaken_share(vibration, moments.frames_per_mean));
-  motion.ratio = variation / cv::Mat(kNoiseMargin * motion.noise + share * shaken);
-  const double sure = sure_ratio(variation, motion.ratio, motion.noise);
-  cv::log(cv::max(motion.ratio, 1.0), motion.moving);
-  motion.moving = cv::min(motion.moving / std::log(sure), 1.0);
+  judge_variation(motion, {kNoSignal, kMinNoise, grain_energy}, share, vibration);
+  return motion;
+}
+
+MotionEvidence brightness_motion_of(const std::vector<MeanFrame>& segments, const MotionEvidence& gradients,
+                                    double vibration) {
+  ENSURE(!segments.empty());
+  std::vector<cv::Mat> images;
+  double frames = 0;
+  for (const MeanFrame& segment : segments) {
+    cv::Mat& image = images.emplace_back();
+    cv::GaussianBlur(segment.luma, image, {3, 3}, 0);
+    frames += segment.frames;
+  }
+  const double frames_per_mean = frames / static_cast<double>(images.size());
+  MotionEvidence motion{.mean_square = gradients.mean_square, .variation = variation_of_brightness(images)};
+  const double grain_energy = kMaxGrain * kMaxGrain * kGrainBrightness / frames_per_mean;
+  const double share = kShakeSquare * vibration * vibration / frames_per_mean;
+  judge_variation(motion, {kNoLight, kMinFlicker, grain_energy}, share, vibration);
   return motion;
 }
 
@@ -211,10 +288,10 @@ cv::Mat coherence_of(const MotionEvidence& motion) {
   return motion.mean_square / cv::Mat(motion.mean_square + motion.variation + 2 * kMinNoise);
 }
 
-Boundaries boundaries_of(const MotionEvidence& motion) {
-  Boundaries boundaries{.staying = staying_edges(motion)};
-  boundaries.ridge = boundaries.staying.mul(ridge_share(motion.mean_square));
-  find_ends_of_motion(motion, boundaries);
+Boundaries boundaries_of(const MotionEvidence& gradients, const MotionEvidence& motion) {
+  Boundaries boundaries{.staying = staying_edges(gradients)};
+  boundaries.ridge = boundaries.staying.mul(ridge_share(gradients.mean_square));
+  find_ends_of_motion(motion, gradients, boundaries);
   return boundaries;
 }
 

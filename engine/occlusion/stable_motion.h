@@ -51,6 +51,13 @@ struct MotionEvidence {
 // vibration: amplitude by which the body shakes, in pixels of the means.
 [[nodiscard]] MotionEvidence motion_of(const GradientMoments& moments, double vibration);
 
+// The same by the brightness of the segments, at least one, each less its exposure: clouds without texture move without
+// changing any gradient by more than noise. But light that wanders over the body changes its brightness too, and not
+// its gradients.
+//   gradients  by motion_of(), of the same frames
+[[nodiscard]] MotionEvidence brightness_motion_of(const std::vector<MeanFrame>& segments,
+                                                  const MotionEvidence& gradients, double vibration);
+
 // Share of the gradient's energy that is constant over time, 0..1.
 [[nodiscard]] cv::Mat coherence_of(const MotionEvidence& motion);
 
@@ -62,7 +69,8 @@ struct Boundaries {
   cv::Mat motion;   // the centre lines of these, with a lower threshold
 };
 
-[[nodiscard]] Boundaries boundaries_of(const MotionEvidence& motion);
+// Edges by the gradients, ends of motion by `motion`: the same, or brightness_motion_of().
+[[nodiscard]] Boundaries boundaries_of(const MotionEvidence& gradients, const MotionEvidence& motion);
 
 // values mapped linearly so that zero_at becomes 0 and one_at becomes 1, clamped to 0..1.
 [[nodiscard]] cv::Mat linear_step(const cv::Mat& values, double zero_at, double one_at);
