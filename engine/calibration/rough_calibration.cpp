@@ -54,6 +54,7 @@ class Search {
     found_.frames = static_cast<int>(tracks->frames.size());
     found_.lines = lines.answer();
     search(*tracks);
+    if (is_cancelled(control_.cancel)) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
     if (const Result<void> chosen = choose(tracks->size_px); !chosen) return fail(chosen.error());
     compare();
     return std::move(found_);
@@ -69,9 +70,12 @@ class Search {
     if (log_ == nullptr)
       found_.gyro.answer.reason = "there is no log with angular rates";
     else
-      found_.gyro = lens_by_gyro(tracks, *log_, any);
-    if (agrees(found_.gyro.answer, "gyroscope")) found_.gyro = lens_by_gyro(tracks, *log_, prior_by(found_.lines));
+      found_.gyro = lens_by_gyro(tracks, *log_, any, control_.cancel);
+    if (agrees(found_.gyro.answer, "gyroscope"))
+      found_.gyro = lens_by_gyro(tracks, *log_, prior_by(found_.lines), control_.cancel);
+    if (is_cancelled(control_.cancel)) return;
     found_.turn = lens_by_turn(tracks, any);
+    if (is_cancelled(control_.cancel)) return;
     if (agrees(found_.turn, "turn")) found_.turn = lens_by_turn(tracks, prior_by(found_.lines));
     const DistortionPrior prior = found_.lines.is_certain ? prior_by(found_.lines) : any;
     found_.stated = stated_lens(footage_.info().path, tracks.size_px, prior);

@@ -121,11 +121,11 @@ class GyroFit {
     std::vector<PartSums> parts;
     double residual_px = 0;
   };
-  [[nodiscard]] Solution solved(double focal_px) const {
+  [[nodiscard]] Solution solved(double focal_px, CancelFlag cancel) const {
     Solution solution{.values = Unknowns::Zero(kUnknowns)};
     solution.values(0) = std::log(focal_px);
     solution.values(1) = prior_.mean;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kRounds && (round == 0 || !is_cancelled(cancel)); ++round) {
       fill(solution);
       Eigen::MatrixXd normal = known();
       Eigen::VectorXd right = Eigen::VectorXd::Zero(kUnknowns);
@@ -209,7 +209,7 @@ class GyroFit {
 };
 
 // Turns seen by a lens, dated as the frames are.
-std::vector<SeenTurn> turns_by(const RoughLens& lens, const PixelTracks& tracks) {
+std::vector<SeenTurn> turns_by(const RoughLens& lens, const PixelTracks& tracks, CancelFlag cancel) {
   std::vector<FrameRays> rays;
   for (const TrackedFrame& frame : tracks.frames) {
     FrameRays seen;
@@ -217,7 +217,7 @@ std::vector<SeenTurn> turns_by(const RoughLens& lens, const PixelTracks& tracks)
       seen.push_back({feature.id, lens.ray(place_of(feature)).normalized(), 0});
     rays.push_back(std::move(seen));
   }
-  const auto steps = steps_between(rays, tracks.step_px / lens.focal_px, {});
+  const auto steps = steps_between(rays, tracks.step_px / lens.focal_px, {}, cancel);
   std::vector<SeenTurn> turns;
   for (std::size_t k = 1; k < steps.size(); ++k)
     if (steps[k] && !tracks.frames[k].is_repeated && tracks.frames[k].time_s > tracks.frames[k - 1].time_s)
@@ -240,7 +240,7 @@ GyroAnswer refused(GyroAnswer answer, std::string reason) {
 
 }  // namespace
 
-GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const DistortionPrior& prior) {
+GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const DistortionPrior& prior, CancelFlag cancel) {
   GyroAnswer found;
   const bool is_cameras = !log.camera_rate_radps.empty();
   const Channel<glm::dvec3>& channel = is_cameras ? log.camera_rate_radps : log.airframe_rate_radps;
@@ -252,8 +252,8 @@ GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const Disto
   std::vector<SeenTurn> turns;
   std::optional<TimeOffset> offset;
   for (int round = 0; round < kFirstRounds; ++round) {
-    turns = turns_by(lens, tracks);
-    offset = time_offset(turns, rates, log.on_footage_time ? 1 : 10);
+    turns = turns_by(lens, tracks, cancel);
+    offset = time_offset(turns, rates, log.on_footage_time ? 1 : 10, {.cancel = cancel});
     if (!offset) return refused(found, "too few of the footage's frames lie in the log's time");
     found.offset_s = offset->offset_s;
     found.offset_sd_s = offset->offset_sd_s;
@@ -267,7 +267,7 @@ GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const Disto
   }
   const GyroFit fit(tracks, rates, *offset, gyro_alignment(turns, rates, *offset), log.readout_s.value_or(0), prior);
   if (fit.triples() < kLeastFeatures * kParts) return refused(found, "too few features can be followed");
-  const GyroFit::Solution solution = fit.solved(lens.focal_px);
+  const GyroFit::Solution solution = fit.solved(lens.focal_px, cancel);
   if (!solution.values.allFinite()) return refused(found, "the fit to the gyroscope does not converge");
   found.offset_s += solution.values(2);
   found.answer.fit = fit_of([&fit](const Eigen::VectorXd& u) { return fit.lens_of(u); }, solution.values,

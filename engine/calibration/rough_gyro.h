@@ -5,6 +5,7 @@
 
 #include "calibration/rough_fit.h"
 #include "calibration/rough_tracks.h"
+#include "ego_motion/settings.h"
 #include "telemetry/track.h"
 
 namespace sigs {
@@ -23,6 +24,8 @@ struct GyroAnswer {
 // is followed from one frame to one before it and one after it, and the sum of both misses is made small, from which
 // all that moves evenly meanwhile cancels: the aircraft's own travel, the gyroscope's bias. Refused where the log has
 // no rates, the turns seen do not follow it (stabilised footage, another flight), or the camera turns too little.
-[[nodiscard]] GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const DistortionPrior& prior);
+// Once the flag is true it ends within a fraction of a second, and the answer means nothing.
+[[nodiscard]] GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const DistortionPrior& prior,
+                                      CancelFlag cancel = nullptr);
 
 }  // namespace sigs

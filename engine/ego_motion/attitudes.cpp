@@ -37,13 +37,14 @@ class Run {
  public:
   Run(std::span<const FrameRays> frames, std::span<const double> times_s,
       std::span<const std::optional<RotationFit>> steps, double pixel_rad, const EgoMotionSettings& settings,
-      double readout_s)
+      double readout_s, const StepControl& control)
       : frames_(frames),
         times_s_(times_s),
         steps_(steps),
         pixel_rad_(pixel_rad),
         settings_(settings),
-        readout_s_(readout_s) {}
+        readout_s_(readout_s),
+        control_(control) {}
 
   // Rotations against the run's first frame.
   void solve(std::span<FrameRotation> out) {
@@ -51,9 +52,10 @@ class Run {
     if (out.size() < 2) return;
     keys_ = keys_of(0, static_cast<int>(out.size()) - 1, settings_.key_every);
     const std::size_t stride = static_cast<std::size_t>(settings_.window_keys - settings_.window_overlap);
-    for (std::size_t begin = 0;; begin += stride) {
+    for (std::size_t begin = 0; !control_.is_cancelled(); begin += stride) {
       const std::size_t end = std::min(keys_.size(), begin + static_cast<std::size_t>(settings_.window_keys));
       solve_window(begin, end, out);
+      control_.report(static_cast<double>(end) / static_cast<double>(keys_.size()));
       if (end == keys_.size()) break;
     }
   }
@@ -69,7 +71,8 @@ class Run {
 
   void solve_window(std::size_t begin, std::size_t end, std::span<FrameRotation> out) {
     const std::span<const int> keys = std::span(keys_).subspan(begin, end - begin);
-    const KeyFrames solved = adjusted_keys(frames_, times_s_, chained_, keys, pixel_rad_);
+    const KeyFrames solved = adjusted_keys(frames_, times_s_, chained_, keys, pixel_rad_, control_.cancel);
+    if (control_.is_cancelled()) return;
     // Frames before the middle of the overlap keep what the window before says of them.
     const int from = begin == 0 ? 0 : keys[static_cast<std::size_t>(settings_.window_overlap) / 2];
     const auto start = static_cast<std::size_t>(from);
@@ -80,7 +83,7 @@ class Run {
     const int last = keys.back();
     parallel_for(last - from + 1, cores(), [&](int i) {
       const int f = from + i;
-      if (i == 0 && begin > 0) return;
+      if ((i == 0 && begin > 0) || control_.is_cancelled()) return;
       FrameRotation r = located(solved, keys, f);
       r.start_from_camera = (shift * r.start_from_camera).normalized();
       r.covariance += turned(start_covariance, r.start_from_camera.conjugate() * world_from_start);
@@ -123,6 +126,7 @@ class Run {
   double pixel_rad_;
   const EgoMotionSettings& settings_;
   double readout_s_;
+  const StepControl& control_;
   std::vector<Eigen::Quaterniond> chained_;
   std::vector<int> keys_;
 };
@@ -136,27 +140,33 @@ FrameRays unrolled(const FrameRays& frame, const ReadoutTurn& turn, double reado
 }
 
 std::vector<std::optional<RotationFit>> steps_between(std::span<const FrameRays> frames, double pixel_rad,
-                                                      const EgoMotionSettings& settings) {
+                                                      const EgoMotionSettings& settings, CancelFlag cancel) {
   std::vector<std::optional<RotationFit>> steps(frames.size());
   const RotationFitSettings fit{.inlier_rad = 2 * pixel_rad, .min_inliers = settings.min_features};
   parallel_for(static_cast<int>(frames.size()) - 1, cores(), [&](int i) {
     const auto k = static_cast<std::size_t>(i) + 1;
+    if (is_cancelled(cancel)) return;
     steps[k] = fitted_rotation(common_rays(frames[k - 1], frames[k]), fit);
   });
   return steps;
 }
 
 std::vector<FrameRotation> rotations_of(std::span<const FrameRays> frames, std::span<const double> times_s,
-                                        double pixel_rad, const EgoMotionSettings& settings, double readout_s) {
-  const std::vector<std::optional<RotationFit>> steps = steps_between(frames, pixel_rad, settings);
+                                        double pixel_rad, const EgoMotionSettings& settings, double readout_s,
+                                        const StepControl& control) {
+  const std::vector<std::optional<RotationFit>> steps = steps_between(frames, pixel_rad, settings, control.cancel);
   std::vector<FrameRotation> all(frames.size());
-  for (std::size_t first = 0; first < frames.size();) {
+  for (std::size_t first = 0; first < frames.size() && !control.is_cancelled();) {
     std::size_t end = first + 1;
     while (end < frames.size() && steps[end]) ++end;
     const std::size_t count = end - first;
     const std::span<FrameRotation> out = std::span(all).subspan(first, count);
+    const StepControl of_run{.cancel = control.cancel, .progress = [&](double share) {
+                               const double done = static_cast<double>(first) + share * static_cast<double>(count);
+                               control.report(done / static_cast<double>(frames.size()));
+                             }};
     Run(frames.subspan(first, count), times_s.subspan(first, count), std::span(steps).subspan(first, count), pixel_rad,
-        settings, readout_s)
+        settings, readout_s, of_run)
         .solve(out);
     if (first > 0) {
       const FrameRotation& before = all[first - 1];

@@ -30,13 +30,15 @@ struct FrameRotation {
 // and its covariance and that of all later ones does not contain the unknown turn between them.
 [[nodiscard]] std::vector<FrameRotation> rotations_of(std::span<const FrameRays> frames,
                                                       std::span<const double> times_s, double pixel_rad,
-                                                      const EgoMotionSettings& settings, double readout_s = 0);
+                                                      const EgoMotionSettings& settings, double readout_s = 0,
+                                                      const StepControl& control = {});
 
 // Turns from each frame to the next by far features alone, as fitted_rotation() has them; entry k takes rays of frame
 // k - 1 to frame k, entry 0 and those of frames that have too few in common are empty.
 struct RotationFit;
 [[nodiscard]] std::vector<std::optional<RotationFit>> steps_between(std::span<const FrameRays> frames, double pixel_rad,
-                                                                    const EgoMotionSettings& settings);
+                                                                    const EgoMotionSettings& settings,
+                                                                    CancelFlag cancel = nullptr);
 
 // Rays of a frame whose rows are exposed one after the other, as if all were exposed with the middle row.
 [[nodiscard]] FrameRays unrolled(const FrameRays& frame, const ReadoutTurn& turn, double readout_s);

@@ -43,10 +43,10 @@ class Adjustment {
     span_ = (bundle.frames.back().position - bundle.frames.front().position).norm();
   }
 
-  BundleFit run() {
+  BundleFit run(CancelFlag cancel) {
     project();
     double scale = settings_.start_sigma_rad;
-    for (int round = 0; round < settings_.rounds; ++round) {
+    for (int round = 0; round < settings_.rounds && !is_cancelled(cancel); ++round) {
       scale = std::max(sigma_, scale * 0.6);
       weigh(scale);
       build();
@@ -264,10 +264,10 @@ Projection projection(const BundleFrame& frame, const Landmark& landmark, const 
   return p;
 }
 
-BundleFit adjust(Bundle& bundle, const BundleSettings& settings) {
+BundleFit adjust(Bundle& bundle, const BundleSettings& settings, CancelFlag cancel) {
   if (bundle.frames.size() < 2)
     return {.covariances = std::vector<Eigen::Matrix3d>(bundle.frames.size(), Eigen::Matrix3d::Zero())};
-  return Adjustment(bundle, settings).run();
+  return Adjustment(bundle, settings).run(cancel);
 }
 
 }  // namespace sigs

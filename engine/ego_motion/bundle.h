@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "ego_motion/settings.h"
+
 namespace sigs {
 
 // Adjustment of key frames and landmarks together, so that near ground, which moves by parallax, and far points tell of
@@ -58,7 +60,7 @@ struct BundleFit {
 // from round to round (graduated non-convexity): what moves on its own loses its weight. Changes frames and landmarks.
 // The scale does not fall below least_scale_rad, lest the few that agree best by chance, among many that are as good,
 // take all the weight. Landmarks that are not trusted count for as much less, and nothing for the scale.
-[[nodiscard]] BundleFit adjust(Bundle& bundle, const BundleSettings& settings);
+[[nodiscard]] BundleFit adjust(Bundle& bundle, const BundleSettings& settings, CancelFlag cancel = nullptr);
 
 // How far a camera's small turn and small motion, and a landmark's, move a point's image on the unit sphere.
 struct Projection {

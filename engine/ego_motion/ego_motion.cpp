@@ -27,6 +27,9 @@ namespace {
 constexpr int kHorizonEvery = 10;           // frames
 constexpr double kLeastCorrelation = 0.7;   // below it log and footage are not of the same flight
 constexpr double kStabilized_rad = 0.0017;  // 0.1 degrees turned by the camera itself
+// The share of the work that is done when all features are followed, and when the log is compared.
+constexpr double kFollowed = 0.8;
+constexpr double kCompared = 0.85;
 
 // What one pass over the footage gives.
 struct Seen {
@@ -56,17 +59,37 @@ class Estimate {
     const double readout_s =
         settings_.readout_s.value_or(telemetry_ != nullptr && telemetry_->readout_s ? *telemetry_->readout_s : 0.0);
     compare_with_lens();
+    if (is_cancelled(control_.cancel)) return fail(interrupted());
     compare_with_gyro(readout_s);
+    if (is_cancelled(control_.cancel)) return fail(interrupted());
     std::vector<FrameRotation> rotations = seen_rotations(readout_s);
+    if (is_cancelled(control_.cancel)) return fail(interrupted());
     scale_deviations(rotations);
     const std::vector<FrameRotation> of_images = rotations;
     if (motion_.gyro && motion_.gyro->is_fused) rotations = fused(rotations, times_s_, recorded_);
     fill(of_images, rotations);
     add_doubtful_frames(motion_, path_);
+    report(1);
     return std::move(motion_);
   }
 
  private:
+  [[nodiscard]] static Error interrupted() {
+    return {"", "interrupted; nothing was written", ErrorKind::interrupted};
+  }
+
+  // share  of the whole work
+  void report(double share) const {
+    const int total = footage_.info().frame_count();
+    if (control_.progress) control_.progress(std::clamp(static_cast<int>(share * total), 1, total), total);
+  }
+
+  // The control of a step that is the part of the work between two shares.
+  [[nodiscard]] StepControl step(double from, double to) const {
+    return {.cancel = control_.cancel,
+            .progress = [this, from, to](double share) { report(from + share * (to - from)); }};
+  }
+
   [[nodiscard]] Result<void> check() const {
     const VideoInfo& info = footage_.info();
     if (info.frame_count() < 2) return fail(path_, "has 1 frame; at least 2 are needed to see how the camera turns");
@@ -89,13 +112,12 @@ class Estimate {
     seen_.pixel_rad = tracker.scale() / std::max(1e-9, camera_.lens.pixels_per_radian({1, 0, 0}));
     LumaStream stream(footage_, {.first = 0, .every = 1, .count = count});
     for (int n = 0; n < count; ++n) {
-      if (control_.cancel != nullptr && *control_.cancel)
-        return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+      if (is_cancelled(control_.cancel)) return fail(interrupted());
       const std::optional<Result<LumaFrame>> frame = stream.next();
       if (!frame) break;
       if (!*frame) return fail(frame->error());
       add(n, **frame, tracker);
-      if (control_.progress) control_.progress(n + 1, count);
+      report(kFollowed * (n + 1) / count);
     }
     if (seen_.rays.size() != times_s_.size()) return fail(path_, "ended before its last frame");
     return {};
@@ -130,9 +152,9 @@ class Estimate {
     if (telemetry_ == nullptr) return;
     read_stabilization();
     if (!settings_.use_gyro || telemetry_->camera_rate_radps.empty()) return;
-    steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
+    steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_, control_.cancel);
     rates_.emplace(telemetry_->camera_rate_radps);
-    if (!link_gyro()) {
+    if (!link_gyro(step(kFollowed, kCompared))) {
       warn("the gyroscope's log cannot be compared with the images: too few frames with features in common with it");
       return;
     }
@@ -142,12 +164,12 @@ class Estimate {
   }
 
   // Offset, drift and axes of the gyroscope by the turns seen. False where they cannot be compared.
-  bool link_gyro() {
+  bool link_gyro(const StepControl& control) {
     const RateIntegral& rates = *rates_;
     const std::vector<SeenTurn> turns = seen_turns();
     constexpr double kSameAxis_s = 1;
     constexpr double kOtherAxis_s = 10;
-    const auto offset = time_offset(turns, rates, telemetry_->on_footage_time ? kSameAxis_s : kOtherAxis_s);
+    const auto offset = time_offset(turns, rates, telemetry_->on_footage_time ? kSameAxis_s : kOtherAxis_s, control);
     if (!offset) return false;
     motion_.gyro = GyroLink{.offset_s = offset->offset_s,
                             .offset_sd_s = offset->offset_sd_s,
@@ -178,7 +200,7 @@ class Estimate {
 
   // Whether the image turns as the calibration has it.
   void compare_with_lens() {
-    motion_.focal_scale = focal_scale(seen_.rays, seen_.pixel_rad);
+    motion_.focal_scale = focal_scale(seen_.rays, seen_.pixel_rad, control_.cancel);
     if (!motion_.focal_scale) return;
     const FocalScale& found = *motion_.focal_scale;
     constexpr double kClose = 1.1;
@@ -218,15 +240,18 @@ class Estimate {
   // Rows that are exposed one after the other see the camera turned; the gyroscope tells by how much. Without one the
   // turns from frame to frame are a first value, of which the features themselves show what it misses.
   [[nodiscard]] std::vector<FrameRotation> seen_rotations(double readout_s) {
-    if (!(readout_s > 0) || is_unrolled_) return rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_);
+    if (!(readout_s > 0) || is_unrolled_)
+      return rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_, 0, step(kCompared, 1));
     const std::vector<FrameRays> rolled = seen_.rays;
-    if (steps_.empty()) steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
+    if (steps_.empty()) steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_, control_.cancel);
     std::vector<ReadoutTurn> turns;
     for (std::size_t k = 0; k < rolled.size(); ++k) turns.push_back({.rate_radps = rate_at(k)});
     for (int round = 0;; ++round) {
       for (std::size_t k = 0; k < rolled.size(); ++k) seen_.rays[k] = unrolled(rolled[k], turns[k], readout_s);
-      std::vector<FrameRotation> found = rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_, readout_s);
-      if (round == 1) return found;
+      constexpr double kHalf = (1 - kCompared) / 2;
+      std::vector<FrameRotation> found = rotations_of(seen_.rays, times_s_, seen_.pixel_rad, settings_, readout_s,
+                                                      step(kCompared + round * kHalf, kCompared + (round + 1) * kHalf));
+      if (round == 1 || is_cancelled(control_.cancel)) return found;
       for (std::size_t k = 0; k < rolled.size(); ++k) turns[k] += found[k].readout_turn;
     }
   }
@@ -237,10 +262,11 @@ class Estimate {
     const std::vector<FrameRays> rolled = seen_.rays;
     for (int round = 0;; ++round) {
       seen_.rays = rolled;
-      for (std::size_t k = 0; k < rolled.size(); ++k) unroll_by_gyro(seen_.rays[k], times_s_[k], readout_s);
+      for (std::size_t k = 0; k < rolled.size() && !is_cancelled(control_.cancel); ++k)
+        unroll_by_gyro(seen_.rays[k], times_s_[k], readout_s);
       if (round == 2) break;
-      steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_);
-      if (!link_gyro()) break;
+      steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_, control_.cancel);
+      if (!link_gyro({.cancel = control_.cancel})) break;
     }
     is_unrolled_ = true;
   }

@@ -18,8 +18,11 @@
 namespace sigs {
 
 struct EgoMotionControl {
-  std::function<void(int done, int total)> progress;  // frames; called on the calling thread
-  const std::atomic<bool>* cancel = nullptr;          // set to true: ends soon with the error `interrupted`
+  // Called on the calling thread. The whole work, counted in frames: the last fifth of them stands for what follows
+  // when all frames are decoded, the comparison with the log and the adjustment.
+  std::function<void(int done, int total)> progress;
+  // Set to true: ends within a fraction of a second, in any step, with the error `interrupted`.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 // The standard deviation, rad, of a rotation of which nothing is known.

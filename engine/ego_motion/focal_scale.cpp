@@ -99,14 +99,15 @@ double least_at(const Costs& costs) {
 
 }  // namespace
 
-std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double pixel_rad) {
+std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double pixel_rad, CancelFlag cancel) {
   const std::vector<std::vector<RayPair>> pairs = moving_pairs(frames, pixel_rad);
   if (pairs.size() < kLeastPairs) return std::nullopt;
   std::vector<Costs> costs(pairs.size());
   parallel_for(static_cast<int>(pairs.size()), static_cast<int>(std::thread::hardware_concurrency()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    for (int s = 0; s < kScales; ++s) costs[k][static_cast<std::size_t>(s)] = cost_of(pairs[k], scale_at(s), pixel_rad);
+    for (int s = 0; s < kScales && !is_cancelled(cancel); ++s) costs[k][static_cast<std::size_t>(s)] = cost_of(pairs[k], scale_at(s), pixel_rad);
   });
+  if (is_cancelled(cancel)) return std::nullopt;
   const auto sum_of = [&](auto&& pick) {
     Costs sum{};
     for (std::size_t i = 0; i < costs.size(); ++i) {

@@ -13,6 +13,7 @@ namespace sigs {
 // they move; its limits by drawing those frames anew (bootstrap, Efron 1979), 95 %. Nothing where the camera does not
 // turn, where too few features are common, or where what they show is not a rotation: a camera that travels.
 //   pixel_rad  angle of one pixel of the image in which the features were followed, by the calibration
-[[nodiscard]] std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double pixel_rad);
+[[nodiscard]] std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double pixel_rad,
+                                                    CancelFlag cancel = nullptr);
 
 }  // namespace sigs

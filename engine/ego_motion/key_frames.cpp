@@ -27,21 +27,28 @@ constexpr double kPositionSd = 0.01;         // of a frame between its key frame
 class KeyAdjuster {
  public:
   KeyAdjuster(std::span<const FrameRays> frames, std::span<const double> times_s,
-              std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys, double pixel_rad)
-      : frames_(frames), times_s_(times_s), first_values_(first_values), keys_(keys), pixel_rad_(pixel_rad) {
+              std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys, double pixel_rad,
+              CancelFlag cancel)
+      : frames_(frames),
+        times_s_(times_s),
+        first_values_(first_values),
+        keys_(keys),
+        pixel_rad_(pixel_rad),
+        cancel_(cancel) {
     bundle_settings_.least_sigma_rad = kFloor_px * pixel_rad;
     bundle_settings_.least_scale_rad = kScale_px * pixel_rad;
   }
 
   KeyFrames solved() {
     result_.frames.push_back({.time_s = times_s_[at(0)]});
-    for (std::size_t k = 1; k < keys_.size(); ++k) {
+    for (std::size_t k = 1; k < keys_.size() && !is_cancelled(cancel_); ++k) {
       append(k);
       if (k % kAddedKeys == 0 || k + 1 == keys_.size()) adjust_range(k < kLocalKeys ? 0 : k + 1 - kLocalKeys, k + 1, 8);
     }
+    if (is_cancelled(cancel_)) return {};
     const BundleFit fit = adjust_range(0, keys_.size(), 14);
     if (fit.sigma_rad > kDoubtful_px * pixel_rad_) {
-      KeyAdjuster turning(frames_, times_s_, first_values_, keys_, pixel_rad_);
+      KeyAdjuster turning(frames_, times_s_, first_values_, keys_, pixel_rad_, cancel_);
       const BundleFit turns = turning.adjust_turns();
       if (turns.sigma_rad <= fit.sigma_rad) return turning.result(turns);
     }
@@ -113,7 +120,7 @@ class KeyAdjuster {
     settings.rounds = rounds;
     settings.start_sigma_rad = 4 * pixel_rad_;
     for (Landmark& landmark : bundle.landmarks) landmark.trust = trust_of(ground_, landmark.direction);
-    BundleFit fit = adjust(bundle, settings);
+    BundleFit fit = adjust(bundle, settings, cancel_);
     std::copy(bundle.frames.begin(), bundle.frames.end(), result_.frames.begin() + static_cast<std::ptrdiff_t>(begin));
     for (std::size_t i = 0; i < ids.size(); ++i) result_.landmarks[ids[i]] = bundle.landmarks[i];
     ground_ = ground_of(bundle.landmarks);
@@ -145,6 +152,7 @@ class KeyAdjuster {
   std::span<const Eigen::Quaterniond> first_values_;
   std::span<const int> keys_;
   double pixel_rad_;
+  CancelFlag cancel_;
   BundleSettings bundle_settings_;
   std::optional<Eigen::Vector3d> ground_;  // of the last adjustment
   KeyFrames result_;
@@ -153,8 +161,9 @@ class KeyAdjuster {
 }  // namespace
 
 KeyFrames adjusted_keys(std::span<const FrameRays> frames, std::span<const double> times_s,
-                        std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys, double pixel_rad) {
-  return KeyAdjuster(frames, times_s, first_values, keys, pixel_rad).solved();
+                        std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys, double pixel_rad,
+                        CancelFlag cancel) {
+  return KeyAdjuster(frames, times_s, first_values, keys, pixel_rad, cancel).solved();
 }
 
 Eigen::Vector3d direction_of_motion(std::span<const RayPair> pairs, double pixel_rad) {

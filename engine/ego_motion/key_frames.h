@@ -26,7 +26,7 @@ struct KeyFrames {
 //   keys          numbers of the key frames, two or more, rising
 [[nodiscard]] KeyFrames adjusted_keys(std::span<const FrameRays> frames, std::span<const double> times_s,
                                       std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys,
-                                      double pixel_rad);
+                                      double pixel_rad, CancelFlag cancel = nullptr);
 
 // A frame's rotation from the landmarks that it sees.
 struct LocatedFrame {

@@ -1,9 +1,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <optional>
 
 namespace sigs {
+
+// Whether the user has stopped the work. A function of this module that takes such a flag ends within a fraction of a
+// second once it is true, and what it returns then means nothing: who gave the flag has to look at it. Null: the work
+// cannot be stopped.
+using CancelFlag = const std::atomic<bool>*;
+[[nodiscard]] inline bool is_cancelled(CancelFlag cancel) {
+  return cancel != nullptr && *cancel;
+}
+
+// What a long step of the work takes: the flag, and whom to tell which share of the step is done, 0 to 1, on the
+// calling thread.
+struct StepControl {
+  CancelFlag cancel = nullptr;
+  std::function<void(double share)> progress = {};
+
+  [[nodiscard]] bool is_cancelled() const { return sigs::is_cancelled(cancel); }
+  void report(double share) const {
+    if (progress) progress(share);
+  }
+};
 
 // What exchanges error for run time, and what is known of the camera. The defaults are those of which bench/ego_motion
 // shows that more of anything takes longer and gains little.

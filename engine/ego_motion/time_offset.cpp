@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ego_motion/sequence.h"
 #include "ego_motion/turns.h"
 
 namespace sigs {
@@ -48,21 +49,127 @@ Comparison compared(std::span<const SeenTurn> turns, const RateIntegral& rates, 
   return {mixed / std::sqrt(seen2 * recorded2), mixed / recorded2, both.size()};
 }
 
+// Compares turns at offsets of one step, each once.
+class OffsetSearch {
+ public:
+  OffsetSearch(std::span<const SeenTurn> turns, const RateIntegral& rates, double around_s, double range_s,
+               const StepControl& control)
+      : turns_(turns),
+        rates_(rates),
+        first_s_(around_s - range_s),
+        count_(static_cast<std::size_t>(std::floor(2 * range_s / kStep_s + 1e-6)) + 1),
+        control_(control) {}
+
+  // The number of the offset with the highest correlation by all turns, the first of equal ones. None: at no offset
+  // enough turns can be compared.
+  [[nodiscard]] std::optional<std::size_t> best() {
+    pick_some();
+    by_some_.assign(count_, std::nullopt);
+    for (std::size_t i = 0; i < count_ && !control_.is_cancelled(); i += stride_) compare_some(i);
+    compare_around(good_enough(kCoarseShare, kCoarseMargin));
+    return best_by_all(good_enough(1, kFineMargin));
+  }
+
+  [[nodiscard]] double offset_s(std::size_t i) const { return first_s_ + static_cast<double>(i) * kStep_s; }
+
+ private:
+  static constexpr std::size_t kSome = 1500;     // turns
+  static constexpr std::size_t kMostStride = 4;  // of 5 ms
+  static constexpr double kCoarseShare = 0.6;
+  static constexpr double kCoarseMargin = 0.1;
+  static constexpr double kFineMargin = 0.1;      // four standard deviations of a correlation by 1500 turns
+  static constexpr std::size_t kMostByAll = 400;  // offsets
+
+  // One of each group of neighbours, by chance: turns at equal distances could all be of one phase of a vibration.
+  void pick_some() {
+    some_.clear();
+    Sequence chance;
+    const std::size_t group = (turns_.size() + kSome - 1) / kSome;
+    for (std::size_t i = 0; i < turns_.size(); i += group)
+      some_.push_back(turns_[i + chance.below(std::min(group, turns_.size() - i))]);
+    all_are_picked_ = group == 1;
+    // A turn is the mean of the rates over a frame's interval, so that the peak is at least as wide as that on both
+    // sides, and a quarter of it leaves three quarters of the height. Rates that change slowly have a wider peak.
+    double length_s = std::numeric_limits<double>::infinity();
+    for (const SeenTurn& turn : some_) length_s = std::min(length_s, turn.to_s - turn.from_s);
+    stride_ = static_cast<std::size_t>(std::clamp(length_s / 2 / kStep_s, 1.0, static_cast<double>(kMostStride)));
+  }
+
+  // Where too few of the picked turns lie in the log, by all.
+  void compare_some(std::size_t i) {
+    Comparison c = compared(some_, rates_, offset_s(i));
+    if (c.count < kLeastTurns && !all_are_picked_) c = compared(turns_, rates_, offset_s(i));
+    by_some_[i] = c.count < kLeastTurns ? kNothing : c.correlation;
+    control_.report(kShareOfSome * static_cast<double>(++compared_) / static_cast<double>(count_));
+  }
+
+  // Offsets whose correlation by some turns is near the highest one.
+  [[nodiscard]] std::vector<std::size_t> good_enough(double share, double margin) const {
+    double highest = kNothing;
+    for (const std::optional<double>& c : by_some_) highest = std::max(highest, c.value_or(kNothing));
+    const double enough = (highest > 0 ? share * highest : highest) - margin;
+    std::vector<std::size_t> good;
+    for (std::size_t i = 0; i < count_; ++i)
+      if (by_some_[i].value_or(kNothing) > kNothing && *by_some_[i] >= enough) good.push_back(i);
+    return good;
+  }
+
+  void compare_around(const std::vector<std::size_t>& good) {
+    const std::size_t beside = stride_ - 1;
+    for (const std::size_t i : good)
+      for (std::size_t k = i - std::min(i, beside); k <= std::min(count_ - 1, i + beside); ++k)
+        if (!by_some_[k] && !control_.is_cancelled()) compare_some(k);
+  }
+
+  [[nodiscard]] std::optional<std::size_t> best_by_all(std::vector<std::size_t> good) const {
+    if (good.size() > kMostByAll) {
+      std::stable_sort(good.begin(), good.end(),
+                       [&](std::size_t a, std::size_t b) { return *by_some_[a] > *by_some_[b]; });
+      good.resize(kMostByAll);
+      std::sort(good.begin(), good.end());
+    }
+    std::optional<std::size_t> best;
+    double highest = kNothing;
+    for (std::size_t n = 0; n < good.size() && !control_.is_cancelled(); ++n) {
+      const Comparison c = all_are_picked_ ? Comparison{.correlation = *by_some_[good[n]], .count = kLeastTurns}
+                                           : compared(turns_, rates_, offset_s(good[n]));
+      if (c.count >= kLeastTurns && c.correlation > highest) {
+        highest = c.correlation;
+        best = good[n];
+      }
+      control_.report(kShareOfSome + (1 - kShareOfSome) * static_cast<double>(n + 1) / static_cast<double>(good.size()));
+    }
+    return best;
+  }
+
+  static constexpr double kNothing = -2;  // below any correlation
+  static constexpr double kShareOfSome = 0.5;
+
+  std::span<const SeenTurn> turns_;
+  const RateIntegral& rates_;
+  double first_s_;
+  std::size_t count_;
+  const StepControl& control_;
+  std::vector<SeenTurn> some_;
+  bool all_are_picked_ = false;
+  std::size_t stride_ = 1;  // between offsets that are compared first
+  std::vector<std::optional<double>> by_some_;  // correlations; kNothing: too few turns; none: not compared
+  std::size_t compared_ = 0;
+};
+
 struct Peak {
   double offset_s = 0;
   double sd_s = std::numeric_limits<double>::infinity();
 };
 
 // The highest correlation near `around`, to parts of a step, and how sharp it is.
-std::optional<Peak> peak(std::span<const SeenTurn> turns, const RateIntegral& rates, double around_s, double range_s) {
-  double best = -2;
-  double best_s = around_s;
-  for (double s = around_s - range_s; s <= around_s + range_s + 1e-9; s += kStep_s)
-    if (const Comparison c = compared(turns, rates, s); c.count >= kLeastTurns && c.correlation > best) {
-      best = c.correlation;
-      best_s = s;
-    }
-  if (best < -1.5) return std::nullopt;
+std::optional<Peak> peak(std::span<const SeenTurn> turns, const RateIntegral& rates, double around_s, double range_s,
+                         const StepControl& control) {
+  OffsetSearch search(turns, rates, around_s, range_s, control);
+  const std::optional<std::size_t> at = search.best();
+  if (!at || control.is_cancelled()) return std::nullopt;
+  const double best_s = search.offset_s(*at);
+  const double best = compared(turns, rates, best_s).correlation;
   constexpr double kWide_s = 2 * kStep_s;
   const double before = compared(turns, rates, best_s - kWide_s).correlation;
   const double after = compared(turns, rates, best_s + kWide_s).correlation;
@@ -74,7 +181,7 @@ std::optional<Peak> peak(std::span<const SeenTurn> turns, const RateIntegral& ra
   return Peak{best_s + part_s, std::sqrt(noise / std::max(-bend * std::abs(best), 1e-12))};
 }
 
-void add_drift(TimeOffset& offset, std::span<const SeenTurn> turns, const RateIntegral& rates) {
+void add_drift(TimeOffset& offset, std::span<const SeenTurn> turns, const RateIntegral& rates, CancelFlag cancel) {
   double s = 0;
   double st = 0;
   double stt = 0;
@@ -87,7 +194,7 @@ void add_drift(TimeOffset& offset, std::span<const SeenTurn> turns, const RateIn
   }
   for (std::size_t part = 0; part < kParts; ++part) {
     const std::span<const SeenTurn> some = turns.subspan(part * length, length);
-    const std::optional<Peak> found = peak(some, rates, offset.offset_s, 0.1);
+    const std::optional<Peak> found = peak(some, rates, offset.offset_s, 0.1, {.cancel = cancel});
     if (!found || !std::isfinite(found->sd_s)) continue;
     const double weight = 1 / (found->sd_s * found->sd_s + 1e-6);
     const double t = (some.front().from_s + some.back().to_s) / 2 - offset.middle_s;
@@ -138,9 +245,10 @@ Eigen::Vector3d RateIntegral::up_to(double time_s) const {
   return sums_[i] + part_s * (rates_[i] + 0.5 * share * (rates_[i + 1] - rates_[i]));
 }
 
-std::optional<TimeOffset> time_offset(std::span<const SeenTurn> turns, const RateIntegral& rates, double max_offset_s) {
+std::optional<TimeOffset> time_offset(std::span<const SeenTurn> turns, const RateIntegral& rates, double max_offset_s,
+                                      const StepControl& control) {
   if (turns.size() < kLeastTurns || rates.empty()) return std::nullopt;
-  const std::optional<Peak> found = peak(turns, rates, 0, max_offset_s);
+  const std::optional<Peak> found = peak(turns, rates, 0, max_offset_s, control);
   if (!found) return std::nullopt;
   const Comparison at_peak = compared(turns, rates, found->offset_s);
   TimeOffset offset{.offset_s = found->offset_s,
@@ -148,7 +256,7 @@ std::optional<TimeOffset> time_offset(std::span<const SeenTurn> turns, const Rat
                     .middle_s = (turns.front().from_s + turns.back().to_s) / 2,
                     .correlation = at_peak.correlation,
                     .slope = at_peak.slope};
-  add_drift(offset, turns, rates);
+  add_drift(offset, turns, rates, control.cancel);
   return offset;
 }
 

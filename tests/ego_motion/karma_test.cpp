@@ -9,7 +9,10 @@
 
 #include "base/pose.h"
 #include "ego_motion/ego_motion.h"
+#include "ego_motion/time_offset.h"
+#include "ego_motion/turns.h"
 #include "support/test_data.h"
+#include "synthetic_rays.h"
 
 namespace sigs::test {
 
@@ -123,6 +126,17 @@ Result<EgoMotion> karma_motion(const Track& gyro, bool use_gyro) {
   return estimate_ego_motion(*footage, karma_camera(), {}, &gyro, {.use_gyro = use_gyro}, {});
 }
 
+std::vector<SeenTurn> turns_of(const EgoMotion& motion) {
+  std::vector<SeenTurn> turns;
+  for (std::size_t k = 1; k < motion.frames.size(); ++k) {
+    const EgoFrame& before = motion.frames[k - 1];
+    const EgoFrame& after = motion.frames[k];
+    const glm::dquat turn = glm::conjugate(before.world_from_camera) * after.world_from_camera;
+    turns.push_back({before.time_s, after.time_s, vector_of(eigen_of(turn))});
+  }
+  return turns;
+}
+
 // Up in camera axes of a sea's horizon through two points of the image.
 glm::dvec3 up_of_line(const glm::dvec2& left_px, const glm::dvec2& right_px) {
   const Camera camera = karma_camera();
@@ -149,6 +163,13 @@ TEST_CASE("the coast clip turns as its gyroscope says, with the offset that the 
   REQUIRE(with_gyro);
   REQUIRE(with_gyro->gyro);
   CHECK(std::abs(with_gyro->gyro->offset_s - lag_s) < 0.005);
+
+  // Coarse to fine finds what the comparison of all offsets finds, over ten seconds to both sides.
+  const std::vector<SeenTurn> turns = turns_of(*motion);
+  const RateIntegral rates(gyro.camera_rate_radps);
+  const auto found = time_offset(turns, rates, 10);
+  REQUIRE(found);
+  CHECK(std::abs(found->offset_s - exhaustive_offset(turns, rates, 10).offset_s) < 1e-6);
 
   std::vector<double> seen;
   std::vector<double> recorded;

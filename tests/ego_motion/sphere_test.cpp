@@ -108,4 +108,40 @@ TEST_CASE("an estimation that is cancelled half way ends as interrupted") {
   CHECK(last == 15);
 }
 
+TEST_CASE("an estimation can be cancelled after all frames are decoded, with a log and a rolling shutter too") {
+  const TemporaryFolder folder;
+  const Camera camera = sphere_camera(LensModel::brown_conrady);
+  const std::vector<glm::dquat> turns = shaken_pan(60);
+  const auto path = sphere_footage(folder.path(), camera, turns, std::vector<int>(60, 1));
+  Track log{.format = "CSV", .on_footage_time = true, .readout_s = 0.02};
+  for (std::size_t k = 1; k < turns.size(); ++k) {
+    log.camera_rate_radps.times_s.push_back((static_cast<double>(k) - 0.5) / 25);
+    const glm::dquat turn = glm::conjugate(turns[k - 1]) * turns[k];
+    log.camera_rate_radps.values.push_back(2.0 * 25.0 * glm::dvec3(turn.x, turn.y, turn.z) * (turn.w < 0 ? -1.0 : 1.0));
+  }
+  for (const Track* const track : {static_cast<const Track*>(nullptr), static_cast<const Track*>(&log)}) {
+    std::vector<int> reports;
+    REQUIRE(motion_of(path, camera, track, {.progress = [&](int done, int total) {
+                        CHECK(total == 60);
+                        reports.push_back(done);
+                      }}));
+    CHECK(std::is_sorted(reports.begin(), reports.end()));
+    CHECK(reports.back() == 60);
+    REQUIRE(reports.size() > 61);  // one for each frame decoded
+    for (const std::size_t last : {std::size_t{59}, std::size_t{60}, reports.size() - 2}) {
+      std::atomic<bool> cancel = false;
+      std::size_t count = 0;
+      const auto motion = motion_of(path, camera, track, {.progress =
+                                                              [&](int, int) {
+                                                                if (count++ == last) cancel = true;
+                                                              },
+                                                          .cancel = &cancel});
+      CAPTURE(last);
+      REQUIRE_FALSE(motion);
+      CHECK(motion.error().kind == ErrorKind::interrupted);
+      CHECK(count == last + 1);  // nothing goes on
+    }
+  }
+}
+
 }  // namespace sigs::test

@@ -2,6 +2,7 @@
 #include "synthetic_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -84,6 +85,53 @@ RayFlight ray_flight(const RayFlightSettings& s) {
     shake_before = shake;
   }
   return flight;
+}
+
+namespace {
+
+// Pearson's correlation of all axes together, each less its mean; -2 where fewer than 20 turns lie in the log. By sums
+// of products, in plain numbers: the thousands of offsets of this twin take long enough.
+double correlation_at(std::span<const SeenTurn> turns, const RateIntegral& rates, double offset_s) {
+  std::array<double, 3> a{}, b{};
+  double aa = 0, bb = 0, ab = 0, count = 0;
+  for (const SeenTurn& turn : turns) {
+    if (!rates.covers(turn.from_s + offset_s, turn.to_s + offset_s)) continue;
+    const Eigen::Vector3d recorded = rates.between(turn.from_s + offset_s, turn.to_s + offset_s);
+    const double* const x = turn.turn_rad.data();
+    const double* const y = recorded.data();
+    const double rate = 1 / (turn.to_s - turn.from_s);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double seen = x[k] * rate, logged = y[k] * rate;
+      a[k] += seen;
+      b[k] += logged;
+      aa += seen * seen;
+      bb += logged * logged;
+      ab += seen * logged;
+    }
+    count += 1;
+  }
+  if (count < 20) return -2;
+  for (std::size_t k = 0; k < 3; ++k) {
+    aa -= a[k] * a[k] / count;
+    bb -= b[k] * b[k] / count;
+    ab -= a[k] * b[k] / count;
+  }
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
+}
+
+}  // namespace
+
+ExhaustiveOffset exhaustive_offset(std::span<const SeenTurn> turns, const RateIntegral& rates, double max_offset_s) {
+  constexpr double kStep_s = 0.005;
+  ExhaustiveOffset found;
+  const int steps = static_cast<int>(std::lround(max_offset_s / kStep_s));
+  for (int i = -steps; i <= steps; ++i)
+    if (const double r = correlation_at(turns, rates, i * kStep_s); r > found.correlation) found = {i * kStep_s, r};
+  const double before = correlation_at(turns, rates, found.offset_s - 2 * kStep_s);
+  const double after = correlation_at(turns, rates, found.offset_s + 2 * kStep_s);
+  const double bend = before - 2 * found.correlation + after;  // vertex of the parabola through the three
+  if (bend < 0) found.offset_s += std::clamp((before - after) / bend, -2.0, 2.0) * kStep_s;
+  return found;
 }
 
 }  // namespace sigs::test

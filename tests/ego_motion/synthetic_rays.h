@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 #include <vector>
 
+#include "ego_motion/time_offset.h"
 #include "ego_motion/tracks.h"
 
 namespace sigs::test {
@@ -34,5 +36,14 @@ struct RayFlightSettings {
 };
 
 [[nodiscard]] RayFlight ray_flight(const RayFlightSettings& settings);
+
+// The slow twin of time_offset(): the correlation of all turns at every offset, steps of 5 ms, and the parabola through
+// the highest and those 10 ms beside it.
+struct ExhaustiveOffset {
+  double offset_s = 0;
+  double correlation = -2;  // at the highest step; -2: nowhere 20 turns can be compared
+};
+[[nodiscard]] ExhaustiveOffset exhaustive_offset(std::span<const SeenTurn> turns, const RateIntegral& rates,
+                                                 double max_offset_s);
 
 }  // namespace sigs::test
