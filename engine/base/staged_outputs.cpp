@@ -4,6 +4,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -34,26 +36,36 @@ struct BlockedSignals {
   std::mutex mutex;
   int blockers = 0;
   std::array<struct sigaction, kBlockedSignals.size()> before{};
-  std::array<std::atomic<bool>, kBlockedSignals.size()> pending{};
+  // The thread that a signal was sent to, else kToProcess; 0: the signal has not come.
+  std::array<std::atomic<pid_t>, kBlockedSignals.size()> pending{};
 };
 BlockedSignals blocked_signals;
+constexpr pid_t kToProcess = -1;
 
-void note_signal(int signal) {
+void note_signal(int signal, siginfo_t* info, void*) {
+  const bool to_thread = info != nullptr && info->si_code == SI_TKILL;
+  const pid_t wanted = to_thread ? static_cast<pid_t>(syscall(SYS_gettid)) : kToProcess;
   for (std::size_t i = 0; i < kBlockedSignals.size(); ++i)
-    if (kBlockedSignals[i] == signal) blocked_signals.pending[i] = true;
+    if (kBlockedSignals[i] == signal) blocked_signals.pending[i] = wanted;
+}
+
+// Sends a deferred signal to whom it was sent: the process, which has a thread take it that does not block it, or one
+// thread. raise(3) would send it to the thread that happens to end last, where it may be blocked for good.
+void send_again(int signal, pid_t wanted) {
+  if (wanted == kToProcess || syscall(SYS_tgkill, getpid(), wanted, signal) != 0) kill(getpid(), signal);
 }
 
 // Defers SIGHUP, SIGINT and SIGTERM during its life, whichever thread they are delivered to; afterwards they act as
-// they would have. Several may live at once, also in several threads.
+// they would have, where they would have. Several may live at once, also in several threads.
 class SignalBlocker {
  public:
   SignalBlocker() {
     const std::lock_guard lock(blocked_signals.mutex);
     if (blocked_signals.blockers++ > 0) return;
     struct sigaction action {};
-    action.sa_handler = note_signal;
+    action.sa_sigaction = note_signal;
     sigemptyset(&action.sa_mask);
-    action.sa_flags = SA_RESTART;
+    action.sa_flags = SA_RESTART | SA_SIGINFO;
     for (std::size_t i = 0; i < kBlockedSignals.size(); ++i)
       sigaction(kBlockedSignals[i], &action, &blocked_signals.before[i]);
   }
@@ -63,7 +75,8 @@ class SignalBlocker {
     for (std::size_t i = 0; i < kBlockedSignals.size(); ++i)
       sigaction(kBlockedSignals[i], &blocked_signals.before[i], nullptr);
     for (std::size_t i = 0; i < kBlockedSignals.size(); ++i)
-      if (blocked_signals.pending[i].exchange(false)) raise(kBlockedSignals[i]);
+      if (const pid_t wanted = blocked_signals.pending[i].exchange(0); wanted != 0)
+        send_again(kBlockedSignals[i], wanted);
   }
   SignalBlocker(const SignalBlocker&) = delete;
   SignalBlocker& operator=(const SignalBlocker&) = delete;

@@ -15,6 +15,7 @@ using namespace std::string_view_literals;
 constexpr std::string_view kKey = "\x06\x0E\x2B\x34\x02\x0B\x01\x01\x0E\x01\x03\x01\x01\x00\x00\x00"sv;
 constexpr std::string_view kAnyKey = "\x06\x0E\x2B\x34"sv;  // of all keys that SMPTE registers
 constexpr std::size_t kAccessUnitHeader_bytes = 5;
+constexpr std::size_t kReread_bytes = std::size_t{1} << 20;
 constexpr std::size_t kMaxPacket_bytes = 65536;  // real ones have up to some 2000; a longer one is a damaged length
 
 // How a number is stored (ST 0601, section 8, and ST 1201 for the last).
@@ -186,10 +187,12 @@ KlvPackets klv_packets(std::string_view bytes) {
     const Verdict verdict = read_items(bytes.substr(items, *length), bytes.substr(key, at - key), packet);
     read.bad_checksums += verdict == Verdict::bad_checksum ? 1 : 0;
     read.broken += verdict == Verdict::broken ? 1 : 0;
-    if (verdict == Verdict::good)
+    if (verdict == Verdict::good) {
       read.packets.push_back(std::move(packet));
-    else
+    } else if (read.bytes_reread < bytes.size() + kReread_bytes) {
+      read.bytes_reread += *length;
       at = key + kKey.size();  // its length may be what was damaged
+    }
   }
   return read;
 }

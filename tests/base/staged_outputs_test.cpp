@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 
+#include <doctest/doctest.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <doctest/doctest.h>
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <thread>
 #include <vector>
 
@@ -355,4 +360,59 @@ TEST_CASE("the mode of a file is the user's, not the staging folder's") {
   REQUIRE(images->commit());
   CHECK(fs::status(folder / "x.txt").permissions() == fs::perms(0640));
   CHECK(fs::status(folder / "y").permissions() == fs::perms(0750));
+}
+
+namespace {
+
+std::atomic<pid_t> taken_by{0};
+
+// Replaces a folder on a thread that blocks SIGTERM, and calls `send` in the middle. Which thread takes the signal
+// within two seconds; 0: none.
+pid_t thread_that_takes(const std::function<void()>& send) {
+  const test::TemporaryFolder folder;
+  fs::create_directory(folder / "out");
+  taken_by = 0;
+  struct sigaction action {};
+  struct sigaction before {};
+  action.sa_handler = [](int) { taken_by = static_cast<pid_t>(syscall(SYS_gettid)); };
+  sigaction(SIGTERM, &action, &before);
+  std::thread other([&] {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    StagedOutputs outputs(StagedOutputs::Existing::replace);
+    if (!outputs.add_folder(folder / "out", [&](const fs::path& older) {
+          if (older == folder / "out") return Result<void>();  // asked before the names change, too
+          send();
+          std::this_thread::sleep_for(std::chrono::milliseconds(100));  // so that it comes while it is held back
+          CHECK(taken_by == 0);
+          return Result<void>();
+        }))
+      return;
+    CHECK(outputs.commit());
+  });
+  for (int i = 0; i < 2000 && taken_by == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  other.join();
+  sigaction(SIGTERM, &before, nullptr);
+  return taken_by;
+}
+
+}  // namespace
+
+TEST_CASE("a signal held back by a thread that blocks it goes to one that does not, as the system would send it") {
+  CHECK(thread_that_takes([] { kill(getpid(), SIGTERM); }) == getpid());
+}
+
+TEST_CASE("a signal to one thread goes to that thread, whichever thread held it back") {
+  std::atomic<pid_t> wanted{0};
+  std::atomic<bool> done{false};
+  std::thread target([&] {
+    wanted = static_cast<pid_t>(syscall(SYS_gettid));
+    while (!done) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  while (wanted == 0) std::this_thread::yield();
+  CHECK(thread_that_takes([&] { pthread_kill(target.native_handle(), SIGTERM); }) == wanted);
+  done = true;
+  target.join();
 }

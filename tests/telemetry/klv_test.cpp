@@ -167,6 +167,24 @@ TEST_CASE("a packet whose checksum is wrong is left out, others around it are re
   CHECK(warnings_with(*track, "1 packet left out: the checksum is wrong") == 1);
 }
 
+TEST_CASE("a file with a key every 20 bytes is not read over and over") {
+  std::string hostile;
+  while (hostile.size() < 2'000'000) hostile += kUasKey + std::string("\x82\xEA\x60\x63", 4);  // 60,000 bytes each
+  const std::string good = klv_packet_of(klv_stamp('\x01'));
+  KlvPackets read = klv_packets(good + hostile + good);
+  CHECK(read.packets.size() >= 1);
+  CHECK(read.bytes_reread < 2 * hostile.size());
+  // Damage of a common size costs no packet: lengths that are wrong hide none of the packets behind them.
+  std::string file;
+  for (int i = 0; i < 200; ++i) {
+    std::string bad = good;
+    bad[16] = '\x7F';
+    file += i % 4 == 3 ? bad : good;
+  }
+  read = klv_packets(file + good + good);
+  CHECK(read.packets.size() == 152);
+}
+
 TEST_CASE("synchronous KLV has a header before each packet that is passed over") {
   const std::string packet = klv_packet_of(klv_stamp('\x01'));
   const std::string header = std::string("\x00\x01\xDF\x00", 4) + static_cast<char>(packet.size());
