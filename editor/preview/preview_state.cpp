@@ -215,7 +215,11 @@ std::optional<DecodeTask> PreviewState::next_decoding() {
       return task;
     }
     task.decode = next_to_decode();
-    decoding_ = task.decode.has_value();
+    // That all is decoded is told too, by the renderer, as soon as it has nothing left to do itself.
+    if (std::exchange(decoding_, task.decode.has_value()) && !decoding_) {
+      has_news_ = true;
+      notify_threads();
+    }
     if (task.decode) return task;
     changed_.wait(lock);
   }
@@ -269,12 +273,17 @@ void PreviewState::wait_for_changes(std::uint64_t version, std::chrono::millisec
 }
 
 void PreviewState::set_input_files(const ContentId& input_files, const FootageId& footage) {
-  const std::lock_guard lock(mutex_);
-  if (input_files_ == input_files && footage_wanted_.id == footage.id) return;
-  input_files_ = input_files;
-  footage_wanted_ = footage;
-  follow_playhead();
-  notify_threads();
+  {
+    const std::lock_guard lock(mutex_);
+    if (input_files_ == input_files && footage_wanted_.id == footage.id) return;
+  }
+  // The window hears of it: other footage is being opened, or an image that the cache holds is the current one.
+  put(true, [&] {
+    input_files_ = input_files;
+    footage_wanted_ = footage;
+    follow_playhead();
+    notify_threads();
+  });
 }
 
 std::shared_ptr<const DecodedFrame> PreviewState::decoded(FrameKey key) const {

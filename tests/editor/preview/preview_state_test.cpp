@@ -103,3 +103,22 @@ TEST_CASE("a change that touches no image keeps the image that is shown, and fil
   fixture.preview_state.set_input_files(kInputFiles, {.id = {.low = 6}});
   CHECK(fixture.shows_at_once(document.revision()));
 }
+
+TEST_CASE("what changes with the files of a project is told at once: other footage, or an image that is there already") {
+  int calls = 0;
+  PreviewState state(PreviewLimits{}, [&calls] { ++calls; });
+  const Revision revision(1, std::make_shared<const Project>());
+  state.want({.revision = revision});
+  state.set_input_files(kInputFiles, {.id = {.low = 6}});
+  CHECK(calls == 1);
+  CHECK(state.shown().opening);
+  state.set_input_files(kInputFiles, {.id = {.low = 6}});
+  CHECK(calls == 1);
+  state.put_image({combined_id(revision.content, kInputFiles), 0}, std::make_shared<const PreviewImage>(), 1, true);
+  state.set_input_files({.low = 9}, {.id = {.low = 6}});
+  CHECK_FALSE(state.shown().image_is_current);
+  CHECK(calls == 3);
+  state.set_input_files(kInputFiles, {.id = {.low = 6}});
+  CHECK(state.shown().image_is_current);
+  CHECK(calls == 4);
+}
