@@ -38,7 +38,7 @@ class VideoVisibility {
   // Makes it unnecessary to open a clip. Paths are absolute.
   void remember(const FootageSettings& footage, const FootageShape& shape);
 
-  // Visibility of the first intruder, estimated without rendering it (scene/visibility_estimate.h). Evaluates up to
+  // Visibility of the first intruder, estimated without rendering it (scene/visibility.h). Evaluates up to
   // `frames` frames, and all of them where none of these shows the intruder. None where the files that the project
   // names cannot be opened.
   [[nodiscard]] std::optional<Visibility> visibility_of(const Project& project, int frames);

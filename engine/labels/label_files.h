@@ -11,7 +11,7 @@
 namespace sigs {
 
 // The files and folders of a set of labels. They are written below a temporary path that the caller gives its final
-// name (base/temporary_file.h). Errors name the file.
+// name (base/staged_outputs.h). Errors name the file.
 
 // A text file that is written piece by piece, so that memory does not grow with the video.
 class TextFile {

@@ -175,7 +175,7 @@ struct PlaceSettings {
 struct WaypointSettings {
   std::optional<double> frame;  // none: spread evenly between its neighbours
   glm::dvec3 position_m{0, 0, 0};
-  std::optional<PlaceSettings> place = {};  // where the file gives it so; position_m follows it (scene/geo_reference.h)
+  std::optional<PlaceSettings> place = {};  // where the file gives it so; position_m follows it (project/places.h)
   std::string unknown_json;                 // unknown keys of the file, as JSON; kept on save
 
   [[nodiscard]] bool operator==(const WaypointSettings&) const = default;

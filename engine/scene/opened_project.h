@@ -86,7 +86,7 @@ inline constexpr int kVisibilitySampleFrames = 20;
 // files, images). Of a model that cannot be read only the model file itself.
 [[nodiscard]] std::vector<std::filesystem::path> files_read_by(const Project& project);
 
-// check_inputs_not_overwritten() (base/overwrite_check.h) with files_read_by(project) as the inputs. Reads no file
+// check_inputs_not_overwritten() (base/paths.h) with files_read_by(project) as the inputs. Reads no file
 // where none of the outputs exists.
 [[nodiscard]] Result<void> check_inputs_not_overwritten(const Project& project,
                                                         const std::vector<std::filesystem::path>& outputs,
