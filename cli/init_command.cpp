@@ -35,7 +35,8 @@ Result<void> init(const InitOptions& options, bool has_fov) {
   if (!made) return fail(made.error());
   for (const Warning& warning : made->warnings) print_warning(warning);
   for (const FirstProjectNote& note : made->notes)
-    std::fprintf(stderr, "%s: %s: %s\n", note.is_guess ? "guessed" : "found", note.field.c_str(), note.text.c_str());
+    std::fprintf(stderr, "%s: %s: %s\n", note.is_guess ? "guessed" : "found", note.field.c_str(),
+                 told_on_terminal(note).c_str());
   const std::string file = made->project.file.string();
   std::printf("%s\n", file.c_str());
   std::fprintf(stderr, "next: sigs check %s; sigs export %s --out out; sigs-editor %s\n", file.c_str(), file.c_str(),

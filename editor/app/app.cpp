@@ -282,6 +282,7 @@ void App::handle(const Request& request) {
   if (const auto* wanted = std::get_if<Play>(&request)) play(wanted->speed);
   if (std::holds_alternative<TogglePlay>(request)) play(playback_.playing() ? 0 : 1);
   if (const auto* loop = std::get_if<SetLoop>(&request)) settings_.loop = loop->loop;
+  if (const auto* depth = std::get_if<ShowAllSettings>(&request)) settings_.all_settings = depth->all;
 }
 
 void App::show_title() {

@@ -57,7 +57,9 @@ AppShell::AppShell(Document& document, Settings& settings, Setup setup)
                 .is_exporting = [this] { return export_.is_running(); },
                 .mask = setup_.mask,
                 .is_asking_for_file = [this] { return browser_.is_open(); }}),
-      new_project_(document, settings, session_, {.models = setup_.models, .wake = setup_.wake}),
+      gallery_(setup_.models, setup_.wake),
+      new_project_(document, settings, session_, gallery_, setup_.wake),
+      change_model_(gallery_, setup_.wake),
       start_page_(setup_.samples, setup_.wake) {
   const fs::path usual = settings.recent.empty() ? setup_.samples : settings.recent.front().parent_path();
   browser_.set_folder(settings.last_folder.empty() ? usual : settings.last_folder);
@@ -96,6 +98,8 @@ bool AppShell::handle(const Request& request) {
     if (has_project()) export_view_.open(document_);
   } else if (std::holds_alternative<ShowMissingFiles>(request)) {
     if (has_project()) relink_.open(document_.project());
+  } else if (const auto* models = std::get_if<ShowModels>(&request)) {
+    if (has_project()) change_model_.open(document_.project(), models->intruder);
   } else if (std::holds_alternative<ShowSettings>(request)) {
     shows_settings_ = true;
   } else if (std::holds_alternative<ShowHelp>(request)) {
@@ -165,6 +169,8 @@ void AppShell::draw_dialog(const ViewContext& context) {
     if (path && chosen_) answered_.emplace_back([chosen = std::exchange(chosen_, nullptr), path] { chosen(*path); });
   } else if (new_project_.is_open()) {
     new_project_.draw(context);
+  } else if (change_model_.is_open()) {
+    change_model_.draw(context);
   } else if (relink_.is_open()) {
     relink_.draw(context);
   } else if (export_view_.is_open()) {

@@ -13,6 +13,8 @@
 #include "editor/views/context.h"
 #include "editor/views/dialogs.h"
 #include "editor/views/export_view.h"
+#include "editor/views/models/change_model.h"
+#include "editor/views/models/model_gallery.h"
 #include "editor/views/start_page.h"
 #include "editor/views/toasts.h"
 #include "editor/widgets/file_browser.h"
@@ -52,8 +54,8 @@ class AppShell {
   // Handles a request that a view queued while it was drawn. False: the request concerns somebody else, and nothing
   // happened.
   bool handle(const Request& request);
-  // Opens a file that was dropped onto the window, or puts it into the project or the dialog "New project". A video that
-  // is dropped onto the start page begins that dialog.
+  // Opens a file that was dropped onto the window, or puts it into the project or the dialog "New project". A video
+  // that is dropped onto the start page begins that dialog.
   void handle_dropped(const std::filesystem::path& path, Edits& edits);
   // To be called once per update, after the document has applied its edits: carries out the answers given while
   // drawing. May replace the document by another one, whose revisions then begin at another first_number().
@@ -83,7 +85,9 @@ class AppShell {
   Setup setup_;
   ExportJob export_;
   ProjectSession session_;
+  ModelGallery gallery_;
   NewProjectFlow new_project_;
+  ChangeModelDialog change_model_;
   StartPage start_page_;
   Toasts toasts_;
   FileBrowser browser_;

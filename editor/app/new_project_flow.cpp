@@ -29,10 +29,10 @@ fs::path writable_folder(const Settings& settings) {
   return fs::current_path(code);
 }
 
-std::vector<Problem> guesses_of(const FirstProject& made) {
-  std::vector<Problem> guesses;
-  for (const FirstProjectNote& note : made.notes)
-    if (note.is_guess) guesses.push_back({note.field, note.text});
+std::vector<Guess> guesses_of(const fs::path& project_file) {
+  std::vector<Guess> guesses;
+  for (FirstProjectGuess& guess : guesses_beside(project_file))
+    guesses.push_back({{std::move(guess.field), std::move(guess.text)}, std::move(guess.value)});
   return guesses;
 }
 
@@ -50,12 +50,9 @@ std::optional<int> best_frame(const Survey& survey, int first) {
 
 }  // namespace
 
-NewProjectFlow::NewProjectFlow(Document& document, Settings& settings, ProjectSession& session, Setup setup)
-    : document_(document),
-      settings_(settings),
-      session_(session),
-      dialog_(sample_models_in(setup.models), setup.wake),
-      job_(setup.wake) {}
+NewProjectFlow::NewProjectFlow(Document& document, Settings& settings, ProjectSession& session, ModelGallery& gallery,
+                               std::function<void()> wake)
+    : document_(document), settings_(settings), session_(session), dialog_(gallery, wake), job_(std::move(wake)) {}
 
 void NewProjectFlow::open(const fs::path& video) {
   if (job_.is_running()) return;
@@ -90,7 +87,6 @@ void NewProjectFlow::take_made() {
 void NewProjectFlow::begin_project() {
   document_number_ = document_.first_number();
   settings_.show_inspector = true;
-  guesses_.begin(guesses_of(*awaited_), document_);
   document_.apply(Select{{Selected::intruder, 0, 0}});
   const auto count = static_cast<std::int64_t>(guesses_.left().size());
   const std::string guessed =
@@ -128,8 +124,10 @@ void NewProjectFlow::update() {
   if (choice.cancel) job_.cancel();
   if (choice.create) session_.replace_then([this, options = *choice.create] { begin_making(options); });
   take_made();
-  follow_made();
+  if (std::exchange(guesses_of_, document_.first_number()) != document_.first_number())
+    guesses_.begin(guesses_of(document_.project().file), document_);
   guesses_.follow(document_);
+  follow_made();
 }
 
 }  // namespace sigs::editor

@@ -21,14 +21,10 @@ namespace sigs::editor {
 // background, opens it, and goes to a frame in which the intruder is in view. For the window's thread.
 class NewProjectFlow {
  public:
-  struct Setup {
-    // Folder of the sample models; it need not be there.
-    std::filesystem::path models;
-    // May be called from any thread: something is to be drawn.
-    std::function<void()> wake;
-  };
-  // Document, settings and session must outlive it.
-  NewProjectFlow(Document& document, Settings& settings, ProjectSession& session, Setup setup);
+  // Document, settings, session and gallery must outlive it.
+  //   wake  may be called from any thread: something is to be drawn
+  NewProjectFlow(Document& document, Settings& settings, ProjectSession& session, ModelGallery& gallery,
+                 std::function<void()> wake);
 
   // Shows the dialog. video: to begin with; "": none.
   void open(const std::filesystem::path& video);
@@ -47,7 +43,7 @@ class NewProjectFlow {
 
   // Messages since the last call.
   [[nodiscard]] std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
-  // What was guessed of the project that is open.
+  // What was guessed when the project that is open was made, in this session or earlier, and is unchanged.
   [[nodiscard]] const std::vector<Problem>& guesses() const { return guesses_.left(); }
 
  private:
@@ -69,6 +65,8 @@ class NewProjectFlow {
   FirstProjectJob job_;
   Guesses guesses_;
   std::vector<Request> requests_;
+  // First number of the document whose guesses were read.
+  std::uint64_t guesses_of_ = 0;
   // Wanted while drawing, done in update().
   NewProjectChoice choice_;
   // Made, and given to the session.

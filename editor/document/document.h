@@ -121,6 +121,14 @@ struct StopCameraMotion {};
 // Begins to find how the footage looks, in the background, to make the intruders look like it; stops that.
 struct MatchFootage {};
 struct StopMatchingFootage {};
+// Whether the inspector shows every setting, or those that most projects need.
+struct ShowAllSettings {
+  bool all = true;
+};
+// A dialog with the models that an intruder can have.
+struct ShowModels {
+  int intruder = 0;
+};
 // A dialog that asks where the project's missing files are.
 struct ShowMissingFiles {};
 struct ToggleFullScreen {};
@@ -146,11 +154,11 @@ struct ShowMessage {
 };
 
 // What the program does, and the document does not know of: App and what it owns handle them.
-using Request =
-    std::variant<OpenProject, NewProject, ShowNewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile, Play, TogglePlay,
-                 SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp, ShowSettings, ShowAbout, ShowMissingFiles,
-                 ToggleFullScreen, EstimateCameraMotion, StopCameraMotion, MatchFootage, StopMatchingFootage,
-                 LoadResults, RemoveResults, ShowResults, ClearMessages, ShowMessage>;
+using Request = std::variant<OpenProject, NewProject, ShowNewProject, SaveProject, SaveProjectAs, CloseProject, Quit,
+                             AskForFile, Play, TogglePlay, SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp,
+                             ShowSettings, ShowAbout, ShowMissingFiles, ToggleFullScreen, EstimateCameraMotion,
+                             StopCameraMotion, MatchFootage, StopMatchingFootage, LoadResults, RemoveResults,
+                             ShowResults, ShowAllSettings, ShowModels, ClearMessages, ShowMessage>;
 
 // Views queue here what they want while they draw, so that the project does not change under the views that are drawn
 // after them. After that the document applies the edits and the program handles the requests, in the order in which

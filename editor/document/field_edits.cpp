@@ -16,53 +16,6 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
-
-// Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 41> kNames{{
-    {"camera.track.file", "Log file"},
-    {"camera.track.offset_s", "Time offset"},
-    {"camera.track.position", "Its position"},
-    {"camera.track.attitude", "Its attitude"},
-    {"camera.track.incomplete", "If incomplete"},
-    {"camera.readout_s", "Shutter readout"},
-    {"camera.exposure_s", "Exposure time"},
-    {"light.sun.azimuth_deg", "Sun azimuth"},
-    {"light.sun.elevation_deg", "Sun elevation"},
-    {"footage.occluder_mask", "Occluder"},
-    {"footage.occluder_frame", "Occluder frame"},
-    {"footage.occluder_distance_m", "Its distance"},
-    {"appearance.point_spread_px", "Blur"},
-    {"appearance.sharpening", "Sharpening"},
-    {"appearance.sharpening_px", "Sharpening radius"},
-    {"appearance.chroma_spread_px", "Blur of colours"},
-    {"appearance.black", "Flare"},
-    {"appearance.grain.sd_dark", "Noise, dark"},
-    {"appearance.grain.sd_bright", "Noise, bright"},
-    {"appearance.grain.sd_chroma", "Noise, colours"},
-    {"appearance.grain.spread_px", "Grain size"},
-    {"appearance.grain.persistence", "Grain persistence"},
-    {"appearance.grain.seed", "Grain seed"},
-    {"appearance.haze.visibility_m", "Visibility"},
-    {"appearance.haze.airlight_color", "Airlight colour"},
-    {"appearance.codec.match", "Codec"},
-    {"appearance.codec.quantiser", "Quantiser"},
-    {"geo.height_m", "Height of z = 0"},
-    {"geo.heading_deg", "Heading of X"},
-    {"compositing.blur_px_per_m", "Blur with distance"},
-    {"export.video.crf", "Quality (crf)"},
-    {"export.video.codec", "Codec"},
-    {"export.video.container", "Container"},
-    {"light.color", "Colour"},
-    {"own_body.every", "Every nth"},
-    {"own_body.settled_percent", "Settled below"},
-    {"own_body.stable.vibration_px", "Vibration"},
-    {"own_body.paper.least_area_percent", "Min area"},
-    {"own_body.stable.least_area_percent", "Min area"},
-    {"own_body.stable.least_moving_percent", "Min moving"},
-    {"footage.calibration", "Calibration"},
-}};
-
 std::string with_spaces(std::string_view name) {
   std::string text(name);
   std::replace(text.begin(), text.end(), '_', ' ');
@@ -201,20 +154,6 @@ void keep_axes_apart(ModelSettings& model, const ModelSettings& before) {
 }
 
 }  // namespace
-
-std::string label_of(std::string_view key) {
-  for (const auto& [named, name] : kNames)
-    if (key == named) return std::string(name);
-  std::string_view last = key.substr(key.rfind('.') + 1);
-  for (const std::string_view unit : kUnitsInKeys)
-    if (last.size() > unit.size() && last.ends_with(unit)) {
-      last.remove_suffix(unit.size());
-      break;
-    }
-  std::string label = with_spaces(last);
-  if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  return label;
-}
 
 bool matches(const Field& field, std::string_view words) {
   const std::string where = lower_case(fmt::format("{} {} {}", field.key, label_of(field.key), field.help));

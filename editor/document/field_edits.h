@@ -69,6 +69,13 @@ class FieldSheet {
 // What the person can do about a problem; "" where the problem itself says so. field: null where the key has none.
 [[nodiscard]] std::string advice(const Problem& problem, const Field* field);
 
+// Where in the window a setting that was guessed is found out or chosen: "Horizon... sets it."; "": at its row.
+[[nodiscard]] std::string advice_on_guess(std::string_view key);
+
+// Whether a setting is among those that most projects need. The inspector shows the others on demand, and where they
+// are wrong or guessed.
+[[nodiscard]] bool is_common(std::string_view key);
+
 // A printf format for a number: hundredths, more of small numbers, no zeros at the end; with the unit where it is
 // shown beside numbers (frames are not).
 [[nodiscard]] std::string number_format(double value, std::string_view unit);

@@ -38,6 +38,7 @@ Settings settings_of(const Json& json) {
   take(json, "world_share", settings.world_share, 0.05, 0.95);
   take(json, "show_world", settings.show_world);
   take(json, "show_inspector", settings.show_inspector);
+  take(json, "all_settings", settings.all_settings);
   take(json, "loop", settings.loop);
   take(json, "autosave_s", settings.autosave_s, 1.0, 3600.0);
   if (const auto folder = json.find("last_folder"); folder != json.end() && folder->is_string())
@@ -78,6 +79,7 @@ Result<void> write_settings(const Settings& settings, const fs::path& file) {
   json["world_share"] = settings.world_share;
   json["show_world"] = settings.show_world;
   json["show_inspector"] = settings.show_inspector;
+  json["all_settings"] = settings.all_settings;
   json["loop"] = settings.loop;
   json["autosave_s"] = settings.autosave_s;
   json["last_folder"] = settings.last_folder.string();

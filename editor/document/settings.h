@@ -25,6 +25,8 @@ struct Settings {
   double world_share = 0.38;
   bool show_world = true;
   bool show_inspector = true;
+  // The inspector shows every setting, not only those that most projects need.
+  bool all_settings = false;
   // Playing starts again at the range's end.
   bool loop = true;
   // Seconds from an edit until the recovery file is written.

@@ -11,6 +11,7 @@
 #include "base/threads.h"
 #include "base/transfer.h"
 #include "export/export_project.h"
+#include "first_project/first_model.h"
 #include "frame/compose_frame.h"
 #include "project/json.h"
 #include "scene/opened_project.h"
@@ -125,6 +126,24 @@ Result<cv::Mat> composed_image(const Scene& scene, FrameSource& source, cv::Size
   return scaled_piece(bgr, window, size_px);
 }
 
+// What is seen of an image of a model, as large as the wanted size allows.
+cv::Mat filling(const cv::Mat& rgba, cv::Size size_px) {
+  cv::Mat alpha;
+  cv::extractChannel(rgba, alpha, 3);
+  const cv::Rect seen = cv::boundingRect(alpha);
+  if (seen.empty()) return cv::Mat(size_px, CV_8UC4, cv::Scalar::all(0));
+  constexpr double kMargin = 0.06;  // of the size, on each side
+  const double scale =
+      (1 - 2 * kMargin) * std::min(double(size_px.width) / seen.width, double(size_px.height) / seen.height);
+  cv::Mat piece;
+  cv::resize(rgba(seen), piece, {std::max(1, int(seen.width * scale)), std::max(1, int(seen.height * scale))}, 0, 0,
+             cv::INTER_AREA);
+  cv::Mat image(size_px, CV_8UC4, cv::Scalar::all(0));
+  piece.copyTo(
+      image(cv::Rect((size_px.width - piece.cols) / 2, (size_px.height - piece.rows) / 2, piece.cols, piece.rows)));
+  return image;
+}
+
 }  // namespace
 
 cv::Mat straight_display(const cv::Mat& premultiplied) {
@@ -169,10 +188,22 @@ Result<cv::Mat> project_thumbnail(const fs::path& project_file, cv::Size size_px
   return untouched_image(*source, size_px);
 }
 
-ProjectThumbnails::ProjectThumbnails(cv::Size size_px, std::function<void()> wake)
-    : size_px_(size_px), wake_(std::move(wake)) {}
+Result<cv::Mat> model_thumbnail(const fs::path& file, cv::Size size_px) {
+  SceneFiles files;
+  const Result<FirstModel> model = is_sample_model(file) ? sample_model(file, files) : users_model(file, files);
+  if (!model) return fail(model.error());
+  Result<Renderer> renderer = Renderer::create();
+  if (!renderer) return fail(renderer.error());
+  const int side_px = 2 * std::max(size_px.width, size_px.height);
+  const Result<cv::Mat> rgba = turntable_image(model->model->mesh, 0, {side_px, side_px}, *renderer);
+  if (!rgba || rgba->empty()) return rgba;
+  return filling(*rgba, size_px);
+}
 
-ProjectThumbnails::~ProjectThumbnails() {
+Thumbnails::Thumbnails(cv::Size size_px, std::function<void()> wake, Make make)
+    : size_px_(size_px), wake_(std::move(wake)), make_(std::move(make)) {}
+
+Thumbnails::~Thumbnails() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -181,32 +212,32 @@ ProjectThumbnails::~ProjectThumbnails() {
   if (thread_.joinable()) thread_.join();
 }
 
-std::shared_ptr<const cv::Mat> ProjectThumbnails::of(const fs::path& project) {
+std::shared_ptr<const cv::Mat> Thumbnails::of(const fs::path& file) {
   const std::lock_guard lock(mutex_);
-  const auto [place, is_new] = images_.try_emplace(project);
+  const auto [place, is_new] = images_.try_emplace(file);
   if (!is_new) return place->second;
-  queue_.push_back(project);
+  queue_.push_back(file);
   if (!thread_.joinable())  // without a thread there are no images; the next question tries again
     if (Result<std::thread> thread = started_thread([this] { work(); })) thread_ = std::move(*thread);
   asked_.notify_one();
   return nullptr;
 }
 
-void ProjectThumbnails::work() {
+void Thumbnails::work() {
   for (;;) {
-    fs::path project;
+    fs::path file;
     {
       std::unique_lock lock(mutex_);
       asked_.wait(lock, [this] { return stop_ || !queue_.empty(); });
       if (stop_) return;
-      project = std::move(queue_.front());
+      file = std::move(queue_.front());
       queue_.pop_front();
     }
     const Result<void> made = guarded([&]() -> Result<void> {
-      Result<cv::Mat> image = project_thumbnail(project, size_px_);
+      Result<cv::Mat> image = make_(file, size_px_);
       if (!image) return fail(image.error());
       const std::lock_guard lock(mutex_);
-      images_[project] = std::make_shared<const cv::Mat>(std::move(*image));
+      images_[file] = std::make_shared<const cv::Mat>(std::move(*image));
       return {};
     });
     if (made) wake_();

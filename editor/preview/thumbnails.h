@@ -22,27 +22,35 @@ namespace sigs::editor {
 // shows. Where intruders cannot be composed, the middle frame of the footage.
 [[nodiscard]] Result<cv::Mat> project_thumbnail(const std::filesystem::path& project, cv::Size size_px);
 
-// Such images, made one after the other on a thread of its own when they are first asked for, and kept.
-class ProjectThumbnails {
- public:
-  // wake  called from that thread when one is ready
-  ProjectThumbnails(cv::Size size_px, std::function<void()> wake);
-  ~ProjectThumbnails();  // waits for the one at work
-  ProjectThumbnails(const ProjectThumbnails&) = delete;
-  ProjectThumbnails& operator=(const ProjectThumbnails&) = delete;
+// A model by itself, as turntable_image() shows it, as large as the size allows, CV_8UC4: what a model is chosen by. A
+// sample's axes are known, those of another file are judged by its shape (first_project/first_model.h).
+[[nodiscard]] Result<cv::Mat> model_thumbnail(const std::filesystem::path& model, cv::Size size_px);
 
-  // CV_8UC3 of the size given. Asks for the image and returns at once. Null: not there yet, or there is none to be had.
-  [[nodiscard]] std::shared_ptr<const cv::Mat> of(const std::filesystem::path& project);
+// Images of files, made one after the other on a thread of its own when they are first asked for, and kept.
+class Thumbnails {
+ public:
+  using Make = std::function<Result<cv::Mat>(const std::filesystem::path&, cv::Size)>;
+
+  // wake  called from that thread when one is ready
+  // make  project_thumbnail or model_thumbnail
+  Thumbnails(cv::Size size_px, std::function<void()> wake, Make make);
+  ~Thumbnails();  // waits for the one at work
+  Thumbnails(const Thumbnails&) = delete;
+  Thumbnails& operator=(const Thumbnails&) = delete;
+
+  // Asks for the image and returns at once. Null: not there yet, or there is none to be had.
+  [[nodiscard]] std::shared_ptr<const cv::Mat> of(const std::filesystem::path& file);
 
  private:
   void work();
 
   cv::Size size_px_;
   std::function<void()> wake_;
+  Make make_;
   std::mutex mutex_;
   std::condition_variable asked_;
   std::deque<std::filesystem::path> queue_;
-  // By project file; null while it is made, and where it could not be.
+  // By file; null while it is made, and where it could not be.
   std::map<std::filesystem::path, std::shared_ptr<const cv::Mat>> images_;
   bool stop_ = false;
   // Started when the first image is asked for.

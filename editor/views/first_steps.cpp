@@ -93,7 +93,7 @@ std::string horizon_text(const ViewContext& context) {
 Steps steps_of(const ViewContext& context) {
   const Project& project = context.project();
   const bool has_aircraft = !project.intruders.empty() && intruder_without_model(project) == project.intruders.size();
-  Steps steps{{{.name = "Footage",
+  Steps steps{{{.name = "Video",
                 .what = "The video of a real flight",
                 .key = "footage.video",
                 .file = project.footage.video,
@@ -105,8 +105,8 @@ Steps steps_of(const ViewContext& context) {
                 .file = project.footage.calibration,
                 .extensions = extensions_for("footage.calibration"),
                 .choose = put_file(context, "choose calibration", "footage.calibration")},
-               {.name = "Aircraft",
-                .what = "A model as Wavefront OBJ; it is put 300 m ahead",
+               {.name = "Model",
+                .what = "Of the aircraft, as Wavefront OBJ; it is put 300 m ahead",
                 .key = "intruders[0].model.file",
                 .file = has_aircraft ? project.intruders.front().model.file : "",
                 .extensions = extensions_for("intruders[0].model.file"),

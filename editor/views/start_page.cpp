@@ -76,7 +76,7 @@ std::string first_sentence(const std::string& markdown) {
 }
 
 StartPage::StartPage(const fs::path& samples, std::function<void()> wake)
-    : samples_(samples_in(samples)), images_({kImageWidth_px, kImageHeight_px}, std::move(wake)) {}
+    : samples_(samples_in(samples)), images_({kImageWidth_px, kImageHeight_px}, std::move(wake), project_thumbnail) {}
 
 std::vector<SampleProject> samples_in(const fs::path& folder) {
   std::vector<SampleProject> samples;

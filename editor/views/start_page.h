@@ -67,7 +67,7 @@ class StartPage {
   std::vector<SampleProject> samples_;
   // As the disk was when the list last changed.
   std::vector<Recent> recent_;
-  ProjectThumbnails images_;
+  Thumbnails images_;
 };
 
 // The text's first sentence below its headings, without line breaks and backquotes. A semicolon or colon before a space

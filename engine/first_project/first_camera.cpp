@@ -57,12 +57,12 @@ GuessedLens guessed_lens(const FirstProjectOptions& options, const VideoInfo& vi
                          const std::optional<LoggedLens>& logged, FirstProjectNote& note) {
   const double width = video.size_px.width * pixel_aspect(video);
   const double height = video.size_px.height;
-  const std::string remedy = "; `sigs calibrate` measures the lens";
   const auto finish = [&](GuessedLens guessed, const std::string& why) {
-    note.text = guessed.how + ", " + why + remedy;
+    note.text = guessed.how + ", " + why;
     return guessed;
   };
   note.is_guess = true;
+  note.remedy = "`sigs calibrate` measures the lens";
   if (options.horizontal_fov_deg) {
     const double fov_deg = *options.horizontal_fov_deg;
     return finish(lens_of(video, width, rad_of_deg(fov_deg), fov_deg >= kFisheyeFov_deg, "from side to side"),
@@ -79,9 +79,10 @@ GuessedLens guessed_lens(const FirstProjectOptions& options, const VideoInfo& vi
     return finish(lens_of(video, width, *logged->horizontal_fov_rad, is_fisheye, "from side to side"),
                   "by what the file states (" + logged->source + "); distortion is not known");
   }
+  note.remedy = "--fov states it if you know it; " + note.remedy;
   return finish(lens_of(video, std::max(width, height), rad_of_deg(kGuessedFov_deg), false,
                         width >= height ? "from side to side" : "from top to bottom"),
-                "a guess: nothing in the file tells it; --fov states it if you know it");
+                "a guess: nothing in the file tells it");
 }
 
 std::string calibration_xml(const LensParameters& lens, cv::Size size_px, const std::string& note) {

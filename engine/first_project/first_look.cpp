@@ -93,8 +93,8 @@ FirstProjectNote set_light(const FirstLook& look, Project& project) {
   FirstProjectNote note{.field = "light.kind", .is_guess = true};
   const LightEstimate& light = look.surroundings.light;
   if (!light.sky_color[0].is_known) {
-    note.text = "the default light: " + light.sky_color[0].why +
-                "; set light.* as the footage is lit, or use `sigs appearance`";
+    note.text = "the default light: " + light.sky_color[0].why;
+    note.remedy = "set light.* as the footage is lit, or use `sigs appearance`";
     return note;
   }
   const CompositingSettings compositing = project.compositing;
@@ -105,10 +105,9 @@ FirstProjectNote set_light(const FirstLook& look, Project& project) {
   project.compositing = compositing;
   project.appearance = appearance;
   const SunEstimate& sun = look.surroundings.sun;
-  note.text = fmt::format(
-      "sun, sky and ground as a few frames show them, the sun {}; `sigs appearance` looks at more, and at blur and "
-      "noise",
-      sun.azimuth_rad.is_known ? how_found(sun.witness) : "behind the camera, which is a guess");
+  note.text = fmt::format("sun, sky and ground as a few frames show them, the sun {}",
+                          sun.azimuth_rad.is_known ? how_found(sun.witness) : "behind the camera, which is a guess");
+  note.remedy = "`sigs appearance` looks at more, and at blur and noise";
   return note;
 }
 

@@ -72,8 +72,9 @@ FirstProjectNote axes_note(const ModelShape& shape, const ModelSettings& setting
   return note;
 }
 
-// By words in the file's name.
-std::string category_of(const fs::path& file) {
+}  // namespace
+
+std::string category_of_model(const fs::path& file) {
   const std::string name = lower_case(file.filename().string());
   const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
   if (has("heli")) return "helicopter";
@@ -85,13 +86,11 @@ std::string category_of(const fs::path& file) {
   return "airplane";
 }
 
-}  // namespace
-
 Result<FirstModel> users_model(const fs::path& file, SceneFiles& files) {
   const Result<Mesh> plain = read_obj(file);
   if (!plain) return fail(plain.error());
   const ModelShape shape = shape_of(*plain);
-  FirstModel first{.file = file, .category = category_of(file)};
+  FirstModel first{.file = file, .category = category_of_model(file)};
   // Where the shape does not tell a sign, the file's positive axis is taken.
   const auto positive_unless = [](std::string axis, bool is_sure) { return is_sure ? axis : "+" + axis.substr(1); };
   first.settings.forward = positive_unless(file_axis(shape.nose, {}), shape.nose_is_sure);
@@ -123,12 +122,12 @@ Result<FirstModel> sample_model(const fs::path& chosen, SceneFiles& files) {
   if (!file) return fail(file.error());
   Result<std::shared_ptr<const Model>> model = files.model(*file, ModelAxes{});
   if (!model) return fail(model.error());
-  FirstModel first{.file = *file, .model = *std::move(model), .category = category_of(*file)};
+  FirstModel first{.file = *file, .model = *std::move(model), .category = category_of_model(*file)};
   const std::string name = chosen.empty() ? "light aircraft" : file->stem().string();
   first.notes.push_back({.field = "intruders[0].model.file",
-                         .text = fmt::format("the sample {}, copied beside the project{}", name,
-                                             chosen.empty() ? "; --model takes another one" : ""),
-                         .is_guess = chosen.empty()});
+                         .text = fmt::format("the sample {}, copied beside the project", name),
+                         .is_guess = chosen.empty(),
+                         .remedy = chosen.empty() ? "--model takes another one" : ""});
   return first;
 }
 
@@ -137,10 +136,31 @@ Result<std::vector<FirstProjectFile>> copied_model(const fs::path& file, const f
   if (!sources) return fail(sources.error());
   std::vector<FirstProjectFile> copies;
   std::set<fs::path> names;  // an image that several materials name is listed for each of them
-  for (const fs::path& source : *sources)
-    if (names.insert(source.filename()).second)
-      copies.push_back({.path = folder / source.filename(), .content = {}, .copy_of = source});
+  for (const fs::path& source : *sources) {
+    const fs::path name = canonical_name(source).lexically_relative(canonical_name(file).parent_path());
+    if (name.empty() || *name.begin() == "..")
+      return fail(file.string(),
+                  fmt::format("cannot be copied: its file {} lies outside of its folder", source.string()));
+    if (names.insert(name).second) copies.push_back({.path = folder / name, .content = {}, .copy_of = source});
+  }
   return copies;
+}
+
+Result<fs::path> model_copied_into(const fs::path& folder, const fs::path& model) {
+  if (is_at_or_below(canonical_path(model), canonical_path(folder))) return model;
+  constexpr int kMaxSameNames = 999;
+  Error error;
+  for (int i = 1; i <= kMaxSameNames; ++i) {
+    const std::string name = model.stem().string() + (i > 1 ? fmt::format("-{}", i) : "");
+    const Result<std::vector<FirstProjectFile>> copies = copied_model(model, folder / name);
+    if (!copies) return fail(copies.error());
+    const Result<void> written = write_files(*copies, false);
+    if (written) return folder / name / model.filename();
+    error = written.error();
+    std::error_code code;
+    if (!fs::exists(folder / name, code)) break;  // another name would not help
+  }
+  return fail(error);
 }
 
 }  // namespace sigs

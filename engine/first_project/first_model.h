@@ -28,11 +28,21 @@ struct FirstModel {
 // Whether the file is a model that comes with the program: those are in metres, nose +x, up +z.
 [[nodiscard]] bool is_sample_model(const std::filesystem::path& file);
 
+// What kind of thing labels call a model, by words in its file's name: "helicopter"; "airplane" where none tells.
+[[nodiscard]] std::string category_of_model(const std::filesystem::path& file);
+
 // A model that comes with the program; without a name the light aircraft. Error cannot_read where it is not there.
 [[nodiscard]] Result<FirstModel> sample_model(const std::filesystem::path& file, SceneFiles& files);
 
-// The sample's files as copies in a folder beside the project.
+// A model's files (OBJ, materials, textures) as copies in another folder, each at its place relative to the OBJ file.
+// Error bad_data where one of them lies outside of the OBJ file's folder, so that a copy could not name it.
 [[nodiscard]] Result<std::vector<FirstProjectFile>> copied_model(const std::filesystem::path& file,
                                                                  const std::filesystem::path& folder);
+
+// Copies a model into a folder of its own, FOLDER/NAME or FOLDER/NAME-2 and so on, where NAME/NAME.obj is not this very
+// model already. A model that lies in FOLDER or below it stays where it is. Returns the path of the OBJ file to be
+// used. Errors: those of copied_model() and write_files().
+[[nodiscard]] Result<std::filesystem::path> model_copied_into(const std::filesystem::path& folder,
+                                                              const std::filesystem::path& model);
 
 }  // namespace sigs

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <sstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "base/input_file.h"
 #include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/pose.h"
@@ -19,6 +22,7 @@
 #include "first_project/first_look.h"
 #include "first_project/first_match.h"
 #include "first_project/first_model.h"
+#include "project/json.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"
@@ -87,6 +91,25 @@ Result<void> check_options(const FirstProjectOptions& options) {
     return fail(options.out.string(), "a project file ends in .json", ErrorKind::usage);
   const std::string wrong = options.name.empty() ? "" : wrong_with_file_name(options.name);
   return wrong.empty() ? Result<void>() : fail("name", wrong, ErrorKind::usage);
+}
+
+constexpr const char* kNotesEnding = ".notes.txt";
+constexpr std::string_view kGuessed = " (guessed)";
+constexpr std::string_view kIndent = "    ";
+constexpr std::string_view kValue = "    value: ";
+
+// As guesses_beside() reads it.
+std::string notes_text(const FirstProject& first) {
+  std::string text = fmt::format(
+      "What is in {}, and why. \"guessed\" is what to look at first; the editor lists a guess for as long as the "
+      "setting has the value below it.\n\n",
+      first.project.file.filename().string());
+  for (const FirstProjectNote& note : first.notes) {
+    text += fmt::format("{}{}\n{}{}\n", note.field, note.is_guess ? kGuessed : "", kIndent, note.text);
+    if (!note.remedy.empty()) text += fmt::format("{}to change it: {}\n", kIndent, note.remedy);
+    if (note.is_guess) text += fmt::format("{}{}\n", kValue, setting_text(first.project, note.field));
+  }
+  return text;
 }
 
 // All that is made on the way from the video to the project.
@@ -192,10 +215,10 @@ class Planning {
       project().camera.pitch_deg = rounded_deg(*look->pitch_rad);
       note(
           {.field = "camera.attitude_deg",
-           .text = fmt::format("roll {}, pitch {}: by the horizon in a few frames; `sigs ego-motion` finds each "
-                               "frame's attitude",
+           .text = fmt::format("roll {}, pitch {}: by the horizon in a few frames",
                                number_text(*project().camera.roll_deg, 1), number_text(*project().camera.pitch_deg, 1)),
-           .is_guess = true});
+           .is_guess = true,
+           .remedy = "`sigs ego-motion` finds each frame's attitude"});
     } else if (!scene().horizon_is_known) {
       note({.field = "camera.attitude_deg",
             .text = "not known: no horizon was found in the footage; the camera counts as level",
@@ -261,11 +284,7 @@ class Planning {
 
   // What was decided, as a text beside the project.
   void add_notes_file() {
-    std::string text = fmt::format("What is in {}, and why. \"guessed\" is what to look at first.\n\n",
-                                   project().file.filename().string());
-    for (const FirstProjectNote& note : first_.notes)
-      text += fmt::format("{}{}\n    {}\n", note.field, note.is_guess ? " (guessed)" : "", note.text);
-    first_.files.push_back({.path = beside(".notes.txt"), .content = text, .copy_of = {}});
+    first_.files.push_back({.path = beside(kNotesEnding), .content = notes_text(first_), .copy_of = {}});
   }
 
   const FirstProjectOptions& options_;
@@ -278,6 +297,31 @@ class Planning {
 };
 
 }  // namespace
+
+std::string told_on_terminal(const FirstProjectNote& note) {
+  return note.remedy.empty() ? note.text : note.text + "; " + note.remedy;
+}
+
+std::vector<FirstProjectGuess> guesses_beside(const fs::path& project_file) {
+  std::vector<FirstProjectGuess> guesses;
+  const Result<std::string> text = read_text(project_file.parent_path() / (stem_of(project_file) + kNotesEnding));
+  if (!text) return guesses;
+  std::istringstream lines(*text);
+  std::optional<FirstProjectGuess> guess;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.ends_with(kGuessed) && !line.starts_with(' ')) {
+      guess = FirstProjectGuess{.field = line.substr(0, line.size() - kGuessed.size()), .text = {}};
+    } else if (guess && line.starts_with(kValue)) {
+      guess->value = line.substr(kValue.size());
+      guesses.push_back(*std::exchange(guess, std::nullopt));
+    } else if (guess && line.starts_with(kIndent) && guess->text.empty()) {
+      guess->text = line.substr(kIndent.size());
+    } else if (!line.starts_with(' ')) {
+      guess.reset();
+    }
+  }
+  return guesses;
+}
 
 Result<FirstProject> planned_first_project(const FirstProjectOptions& options, const FirstProjectControl& control) {
   return Planning(options, control).planned();

@@ -27,10 +27,11 @@ struct FirstProjectOptions {
   std::filesystem::path calibration;         // empty: none is given
   std::optional<double> horizontal_fov_deg;  // of the footage, 1 to 359; not together with a calibration
   std::filesystem::path model;  // OBJ; empty: the sample light aircraft; samples are copied beside the project
-  std::filesystem::path out;    // the project file; empty: NAME/NAME.json in the current folder, of images NAME-project/NAME.json
-  std::string name;             // empty: the project file's or else the video's name without extension, of images their folder's
-  bool overwrite = false;       // whether files of these names are replaced
-  bool plain = false;           // appearance stays at the defaults; else it is matched to the footage
+  std::filesystem::path
+      out;           // the project file; empty: NAME/NAME.json in the current folder, of images NAME-project/NAME.json
+  std::string name;  // empty: the project file's or else the video's name without extension, of images their folder's
+  bool overwrite = false;  // whether files of these names are replaced
+  bool plain = false;      // appearance stays at the defaults; else it is matched to the footage
 };
 
 struct FirstProjectControl {
@@ -41,10 +42,25 @@ struct FirstProjectControl {
 
 // One thing that was decided for the user.
 struct FirstProjectNote {
-  std::string field;      // of the project: "footage.calibration", "intruders[0].model.forward"
-  std::string text;       // what, why, and where it is a guess, what to do about it; one line
-  bool is_guess = false;  // false: the file states it, or it was measured
+  std::string field;        // of the project: "footage.calibration", "intruders[0].model.forward"
+  std::string text;         // what and why; one line
+  bool is_guess = false;    // false: the file states it, or it was measured
+  std::string remedy = {};  // what changes it on the command line: "--fov states it"; empty: the setting alone
 };
+
+// "text; remedy", for the terminal.
+[[nodiscard]] std::string told_on_terminal(const FirstProjectNote& note);
+
+// A setting that was guessed when a project was made, and its value then.
+struct FirstProjectGuess {
+  std::string field;  // of one setting or of a group: "intruders[0].trajectory"
+  std::string text;
+  std::string value = {};  // setting_text() (project/json.h)
+};
+
+// The guesses of a project that make_first_project() made, from NAME.notes.txt beside its file, in their order. A note
+// without a value (files of earlier versions) is left out. Empty where there is no such file.
+[[nodiscard]] std::vector<FirstProjectGuess> guesses_beside(const std::filesystem::path& project_file);
 
 // A file that is made beside the project file: a text, or a copy of another file.
 struct FirstProjectFile {
@@ -61,10 +77,9 @@ struct FirstProject {
   std::vector<Warning> warnings;        // of the files that were read
 };
 
-// Plans the project; nothing is written. Reads the video's index, its log and, of the frames used, at most 7, and 48 more
-// where it is matched to them.
-// Errors: usage (options that contradict each other), cannot_read, bad_data (a calibration for another shape of
-// images, which names both; a model without a size), interrupted.
+// Plans the project; nothing is written. Reads the video's index, its log and, of the frames used, at most 7, and 48
+// more where it is matched to them. Errors: usage (options that contradict each other), cannot_read, bad_data (a
+// calibration for another shape of images, which names both; a model without a size), interrupted.
 [[nodiscard]] Result<FirstProject> planned_first_project(const FirstProjectOptions& options,
                                                          const FirstProjectControl& control = {});
 
@@ -73,6 +88,10 @@ struct FirstProject {
 // already with the same content are left alone. Errors: cannot_create (a file is there already and options.overwrite
 // is false), write_failed.
 [[nodiscard]] Result<void> write_first_project(const FirstProject& planned, bool overwrite);
+
+// All of these files or none, making folders where there are none. Copies that are there already with the same content
+// are left alone. Errors as above.
+[[nodiscard]] Result<void> write_files(const std::vector<FirstProjectFile>& files, bool overwrite);
 
 // Both, one after the other.
 [[nodiscard]] Result<FirstProject> make_first_project(const FirstProjectOptions& options,

@@ -38,9 +38,7 @@ Result<void> make_folder(const fs::path& folder) {
 
 }  // namespace
 
-Result<void> write_first_project(const FirstProject& planned, bool overwrite) {
-  std::vector<FirstProjectFile> files{{.path = planned.project.file, .content = text_of(planned.project)}};
-  files.insert(files.end(), planned.files.begin(), planned.files.end());
+Result<void> write_files(const std::vector<FirstProjectFile>& files, bool overwrite) {
   StagedOutputs outputs(overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
   for (const FirstProjectFile& file : files) {
     const Result<std::string> content = content_of(file);
@@ -53,6 +51,12 @@ Result<void> write_first_project(const FirstProject& planned, bool overwrite) {
       return fail(outputs.with_final_names(written.error()));
   }
   return outputs.commit();
+}
+
+Result<void> write_first_project(const FirstProject& planned, bool overwrite) {
+  std::vector<FirstProjectFile> files{{.path = planned.project.file, .content = text_of(planned.project)}};
+  files.insert(files.end(), planned.files.begin(), planned.files.end());
+  return write_files(files, overwrite);
 }
 
 Result<FirstProject> make_first_project(const FirstProjectOptions& options, const FirstProjectControl& control) {

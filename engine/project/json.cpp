@@ -276,6 +276,26 @@ std::string text_of(const Project& project) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // paths may be no UTF-8
 }
 
+std::string setting_text(const Project& project, const std::string& key) {
+  return setting_texts(project, {key}).front();
+}
+
+std::vector<std::string> setting_texts(const Project& project, const std::vector<std::string>& keys) {
+  const Json json = parsed_or_empty(text_of(project));
+  std::vector<std::string> texts;
+  for (const std::string& key : keys) {
+    texts.emplace_back();
+    if (key.empty()) continue;
+    try {
+      const Json::json_pointer pointer(pointer_of(key));
+      if (json.contains(pointer)) texts.back() = json.at(pointer).dump(-1, ' ', false, Json::error_handler_t::replace);
+    } catch (const Json::exception&) {  // no key
+      continue;
+    }
+  }
+  return texts;
+}
+
 Result<void> write_project(const Project& project, const std::filesystem::path& path, bool overwrite) {
   return write_text(path, text_of(project), overwrite);
 }

@@ -32,6 +32,11 @@ inline constexpr std::size_t kMaxWaypoints = 250'000;
 // The project as JSON text, with all fields and the unknown keys that were read. Numbers read back as the same values.
 [[nodiscard]] std::string text_of(const Project& project);
 
+// The value of a setting or of a group of settings, by its key ("camera.speed_mps", "intruders[0].trajectory"), as JSON
+// text in one line. Empty where the project has none of that key. Equal texts are equal values.
+[[nodiscard]] std::string setting_text(const Project& project, const std::string& key);
+[[nodiscard]] std::vector<std::string> setting_texts(const Project& project, const std::vector<std::string>& keys);
+
 // Writes the project file, which appears only when it is complete. Errors as those of write_text().
 [[nodiscard]] Result<void> write_project(const Project& project, const std::filesystem::path& path, bool overwrite);
 

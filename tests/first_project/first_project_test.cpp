@@ -3,12 +3,14 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "base/paths.h"
+#include "first_project/first_model.h"
 #include "first_project/first_project.h"
 #include "project/json.h"
 #include "scene/opened_project.h"
@@ -286,4 +288,59 @@ TEST_CASE("making a first project tells its progress, and ends soon where it is 
     CHECK_MESSAGE(made.error().kind == ErrorKind::interrupted, step);
     CHECK_FALSE(fs::exists(folder / "p.json"));
   }
+}
+
+TEST_CASE("the guesses of a project are read back from beside it, each with the value that its setting has") {
+  const test::TemporaryFolder folder;
+  const FirstProject made = made_and_opened({.video = sample_video(), .out = folder / "first.json"}, 0.9);
+  const std::vector<FirstProjectGuess> guesses = guesses_beside(folder / "first.json");
+  const auto count =
+      std::count_if(made.notes.begin(), made.notes.end(), [](const FirstProjectNote& n) { return n.is_guess; });
+  REQUIRE(static_cast<std::ptrdiff_t>(guesses.size()) == count);
+  REQUIRE(count > 3);
+  const Project read = read_project(folder / "first.json")->project;
+  for (const FirstProjectGuess& guess : guesses) {
+    CAPTURE(guess.field);
+    CHECK(notes_guess(made, guess.field));
+    for (const char* const of_terminal : {"--", "`"})  // of no use in a window
+      CHECK_MESSAGE(guess.text.find(of_terminal) == std::string::npos, guess.text);
+    CHECK_FALSE(guess.value.empty());
+    CHECK(guess.value == setting_text(read, guess.field));
+  }
+  Project changed = read;
+  changed.camera.position_m.z = -77.25;
+  CHECK(setting_text(changed, "camera.position_m") != setting_text(read, "camera.position_m"));
+  CHECK(guesses_beside(folder / "second.json").empty());
+}
+
+TEST_CASE("a model is copied once, beside another of its name, and never overwrites one") {
+  const test::TemporaryFolder folder;
+  const fs::path sample = test::source_dir() / "assets/models/quadcopter/quadcopter.obj";
+  const Result<fs::path> first = model_copied_into(folder.path(), sample);
+  REQUIRE(first);
+  CHECK(*first == folder / "quadcopter/quadcopter.obj");
+  CHECK(test::text_of(*first) == test::text_of(sample));
+  CHECK(*model_copied_into(folder.path(), sample) == *first);
+  CHECK(*model_copied_into(folder.path(), *first) == *first);  // it lies there
+  test::write_file_and_folders(*first, "v 0 0 0\n");
+  const Result<fs::path> second = model_copied_into(folder.path(), sample);
+  REQUIRE(second);
+  CHECK(*second == folder / "quadcopter-2/quadcopter.obj");
+  CHECK(test::text_of(*first) == "v 0 0 0\n");
+}
+
+TEST_CASE("a model keeps the folders of its textures in the copy; one that reaches out of its folder is not copied") {
+  const test::TemporaryFolder folder;
+  const std::string triangle = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
+  test::write_file_and_folders(folder / "in/jet.obj", triangle);
+  test::write_file_and_folders(folder / "in/m.mtl", "newmtl a\nmap_Kd skin/a.png\n");
+  test::write_file_and_folders(folder / "in/skin/a.png", "x");
+  test::write_file_and_folders(folder / "a.png", "x");
+  REQUIRE(model_copied_into(folder / "out", folder / "in/jet.obj"));
+  CHECK(fs::exists(folder / "out/jet/skin/a.png"));
+  test::write_file_and_folders(folder / "in/m.mtl", "newmtl a\nmap_Kd ../a.png\n");
+  const Result<fs::path> outside = model_copied_into(folder / "out2", folder / "in/jet.obj");
+  REQUIRE_FALSE(outside);
+  CHECK(outside.error().text().find("a.png") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "out2"));
 }

@@ -148,9 +148,20 @@ void FieldRows::change(const Field& field, const Edited& edited) {
   memory_.gesture_is_open = !edited.is_finished;
 }
 
+bool FieldRows::is_left_out(std::string_view key) const {
+  if (!leaves_out_uncommon_ || is_common(key) || problems_.find(key) != problems_.end()) return false;
+  if (memory_.wanted_key == key || memory_.typed.key == key) return false;
+  return context_.guesses == nullptr || std::none_of(context_.guesses->begin(), context_.guesses->end(),
+                                                     [&](const Problem& guess) { return guess.field == key; });
+}
+
 void FieldRows::row(std::string_view key, const RowOptions& look) {
   const Field* const field = sheet_.find(key);
   if (field == nullptr) return;
+  if (is_left_out(key)) {
+    ++left_out_;
+    return;
+  }
   const bool is_wrong = problems_.find(key) != problems_.end();
   const bool below = takes_whole_row(*field, look);
   ImGui::PushID(field->key.c_str());
@@ -208,14 +219,18 @@ void FieldRows::problem_lines(std::string_view key) {
   }
 }
 
-void FieldRows::guess_lines(std::string_view key) const {
+void FieldRows::guess_lines(std::string_view key) {
   if (context_.guesses == nullptr) return;
   for (const Problem& guess : *context_.guesses) {
-    if (guess.field != key) continue;
+    // A guess of a group of settings is told below the first of them.
+    const bool is_of_group = key.starts_with(guess.field) && key.substr(guess.field.size()).starts_with('.');
+    if (guess.field != key && (!is_of_group || !told_groups_.insert(guess.field).second)) continue;
     ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
     ImGui::PushFont(font(Font::small));
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(shortened("Guessed: " + guess.what, 400).c_str());
+    const std::string what_to_do = advice_on_guess(guess.field);
+    const std::string text = "Guessed: " + guess.what + (what_to_do.empty() ? "" : ". " + what_to_do);
+    ImGui::TextUnformatted(shortened(text, 500).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopFont();
     ImGui::PopStyleColor();

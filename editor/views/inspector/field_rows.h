@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,14 +38,20 @@ class FieldRows {
             std::string place = "inspector/")
       : context_(context), sheet_(sheet), problems_(problems), memory_(memory), place_(std::move(place)) {}
 
+  // Rows that most projects do not need (is_common()) are left out from now on, unless they are wrong, guessed or
+  // gone to.
+  void leave_out_uncommon() { leaves_out_uncommon_ = true; }
+  // How many have been left out since.
+  [[nodiscard]] int left_out() const { return left_out_; }
+
   // Nothing is drawn where there is no such field.
   void row(std::string_view key, const RowOptions& look = {});
   // The rows of all fields whose keys begin so, in the project's order. look_of: may be empty.
   void rows(std::string_view prefix, const std::function<RowOptions(const Field&)>& look_of = {});
   // What is wrong with a key, with advice; nothing where nothing is.
   void problem_lines(std::string_view key);
-  // That a key was guessed, and how (ViewContext::guesses); nothing where it was not.
-  void guess_lines(std::string_view key) const;
+  // That a key was guessed, how (ViewContext::guesses), and what to do in the window; nothing where it was not.
+  void guess_lines(std::string_view key);
 
   // Draws a label and leaves the cursor where its controls go; returns the width that they have, in screen pixels.
   // below: the controls go into the next line and have all of its width.
@@ -57,6 +64,7 @@ class FieldRows {
   void finish();
 
  private:
+  [[nodiscard]] bool is_left_out(std::string_view key) const;
   // The tooltip: help, range, default and key.
   void draw_hint(const Field& field, const RowOptions& look) const;
   // At the right of a row: choosing a file, or back to the default.
@@ -69,6 +77,9 @@ class FieldRows {
   const ProblemsByField& problems_;
   RowMemory& memory_;
   std::string place_;
+  bool leaves_out_uncommon_ = false;
+  int left_out_ = 0;
+  std::set<std::string, std::less<>> told_groups_;  // whose guess has been drawn
 };
 
 // Pale wrapped text beside fields.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/inspector/inspector_view.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/text.h"
 #include "editor/document/field_edits.h"
 #include "editor/views/inspector/camera_log.h"
 #include "editor/views/inspector/scene_blocks.h"
@@ -142,20 +144,39 @@ void InspectorView::go_to_problem(const ViewContext& context, const std::string&
     context.edits.select({Selected::intruder, intruder, 0});
 }
 
+void InspectorView::draw_depth(const ViewContext& context) const {
+  const auto choice = [&](const char* label, const char* name, bool all, const char* tooltip) {
+    const bool is_on = context.settings.all_settings == all;
+    ImGui::PushStyleColor(ImGuiCol_Button, is_on ? color::kAccentSoft : IM_COL32(0, 0, 0, 0));
+    if (ImGui::Button(label)) context.edits.ask(ShowAllSettings{all});
+    ImGui::PopStyleColor();
+    context.ui_probe.note_item(name);
+    tooltip_for_item(tooltip);
+  };
+  ImGui::SameLine(0, scaled(6));
+  choice("Common", "inspector/common", false,
+         "The settings that most projects need, and those that are wrong or guessed. The filter finds all.");
+  ImGui::SameLine(0, scaled(2));
+  choice("All", "inspector/all", true, "Every setting of the project file");
+}
+
 void InspectorView::draw_top(const ViewContext& context, FieldRows& rows) {
   for (const Field& field : sheet_->fields())
-    if (editor::block_of(field.key).empty()) rows.row(field.key, {.label = field.key == "name" ? "Project" : ""});
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - (filter_.empty() ? 0 : icon_button_width() + scaled(2)));
+    if (editor::block_of(field.key).empty()) rows.row(field.key);
+  const float depth = ImGui::CalcTextSize("CommonAll").x + 4 * ImGui::GetStyle().FramePadding.x + scaled(8);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - depth -
+                          (filter_.empty() ? 0 : icon_button_width() + scaled(2)));
   text_input("##filter", filter_, "Filter settings");
   context.ui_probe.note_item("inspector/filter");
   if (!filter_.empty()) {
     ImGui::SameLine(0, scaled(2));
-    if (icon_button("clear filter", Icon::cross, "Show all settings")) filter_.clear();
+    if (icon_button("clear filter", Icon::cross, "End filtering")) filter_.clear();
   }
+  draw_depth(context);
   if (const std::optional<std::string> key = problems_.draw(context)) go_to_problem(context, *key);
 }
 
-void InspectorView::block(const ViewContext& context, const char* title, bool opens_first,
+void InspectorView::block(const ViewContext& context, const char* title, bool opens_first, const FieldRows& rows,
                           const std::function<void()>& content) {
   const bool is_wanted = updates_to_open_ > 0 && block_to_open_ == title;
   if (is_wanted)
@@ -170,25 +191,36 @@ void InspectorView::block(const ViewContext& context, const char* title, bool op
   draw_badge(problems_.count_in(title));
   if (!is_open) return;
   ImGui::PushID(title);
+  const int left_out_before = rows.left_out();
   content();
+  if (const int more = rows.left_out() - left_out_before; more > 0) {
+    ImGui::PushFont(font(Font::small));
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
+    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(0, 0, 0, 0));
+    if (ImGui::Button(fmt::format("{} more", count_text(more, "setting")).c_str()))
+      context.edits.ask(ShowAllSettings{true});
+    ImGui::PopStyleColor(2);
+    ImGui::PopFont();
+    context.ui_probe.note_item(fmt::format("inspector/{}/more", title));
+  }
   ImGui::PopID();
   ImGui::Spacing();
 }
 
 void InspectorView::draw_blocks(const ViewContext& context, FieldRows& rows) {
-  if (context.scored != nullptr) block(context, "Tracker results", true, [&] { draw_results_panel(context); });
-  block(context, "Inputs", true, [&] { draw_inputs(context, rows); });
-  block(context, "Own body", false, [&] { draw_own_body(context, rows); });
-  block(context, "Camera", true, [&] { draw_camera(context, rows); });
-  block(context, kCameraLogBlock, false, [&] { draw_camera_log(context, rows); });
-  block(context, kPlaceBlock, false, [&] { draw_place_on_earth(context, rows); });
-  block(context, "Light", false, [&] { light_.draw(context, rows); });
-  block(context, "Intruders", true, [&] { model_.draw(context, rows); });
-  block(context, "Trajectory", true, [&] { trajectory_.draw(context, rows); });
-  block(context, "Encounter", false, [&] { encounter_.draw(context, rows); });
-  block(context, "Compositing", false, [&] { draw_compositing(context, rows); });
-  block(context, "Appearance", false, [&] { appearance_.draw(context, rows); });
-  block(context, "Export", false, [&] { draw_export(context, rows); });
+  if (context.scored != nullptr) block(context, "Tracker results", true, rows, [&] { draw_results_panel(context); });
+  block(context, "Inputs", true, rows, [&] { draw_inputs(context, rows); });
+  block(context, "Own body", false, rows, [&] { draw_own_body(context, rows); });
+  block(context, "Camera", true, rows, [&] { draw_camera(context, rows); });
+  block(context, kCameraLogBlock, false, rows, [&] { draw_camera_log(context, rows); });
+  block(context, kPlaceBlock, false, rows, [&] { draw_place_on_earth(context, rows); });
+  block(context, "Light", false, rows, [&] { light_.draw(context, rows); });
+  block(context, "Intruders", true, rows, [&] { model_.draw(context, rows); });
+  block(context, "Trajectory", true, rows, [&] { trajectory_.draw(context, rows); });
+  block(context, "Encounter", false, rows, [&] { encounter_.draw(context, rows); });
+  block(context, "Compositing", false, rows, [&] { draw_compositing(context, rows); });
+  block(context, "Appearance", false, rows, [&] { appearance_.draw(context, rows); });
+  block(context, "Export", false, rows, [&] { draw_export(context, rows); });
   const bool has_arrived = !memory_.wanted_key.empty() && memory_.wanted_updates == 0;
   if (has_arrived) memory_.wanted_key.clear();
   updates_to_open_ = has_arrived && updates_to_open_ > 2 ? 0 : std::max(0, updates_to_open_ - 1);
@@ -217,6 +249,7 @@ void InspectorView::draw(const ViewContext& context) {
   follow_selection(context);
   follow_matching(context);
   FieldRows rows(context, *sheet_, problems_.by_field(), memory_);
+  if (!context.settings.all_settings && filter_.empty()) rows.leave_out_uncommon();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(4)});
   draw_top(context, rows);
   ImGui::BeginChild("settings");

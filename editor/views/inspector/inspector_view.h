@@ -16,8 +16,9 @@
 
 namespace sigs::editor {
 
-// Every setting of the project, made from project/fields, with problems where they are. Blocks fold; a filter shows
-// only the settings whose key, label or help has all its words. Changes become edits of the project.
+// The settings of the project, made from project/fields, with problems where they are: those that most projects need,
+// or all. Blocks fold; a filter shows only the settings whose key, label or help has all its words, of all. Changes
+// become edits of the project.
 class InspectorView {
  public:
   // Once per update, into what is left of the current ImGui window.
@@ -38,7 +39,10 @@ class InspectorView {
   void draw_found(const ViewContext& context, FieldRows& rows) const;
   // A header that folds, with the number of its problems, and below it `content` while it is open. opens_first: whether
   // it is open when the program starts.
-  void block(const ViewContext& context, const char* title, bool opens_first, const std::function<void()>& content);
+  // Below the content: how many settings are left out.
+  void block(const ViewContext& context, const char* title, bool opens_first, const FieldRows& rows,
+             const std::function<void()>& content);
+  void draw_depth(const ViewContext& context) const;
 
   // Of the revision with this number; made anew for another one.
   std::optional<FieldSheet> sheet_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
@@ -24,6 +25,8 @@ namespace sigs::editor {
 namespace {
 
 constexpr int kMaxShown = 20;
+constexpr std::size_t kMaxLine = 400;  // bytes
+constexpr float kMaxShareOfPanel = 0.3F;
 
 // The number behind "name[" in a key.
 std::optional<std::size_t> index_in(std::string_view key, std::string_view name) {
@@ -32,12 +35,52 @@ std::optional<std::size_t> index_in(std::string_view key, std::string_view name)
   return std::strtoul(std::string(key.substr(at + name.size())).c_str(), nullptr, 10);
 }
 
+// Text over as many lines as it needs, that is clicked as a whole.
+bool wrapped_line(const std::string& text) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 place = ImGui::GetCursorScreenPos();
+  const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y;
+  const bool is_clicked = ImGui::Selectable("##line", false, 0, {width, height});
+  ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), place, ImGui::GetColorU32(ImGuiCol_Text),
+                                      text.c_str(), nullptr, width);
+  return is_clicked;
+}
+
+std::string line_of(const ViewContext& context, const std::string& field, const Problem& problem) {
+  return shortened(place_of(context.project(), field) + ": " + problem.what, kMaxLine);
+}
+
+// The field whose line was clicked.
+std::optional<std::string> draw_lines(const ViewContext& context, const ProblemsByField& problems,
+                                      const std::string& name) {
+  std::optional<std::string> clicked;
+  int shown = 0;
+  for (const auto& [field, problem] : problems) {
+    if (++shown > kMaxShown) break;
+    ImGui::PushID(shown);
+    if (wrapped_line(line_of(context, field, problem))) clicked = field;
+    context.ui_probe.note_item(fmt::format("inspector/{}/{}", name, field));
+    ImGui::PopID();
+  }
+  if (problems.size() > kMaxShown) note(fmt::format("{} more", problems.size() - kMaxShown), true);
+  return clicked;
+}
+
+// Of all lines, or as much of the panel as a list may take; the rest is scrolled to.
+float height_of_lines(const ViewContext& context, const ProblemsByField& problems) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = ImGui::GetContentRegionAvail().x - style.ScrollbarSize;
+  float height = style.ItemSpacing.y;
+  for (const auto& [field, problem] : problems)
+    height +=
+        ImGui::CalcTextSize(line_of(context, field, problem).c_str(), nullptr, false, width).y + style.ItemSpacing.y;
+  return std::min(height, ImGui::GetContentRegionAvail().y * kMaxShareOfPanel);
+}
+
 std::optional<std::string> draw_list(const ViewContext& context, const ProblemsByField& problems,
                                      const std::string& name, ImU32 shade, bool opens_first = false) {
   if (problems.empty()) return std::nullopt;
-  const std::size_t count = problems.size();
-  const std::string title = count_text(static_cast<std::int64_t>(count), name);
-  std::optional<std::string> clicked;
+  const std::string title = count_text(static_cast<std::int64_t>(problems.size()), name);
   ImGui::PushStyleColor(ImGuiCol_Text, shade);
   const std::string id = name + "s";
   const ImGuiTreeNodeFlags first = opens_first ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
@@ -45,18 +88,11 @@ std::optional<std::string> draw_list(const ViewContext& context, const ProblemsB
   context.ui_probe.note_item("inspector/" + id);
   ImGui::PopStyleColor();
   if (!is_open) return std::nullopt;
-  int shown = 0;
-  for (const auto& [field, problem] : problems) {
-    if (++shown > kMaxShown) break;
-    const std::string text = place_of(context.project(), field) + ": " + problem.what;
-    ImGui::PushID(shown);
-    const std::string line = elided(text, ImGui::GetContentRegionAvail().x);
-    if (ImGui::Selectable(line.empty() ? "..." : line.c_str())) clicked = field;
-    context.ui_probe.note_item(fmt::format("inspector/{}/{}", name, field));
-    tooltip_for_item(text.c_str());
-    ImGui::PopID();
-  }
-  if (count > kMaxShown) note(fmt::format("{} more", count - kMaxShown), true);
+  ImGui::PushFont(font(Font::small));
+  ImGui::BeginChild(id.c_str(), {0, height_of_lines(context, problems)});
+  const std::optional<std::string> clicked = draw_lines(context, problems, name);
+  ImGui::EndChild();
+  ImGui::PopFont();
   ImGui::TreePop();
   return clicked;
 }

@@ -244,8 +244,6 @@ void draw_buttons(const ViewContext& context, std::optional<int> intruder) {
 RowOptions look_of(const Field& field, const IntruderSettings& intruder) {
   RowOptions look;
   if (field.key.ends_with(".forward") || field.key.ends_with(".up")) look.names = {"+x", "-x", "+y", "-y", "+z", "-z"};
-  if (field.key.ends_with(".forward")) look.label = "Nose along";
-  if (field.key.ends_with(".up")) look.label = "Top along";
   if (field.key.ends_with(".scale") && intruder.model.length_m > 0)
     look.off_because = "The length says how large it is.";
   return look;
@@ -368,6 +366,9 @@ void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {
   const IntruderSettings& settings = context.project().intruders[static_cast<std::size_t>(*intruder)];
   rows.row(key + ".name");
   rows.row(key + ".model.file");
+  if (ImGui::Button("Change model...")) context.edits.ask(ShowModels{*intruder});
+  context.ui_probe.note_item("inspector/change model");
+  tooltip_for_item("Shows the models that come with the program, and takes one of yours");
   draw_preview(context, *intruder);
   for (const Field& field : rows.sheet().fields())
     if (field.key.starts_with(key + ".model.") && field.key != key + ".model.file")

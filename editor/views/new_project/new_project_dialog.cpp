@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kOwnModel = "OBJ file...";
-
 void small_text(const std::string& text, ImU32 shade) {
   ImGui::PushFont(font(Font::small));
   ImGui::PushStyleColor(ImGuiCol_Text, shade);
@@ -50,13 +48,13 @@ AskForFile question_for(const char* title, std::string_view field, const std::st
 
 }  // namespace
 
-NewProjectDialog::NewProjectDialog(std::vector<SampleModel> samples, std::function<void()> wake)
-    : samples_(std::move(samples)), facts_(std::move(wake)) {}
+NewProjectDialog::NewProjectDialog(ModelGallery& gallery, std::function<void()> wake)
+    : gallery_(gallery), facts_(std::move(wake)) {}
 
 void NewProjectDialog::open(const fs::path& video, fs::path elsewhere) {
   elsewhere_ = std::move(elsewhere);
   form_ = {};
-  if (samples_.empty()) form_.sample.reset();
+  if (gallery_.samples().empty()) form_.sample.reset();
   set_video(form_, video.string(), elsewhere_);
   changed();
   open_ = true;
@@ -208,30 +206,19 @@ void NewProjectDialog::draw_model_file(const ViewContext& context) {
     form_.model = path.string();
     changed();
   };
-  if (draw_path(context, "model", form_.model, std::move(wanted))) changed();
+  if (draw_path(context, "model file", form_.model, std::move(wanted))) changed();
 }
 
-void NewProjectDialog::draw_aircraft(const ViewContext& context) {
+void NewProjectDialog::draw_model(const ViewContext& context) {
   begin_group();
-  begin_setting("Aircraft", "The intruder that is put into the video");
-  ImGui::SetNextItemWidth(-1);
-  const std::string shown = form_.sample ? samples_[*form_.sample].name : kOwnModel;
-  has_list_open_ = ImGui::BeginCombo("##aircraft", shown.c_str(), ImGuiComboFlags_HeightLarge);
-  if (!has_list_open_) context.ui_probe.note_item("new project/aircraft");
-  if (has_list_open_) {
-    for (std::size_t i = 0; i <= samples_.size(); ++i) {
-      const std::optional<std::size_t> one = i < samples_.size() ? std::optional(i) : std::nullopt;
-      const std::string name = one ? samples_[i].name : kOwnModel;
-      if (ImGui::Selectable(name.c_str(), form_.sample == one)) {
-        form_.sample = one;
-        changed();
-      }
-      context.ui_probe.note_item("new project/aircraft/" + name);
-    }
-    ImGui::EndCombo();
+  begin_setting("Model", "Of the aircraft that is put into the video");
+  const fs::path own = form_.sample ? fs::path() : typed_path(form_.model);
+  if (const auto pressed = gallery_.draw(context, "new project/model", form_.sample, own)) {
+    form_.sample = pressed->sample;
+    changed();
   }
   if (!form_.sample) draw_model_file(context);
-  draw_problem(context, FormRow::aircraft);
+  draw_problem(context, FormRow::model);
 }
 
 void NewProjectDialog::draw_look(const ViewContext& context) {
@@ -278,7 +265,7 @@ void NewProjectDialog::draw_rows(const ViewContext& context, const FirstProjectS
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
     draw_video(context);
     draw_lens(context);
-    draw_aircraft(context);
+    draw_model(context);
     draw_look(context);
     draw_file(context);
     ImGui::EndTable();
@@ -295,7 +282,7 @@ void NewProjectDialog::draw_rows(const ViewContext& context, const FirstProjectS
 void NewProjectDialog::try_to_create(NewProjectChoice& choice) {
   problem_ = problem_of(form_);
   if (problem_) return;
-  FirstProjectOptions options = options_of(form_, samples_);
+  FirstProjectOptions options = options_of(form_, gallery_.samples());
   std::error_code code;
   const bool is_there = fs::exists(options.out, code);
   // What was agreed to be replaced is what was shown.
@@ -324,7 +311,7 @@ void NewProjectDialog::draw_buttons(const ViewContext& context, NewProjectChoice
   ImGui::SameLine();
   bool wants = dialog_button(go, true);
   context.ui_probe.note_item("new project/create");
-  if (!has_list_open_ && (pressed(Key::enter) || pressed(Key::keypad_enter))) wants = true;
+  if ((pressed(Key::enter) || pressed(Key::keypad_enter))) wants = true;
   if (wants && !closed_) try_to_create(choice);
 }
 
@@ -347,7 +334,7 @@ void NewProjectDialog::draw_progress(const ViewContext& context, const FirstProj
 NewProjectChoice NewProjectDialog::draw(const ViewContext& context, const FirstProjectJob& making) {
   NewProjectChoice choice;
   closed_ = false;
-  if (!begin_dialog("New project###new project", 640, 0, closed_)) {
+  if (!begin_dialog("New project###new project", 760, 0, closed_)) {
     open_ = open_ && !closed_;
     return choice;
   }

@@ -9,6 +9,7 @@
 
 #include "editor/preview/first_project_job.h"
 #include "editor/views/context.h"
+#include "editor/views/models/model_gallery.h"
 #include "editor/views/new_project/new_project_form.h"
 
 namespace sigs::editor {
@@ -27,9 +28,9 @@ struct NewProjectChoice {
 // nothing: who owns it makes the project, and closes it when that is there.
 class NewProjectDialog {
  public:
-  //   samples  models to choose from
+  //   gallery  models to choose from; must outlive it
   //   wake     called from another thread when something is known of a video
-  NewProjectDialog(std::vector<SampleModel> samples, std::function<void()> wake);
+  NewProjectDialog(ModelGallery& gallery, std::function<void()> wake);
 
   // Shows the dialog in the next update, with empty rows.
   //   video      to begin with; "": none
@@ -55,7 +56,7 @@ class NewProjectDialog {
   void draw_lens(const ViewContext& context);
   void draw_field_of_view(const ViewContext& context);
   void draw_calibration(const ViewContext& context);
-  void draw_aircraft(const ViewContext& context);
+  void draw_model(const ViewContext& context);
   void draw_model_file(const ViewContext& context);
   void draw_look(const ViewContext& context);
   void draw_file(const ViewContext& context);
@@ -74,7 +75,7 @@ class NewProjectDialog {
   // Asks for the facts of the video that is in the form.
   void look_at_video();
 
-  std::vector<SampleModel> samples_;
+  ModelGallery& gallery_;
   std::filesystem::path elsewhere_;
   NewProjectForm form_;
   VideoFactsJob facts_;
@@ -87,8 +88,6 @@ class NewProjectDialog {
   bool closed_ = false;
   // The first row gets the keyboard in this update.
   bool focus_video_ = false;
-  // A list is open: Enter is meant for it.
-  bool has_list_open_ = false;
   // How the making ends has to be told.
   bool tells_end_ = false;
 };

@@ -157,7 +157,7 @@ std::optional<FormProblem> problem_of(const NewProjectForm& form) {
   if (form.sample.has_value()) {
     // A sample is there.
   } else if (std::string wrong = wrong_with_file(form.model, "an OBJ model"); !wrong.empty()) {
-    return FormProblem{FormRow::aircraft, std::move(wrong)};
+    return FormProblem{FormRow::model, std::move(wrong)};
   }
   if (std::string wrong = wrong_with_output(form.file); !wrong.empty())
     return FormProblem{FormRow::file, std::move(wrong)};

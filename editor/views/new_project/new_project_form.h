@@ -43,7 +43,7 @@ struct NewProjectForm {
   bool is_file_chosen = false;
 };
 
-enum class FormRow { video, lens, aircraft, file };
+enum class FormRow { video, lens, model, file };
 
 // Why the form cannot be used as it is, and in which row.
 struct FormProblem {

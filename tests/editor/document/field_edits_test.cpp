@@ -151,12 +151,14 @@ TEST_CASE("a sheet does not refer to the project from which it was made") {
 TEST_CASE("labels are the last part of a key, in words and without its unit") {
   CHECK(label_of("camera.speed_mps") == "Speed");
   CHECK(label_of("camera.attitude_deg.roll") == "Roll");
-  CHECK(label_of("footage.own_body_mask") == "Own body mask");
+  CHECK(label_of("footage.own_body_mask") == "Own-body mask");
   CHECK(label_of("intruders[3].trajectory.bank_limit_deg") == "Bank limit");
   CHECK(label_of("intruders[0].model.length_m") == "Length");
   CHECK(label_of("own_body.soft_edge_px") == "Soft edge");
   CHECK(label_of("own_body.stable.least_area_percent") == "Min area");
-  CHECK(label_of("name") == "Name");
+  CHECK(label_of("name") == "Project");
+  CHECK(label_of("intruders[0].name") == "Name");
+  CHECK(label_of("intruders[2].model.file") == "Model");
   CHECK(label_of("").empty());
 }
 

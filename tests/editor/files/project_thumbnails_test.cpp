@@ -43,7 +43,8 @@ TEST_CASE("without a model the footage is shown, without footage there is no ima
 TEST_CASE("images come later, once, and are kept") {
   const TinyProject tiny;
   std::atomic<int> wakes = 0;
-  ProjectThumbnails images({40, 30}, [&] { ++wakes; });
+  Thumbnails images(
+      {40, 30}, [&] { ++wakes; }, project_thumbnail);
   CHECK_FALSE(images.of(tiny.project()));
   CHECK_FALSE(images.of(tiny.file("nowhere.json")));
   for (int i = 0; i < 3000 && wakes == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));

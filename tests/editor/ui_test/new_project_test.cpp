@@ -102,6 +102,40 @@ TEST_CASE("a person makes a project of a video in one dialog, and the intruder i
   CHECK(editor.exit_status() == 0);
 }
 
+TEST_CASE("a project that the command line made lists its guesses, and its model is changed in the same gallery") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("change-model");
+  EditorDriver& editor = ui_test.editor();
+  const fs::path video = video_in(ui_test);
+  const fs::path project = ui_test.folder() / "flights/mine.json";
+  std::ostringstream command;
+  command << build_dir() / "sigs"
+          << " init " << video << " --out " << project;
+  const Run made = run_together(command.str());
+  REQUIRE_MESSAGE(made.status == 0, made.out);
+  editor.start({project.string()});
+  ui_test.wait_for_place("inspector/guessed setting/footage.calibration");
+  CHECK(shows(editor.state(), "inspector/guessed setting/intruders[0].model.file"));
+  editor.wait_for_image();
+  for (const char* title : {"Inputs", "Camera"}) {
+    editor.click(std::string("inspector/") + title);
+    editor.settle();
+  }
+  editor.click("inspector/change model");
+  editor.click("models/Helicopter");
+  ui_test.image("gallery");
+  ui_test.edit([&] { editor.click("models/use"); });
+  CHECK_FALSE(shows(editor.state(), "inspector/guessed setting/intruders[0].model.file"));
+  const Json changed = ui_test.saved(project);
+  CHECK(changed["intruders"][0]["model"]["file"] == "helicopter/helicopter.obj");
+  CHECK(changed["intruders"][0]["category"] == "helicopter");
+  CHECK(fs::exists(ui_test.folder() / "flights/helicopter/helicopter.obj"));
+  ui_test.edit([&] { editor.key("ctrl+z"); });
+  CHECK(ui_test.saved(project)["intruders"][0]["model"]["file"] == "light-aircraft/light-aircraft.obj");
+  editor.key("ctrl+q");
+  CHECK(editor.exit_status() == 0);
+}
+
 TEST_CASE("the dialog of a new project names what is wrong, writes nothing before it is wanted and replaces nothing") {
   if (!can_drive_windows()) return;
   UiTest ui_test("new-project-form");
@@ -149,7 +183,7 @@ TEST_CASE("the dialog of a new project names what is wrong, writes nothing befor
   // An empty project as ever.
   editor.key("ctrl+n");
   editor.click("new project/empty");
-  ui_test.wait_for_place("first steps/Footage");
+  ui_test.wait_for_place("first steps/Video");
   CHECK(editor.state()["page"] == "project");
   editor.key("ctrl+q");
   CHECK(editor.exit_status() == 0);
@@ -169,8 +203,7 @@ TEST_CASE("a new project asks for the unsaved work of the one before, and its le
   editor.key("Return");  // a waypoint
   editor.wait_for("the change", [](const Json& now) { return is_unsaved(now); });
   begin(ui_test, video);
-  editor.click("new project/aircraft");
-  editor.click("new project/aircraft/Airliner");
+  editor.click("new project/model/Airliner");
   ui_test.fill_in("new project/calibration", (source_dir() / "assets/calibrations/sample.xml").string());
   ui_test.image("filled");
   editor.key("Return");

@@ -93,7 +93,7 @@ TEST_CASE("each mistake is named in its own row") {
   d.form.lens = LensChoice::guess;  // what is typed in the other rows does not count
 
   d.form.sample.reset();
-  CHECK(d.wrong_row() == FormRow::aircraft);
+  CHECK(d.wrong_row() == FormRow::model);
   d.form.model = (d.folder / "flight.mp4").string();
   CHECK_FALSE(d.wrong_row());  // whether it is a model is found when it is read
 

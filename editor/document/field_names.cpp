@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// How settings are called in the window, and which of them most projects need.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "editor/document/field_edits.h"
+
+namespace sigs::editor {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
+
+// Where the key alone would not be understood.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 55> kNames{{
+    {"camera.track.file", "Log file"},
+    {"camera.track.offset_s", "Time offset"},
+    {"camera.track.position", "Its position"},
+    {"camera.track.attitude", "Its attitude"},
+    {"camera.track.incomplete", "If incomplete"},
+    {"camera.readout_s", "Shutter readout"},
+    {"camera.exposure_s", "Exposure time"},
+    {"light.sun.azimuth_deg", "Sun azimuth"},
+    {"light.sun.elevation_deg", "Sun elevation"},
+    {"footage.occluder_mask", "Occluder"},
+    {"footage.occluder_frame", "Occluder frame"},
+    {"footage.occluder_distance_m", "Its distance"},
+    {"appearance.point_spread_px", "Blur"},
+    {"appearance.sharpening", "Sharpening"},
+    {"appearance.sharpening_px", "Sharpening radius"},
+    {"appearance.chroma_spread_px", "Blur of colours"},
+    {"appearance.black", "Flare"},
+    {"appearance.grain.sd_dark", "Noise, dark"},
+    {"appearance.grain.sd_bright", "Noise, bright"},
+    {"appearance.grain.sd_chroma", "Noise, colours"},
+    {"appearance.grain.spread_px", "Grain size"},
+    {"appearance.grain.persistence", "Grain persistence"},
+    {"appearance.grain.seed", "Grain seed"},
+    {"appearance.haze.visibility_m", "Visibility"},
+    {"appearance.haze.airlight_color", "Airlight colour"},
+    {"appearance.codec.match", "Codec"},
+    {"appearance.codec.quantiser", "Quantiser"},
+    {"geo.height_m", "Height of z = 0"},
+    {"geo.heading_deg", "Heading of X"},
+    {"compositing.blur_px_per_m", "Blur with distance"},
+    {"export.video.crf", "Quality (crf)"},
+    {"export.video.codec", "Codec"},
+    {"export.video.container", "Container"},
+    {"light.color", "Colour"},
+    {"own_body.every", "Every nth"},
+    {"own_body.settled_percent", "Settled below"},
+    {"own_body.stable.vibration_px", "Vibration"},
+    {"own_body.paper.least_area_percent", "Min area"},
+    {"own_body.stable.least_area_percent", "Min area"},
+    {"own_body.stable.least_moving_percent", "Min moving"},
+    {"footage.calibration", "Calibration"},
+    {"footage.own_body_mask", "Own-body mask"},
+    {"footage.max_substituted_percent", "Damaged frames up to"},
+    {"name", "Project"},
+    {"model.file", "Model"},
+    {"model.forward", "Nose along"},
+    {"model.up", "Top along"},
+    {"model.anchor", "Reference point"},
+    {"export.video.quality", "Quality (jpeg)"},
+    {"export.video.max_bit_depth", "Bit depth up to"},
+    {"export.label_least_pixels", "Min pixels"},
+    {"export.label_least_visible_fraction", "Min visible part"},
+    {"compositing.supersampling", "Supersampling"},
+    {"appearance.codec.carried_frames", "Predicted frames"},
+    {"camera.attitude_deg", "Attitude"},
+}};
+
+// "intruders[3].model.file" is named as "model.file" is.
+std::string_view without_intruder(std::string_view key) {
+  return key.starts_with("intruders[") && key.find("].") != std::string_view::npos ? key.substr(key.find("].") + 2)
+                                                                                   : key;
+}
+
+}  // namespace
+
+std::string label_of(std::string_view key) {
+  // The project's name and an intruder's are two things.
+  const std::string_view own = key.ends_with("].name") ? key : without_intruder(key);
+  for (const auto& [named, name] : kNames)
+    if (own == named) return std::string(name);
+  std::string_view last = key.substr(key.rfind('.') + 1);
+  for (const std::string_view unit : kUnitsInKeys)
+    if (last.size() > unit.size() && last.ends_with(unit)) {
+      last.remove_suffix(unit.size());
+      break;
+    }
+  std::string label(last);
+  std::replace(label.begin(), label.end(), '_', ' ');
+  if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  return label;
+}
+
+std::string advice_on_guess(std::string_view key) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kAdvice{{
+      {"footage.calibration", "A calibration of this camera is chosen here."},
+      {"camera.attitude_deg", "Horizon... shows where it is level, to be dragged into place."},
+      {"camera.speed_mps", "A flight log is chosen in Camera log."},
+      {"model.file", "Change model... shows the others."},
+      {"model.forward", "The image of the model shows whether it is right."},
+      {"light.kind", "Match the footage, in Appearance, looks at more of it."},
+  }};
+  for (const auto& [guessed, advice] : kAdvice)
+    if (without_intruder(key) == guessed) return std::string(advice);
+  return "";
+}
+
+bool is_common(std::string_view key) {
+  constexpr std::array<std::string_view, 33> kCommon{
+      "name",
+      "footage.video",
+      "footage.first_frame",
+      "footage.last_frame",
+      "footage.calibration",
+      "footage.own_body_mask",
+      "own_body.method",
+      "own_body.soft_edge_px",
+      "camera.position_m",
+      "camera.attitude_deg.roll",
+      "camera.attitude_deg.pitch",
+      "camera.speed_mps",
+      "camera.track.file",
+      "camera.track.offset_s",
+      "geo.latitude_deg",
+      "geo.longitude_deg",
+      "light.kind",
+      "light.position_m",
+      "light.ambient",
+      "light.sun.azimuth_deg",
+      "light.sun.elevation_deg",
+      "light.exposure",
+      "category",
+      "model.file",
+      "model.forward",
+      "model.up",
+      "model.length_m",
+      "trajectory.timing",
+      "compositing.method",
+      "appearance.point_spread_px",
+      "appearance.haze.visibility_m",
+      "export.video.codec",
+      "export.labels",
+  };
+  return key.ends_with("].name") || std::find(kCommon.begin(), kCommon.end(), without_intruder(key)) != kCommon.end();
+}
+
+}  // namespace sigs::editor

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "editor/views/models/change_model.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/document/field_edits.h"
+#include "editor/document/project_paths.h"
+#include "editor/views/export_parts.h"
+#include "editor/widgets/dialog.h"
+#include "editor/widgets/keys.h"
+#include "editor/widgets/texts.h"
+#include "editor/widgets/theme.h"
+#include "first_project/first_model.h"
+
+namespace sigs::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The sample that a model was copied from, by its name.
+std::optional<std::size_t> sample_called(const std::vector<SampleModel>& samples, const std::string& model) {
+  const fs::path name = fs::path(model).filename();
+  const auto found =
+      std::ranges::find_if(samples, [&](const SampleModel& sample) { return sample.file.filename() == name; });
+  if (found == samples.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - samples.begin());
+}
+
+std::string message_of(const ChosenModel& chosen) {
+  std::string text = "Model: " + chosen.file.filename().string();
+  for (const std::string& guess : chosen.guesses) text += "; guessed: " + guess;
+  return text;
+}
+
+}  // namespace
+
+Result<ChosenModel> chosen_model(const ModelChoice& choice, const JobControl& control) {
+  SceneFiles files;
+  Result<FirstModel> model =
+      is_sample_model(choice.model) ? sample_model(choice.model, files) : users_model(choice.model, files);
+  if (!model) return fail(model.error());
+  ChosenModel chosen{.file = choice.model,
+                     .settings = model->settings,
+                     .category = model->category,
+                     .guesses = {},
+                     .warnings = std::move(model->warnings)};
+  for (const FirstProjectNote& note : model->notes)
+    if (note.is_guess && note.field.find(".model.") != std::string::npos) chosen.guesses.push_back(note.text);
+  if (const Result<void> on = check_interrupt(control.cancel); !on) return fail(on.error());
+  if (choice.project.file.empty()) return chosen;
+  Result<fs::path> copy = model_copied_into(fs::absolute(choice.project.file).parent_path(), choice.model);
+  if (!copy) return fail(copy.error());
+  chosen.file = *std::move(copy);
+  return chosen;
+}
+
+void use_model(Project& project, int intruder, const ChosenModel& chosen) {
+  IntruderSettings& changed = project.intruders.at(static_cast<std::size_t>(intruder));
+  const bool is_by_model =
+      changed.category == category_of_model(changed.model.file) || changed.category == IntruderSettings().category;
+  if (is_by_model) changed.category = chosen.category;
+  changed.model = chosen.settings;
+  changed.model.file = path_in_project(project, chosen.file);
+}
+
+ChangeModelDialog::ChangeModelDialog(ModelGallery& gallery, std::function<void()> wake)
+    : gallery_(gallery), job_(std::move(wake), chosen_model) {}
+
+void ChangeModelDialog::open(const Project& project, int intruder) {
+  if (intruder < 0 || static_cast<std::size_t>(intruder) >= project.intruders.size()) return;
+  const std::string& file = project.intruders[static_cast<std::size_t>(intruder)].model.file;
+  intruder_ = intruder;
+  chosen_ = sample_called(gallery_.samples(), file);
+  own_ = chosen_ || file.empty() ? fs::path() : resolved(project, file);
+  problem_.clear();
+  open_ = true;
+}
+
+void ChangeModelDialog::start(const ViewContext& context) {
+  problem_.clear();
+  const fs::path model = chosen_ ? gallery_.samples()[*chosen_].file : own_;
+  if (model.empty()) {
+    problem_ = "Choose a model.";
+    return;
+  }
+  is_awaited_ = job_.start({.project = context.project(), .intruder = intruder_, .model = model});
+}
+
+void ChangeModelDialog::take_result(const ViewContext& context) {
+  if (!is_awaited_ || job_.is_running()) return;
+  is_awaited_ = false;
+  const auto state = job_.state();
+  if (state.phase == JobPhase::failed) problem_ = state.error.text();
+  if (state.phase != JobPhase::done) return;
+  context.edits.change("change model", [chosen = state.value, intruder = intruder_](Project& project) {
+    use_model(project, intruder, *chosen);
+  });
+  context.edits.ask(ShowMessage{message_of(*state.value)});
+  for (const Warning& warning : state.value->warnings) context.edits.ask(ShowMessage{warning.text()});
+  closed_ = true;
+}
+
+void ChangeModelDialog::draw_choice(const ViewContext& context) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
+  ImGui::TextWrapped("%s", context.document.has_file()
+                               ? "The model's files are copied into the project's folder; its flight stays."
+                               : "The project was never saved: the model is used where it lies. Its flight stays.");
+  ImGui::PopStyleColor();
+  ImGui::Dummy({0, scaled(2)});
+  const std::optional<ModelGallery::Pressed> pressed = gallery_.draw(context, "models", chosen_, own_);
+  if (!pressed) return;
+  problem_.clear();
+  if (pressed->sample) {
+    chosen_ = pressed->sample;
+    if (pressed->twice) start(context);
+    return;
+  }
+  context.edits.ask(AskForFile{.title = "Choose the aircraft's model",
+                               .extensions = extensions_for("intruders[0].model.file"),
+                               .start = own_,
+                               .chosen = [this](const fs::path& path) {
+                                 own_ = path;
+                                 chosen_.reset();
+                               }});
+}
+
+void ChangeModelDialog::draw(const ViewContext& context) {
+  closed_ = false;
+  if (!begin_dialog("Change model###change model", 680, 0, closed_)) {
+    open_ = open_ && !closed_;
+    return;
+  }
+  const bool is_copying = job_.is_running();
+  ImGui::BeginDisabled(is_copying);
+  draw_choice(context);
+  ImGui::EndDisabled();
+  if (!chosen_ && !own_.empty()) {
+    ImGui::TextDisabled("%s", elided_front(own_.string(), ImGui::GetContentRegionAvail().x).c_str());
+    context.ui_probe.note_item("models/own file");
+  }
+  if (!problem_.empty()) {
+    note_line(Icon::warning, color::kBad, problem_);
+    context.ui_probe.note_item("models/problem");
+  }
+  ImGui::Dummy({0, scaled(6)});
+  const char* const labels[] = {"Cancel", "Use this model"};
+  align_buttons_right(labels, 2);
+  if (dialog_button("Cancel")) closed_ = true;
+  context.ui_probe.note_item("models/cancel");
+  ImGui::SameLine();
+  const bool is_entered = pressed(Key::enter) || pressed(Key::keypad_enter);
+  if (dialog_button("Use this model", true, !is_copying) || (is_entered && !is_copying)) start(context);
+  context.ui_probe.note_item("models/use");
+  if (closed_ && is_awaited_) {
+    job_.cancel();
+    is_awaited_ = false;
+  }
+  take_result(context);
+  open_ = !closed_;
+  end_dialog(open_);
+}
+
+}  // namespace sigs::editor
