@@ -271,16 +271,26 @@ Result<EncounterSummary> encounter_of(const EncounterTrack& own, const Encounter
   return summary;
 }
 
-Result<NearestMoment> nearest_horizontal_moment(const EncounterTrack& own, const EncounterTrack& intruder) {
+Result<NearestMoments> nearest_moments(const EncounterTrack& own, const EncounterTrack& intruder) {
   if (const Result<void> sound = check(own, intruder, {}); !sound) return fail(sound.error());
   const double first_s = std::max(own.first_s, intruder.first_s);
   const double last_s = std::min(own.last_s, intruder.last_s);
   const RelativeMotionAt motion = [&](double time_s) { return relative_state(own.at(time_s), intruder.at(time_s)); };
-  NearestSearch search(&NearestMoment::horizontal_m, horizontal_rate, moment_at(motion, first_s));
+  const NearestMoment first = moment_at(motion, first_s);
+  NearestSearch slant(&NearestMoment::range_m, slant_rate, first);
+  NearestSearch horizontal(&NearestMoment::horizontal_m, horizontal_rate, first);
   for_each_smooth_piece(motion, first_s, last_s, merged(own.knots_s, intruder.knots_s),
-                        rounding_of(own, intruder, first_s, last_s),
-                        [&](const SmoothPiece& piece) { search.visit(piece, motion); });
-  return search.nearest();
+                        rounding_of(own, intruder, first_s, last_s), [&](const SmoothPiece& piece) {
+                          slant.visit(piece, motion);
+                          horizontal.visit(piece, motion);
+                        });
+  return NearestMoments{slant.nearest(), horizontal.nearest()};
+}
+
+Result<NearestMoment> nearest_horizontal_moment(const EncounterTrack& own, const EncounterTrack& intruder) {
+  const Result<NearestMoments> nearest = nearest_moments(own, intruder);
+  if (!nearest) return fail(nearest.error());
+  return nearest->horizontal;
 }
 
 }  // namespace sigs

@@ -80,7 +80,12 @@ struct EncounterSummary {
 [[nodiscard]] Result<EncounterSummary> encounter_of(const EncounterTrack& own, const EncounterTrack& intruder,
                                                     const EncounterSettings& settings);
 
-// EncounterSummary::nearest_horizontal alone, in a small part of the time. Errors as above.
+// EncounterSummary::nearest and nearest_horizontal alone, in a small part of the time. Errors as above.
+struct NearestMoments {
+  NearestMoment slant;
+  NearestMoment horizontal;
+};
+[[nodiscard]] Result<NearestMoments> nearest_moments(const EncounterTrack& own, const EncounterTrack& intruder);
 [[nodiscard]] Result<NearestMoment> nearest_horizontal_moment(const EncounterTrack& own,
                                                               const EncounterTrack& intruder);
 

@@ -11,6 +11,7 @@
 #include "encounter/encounter.h"
 #include "project/places.h"
 #include "scene/encounter_tracks.h"
+#include "scene/scene_parts.h"
 
 namespace sigs::editor {
 
@@ -39,9 +40,11 @@ bool flies_straight(const EncounterTrack& flight, const AircraftState& state, do
 
 std::optional<PresentApproach> approach_between(const EncounterTrack& own, const EncounterTrack& flight,
                                                 const FootageShape& footage) {
-  const Result<NearestMoment> nearest = nearest_horizontal_moment(own, flight);
-  if (!nearest) return std::nullopt;
+  const Result<NearestMoments> moments = nearest_moments(own, flight);
+  if (!moments) return std::nullopt;
+  const NearestMoment* const nearest = &moments->horizontal;
   PresentApproach present{.own = own.at(nearest->time_s), .intruder = flight.at(nearest->time_s)};
+  present.nearest_3d = moments->slant;
   present.approach = approach_of(present.own, present.intruder, nearest->time_s);
   present.frame = frame_at_time(footage, nearest->time_s);
   present.is_within = is_beside(relative_state(present.own, present.intruder));
@@ -55,30 +58,83 @@ bool keeps_motion(const PlannedApproach& a, const PlannedApproach& b) {
          a.bearing_rad == b.bearing_rad;
 }
 
-tl::expected<std::vector<WaypointSettings>, std::string> moved_together(const ApproachStart& start,
-                                                                        const PlannedApproach& wanted) {
+// How a flight is changed: every position of it, and when it is there.
+struct FlightChange {
+  double delay_s = 0;
+  double turn_rad = 0;  // about the vertical, as yaw, around `from_m`
+  glm::dvec3 from_m{0, 0, 0};
+  glm::dvec3 to_m{0, 0, 0};  // where `from_m` comes to lie
+  double at_s = 0;           // when it is there
+  glm::dvec3 added_mps{0, 0, 0};
+
+  [[nodiscard]] glm::dvec3 turned(const glm::dvec3& v) const {
+    const double cos = std::cos(turn_rad);
+    const double sin = std::sin(turn_rad);
+    return {cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z};
+  }
+  // time_s is that of the changed flight.
+  [[nodiscard]] glm::dvec3 position(const glm::dvec3& before_m, double time_s) const {
+    return to_m + turned(before_m - from_m) + (time_s - at_s) * added_mps;
+  }
+};
+
+double course_of(const glm::dvec3& velocity_mps) {
+  return std::atan2(velocity_mps.y, velocity_mps.x);
+}
+
+bool has_course(const glm::dvec3& velocity_mps) {
+  return std::hypot(velocity_mps.x, velocity_mps.y) >= kHover_mps;
+}
+
+FlightChange change_to(const ApproachStart& start, const PlannedApproach& wanted) {
   const PresentApproach& present = start.present;
-  const glm::dvec3 by_m = intruder_at(wanted, present.own).position_m - present.intruder.position_m;
-  EncounterTrack moved = start.flight;
-  moved.at = [&](double time_s) {
-    AircraftState state = start.flight.at(time_s);
-    state.position_m += by_m;
-    return state;
+  const AircraftState there = intruder_at(wanted, start.own.at(wanted.time_s));
+  FlightChange change{.delay_s = wanted.time_s - present.approach.time_s,
+                      .from_m = present.intruder.position_m,
+                      .to_m = there.position_m,
+                      .at_s = wanted.time_s};
+  if (present.is_within && keeps_motion(present.approach, wanted)) return change;  // moved as a whole
+  if (has_course(present.intruder.velocity_mps) && has_course(there.velocity_mps))
+    change.turn_rad = course_of(there.velocity_mps) - course_of(present.intruder.velocity_mps);
+  change.added_mps = there.velocity_mps - change.turned(present.intruder.velocity_mps);
+  return change;
+}
+
+EncounterTrack changed_flight(const EncounterTrack& flight, const FlightChange& change) {
+  EncounterTrack changed = flight;
+  for (double& knot_s : changed.knots_s) knot_s += change.delay_s;
+  changed.at = [at = flight.at, change](double time_s) {
+    const AircraftState before = at(time_s - change.delay_s);
+    return AircraftState{change.position(before.position_m, time_s),
+                         change.turned(before.velocity_mps) + change.added_mps};
   };
-  const Result<NearestMoment> nearest = nearest_horizontal_moment(start.own, moved);
+  return changed;
+}
+
+std::string why_not_nearest(const NearestMoment& nearest, const PlannedApproach& wanted) {
+  const bool is_later = std::abs(nearest.time_s - wanted.time_s) > kSameMoment_s;
+  if (!is_later || nearest.horizontal_m >= std::abs(wanted.miss_m) - kStraight_m) return "";
+  return fmt::format(
+      "horizontal miss: both flights curve, so that the intruder would come nearer at {:.3f} s, {:.2f} m",
+      nearest.time_s, nearest.horizontal_m);
+}
+
+tl::expected<std::vector<WaypointSettings>, std::string> curved(const ApproachStart& start,
+                                                                const PlannedApproach& wanted) {
+  const FlightChange change = change_to(start, wanted);
+  const Result<NearestMoment> nearest = nearest_horizontal_moment(start.own, changed_flight(start.flight, change));
   if (!nearest) return tl::unexpected(nearest.error().what);
-  if (std::abs(nearest->time_s - wanted.time_s) > kSameMoment_s &&
-      nearest->horizontal_m < std::abs(wanted.miss_m) - kStraight_m)
-    return tl::unexpected(
-        fmt::format("horizontal miss: both flights curve, so that the intruder would come nearer at "
-                    "{:.3f} s, {:.2f} m",
-                    nearest->time_s, nearest->horizontal_m));
+  if (std::string reason = why_not_nearest(*nearest, wanted); !reason.empty()) return tl::unexpected(std::move(reason));
   std::vector<WaypointSettings> waypoints = start.plan.waypoints;
-  for (WaypointSettings& waypoint : waypoints) {
-    const glm::dvec3 at_m = waypoint.position_m + by_m;
+  const std::vector<double> frames =
+      waypoint_frames(waypoints, static_cast<int>(start.first_frame), static_cast<int>(start.last_frame));
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const double time_s = time_of_frame_s(start.footage, frames[i]) + change.delay_s;
+    if (change.delay_s != 0) waypoints[i].frame = frame_at_time(start.footage, time_s);
+    const glm::dvec3 at_m = change.position(waypoints[i].position_m, time_s);
     if (glm::any(glm::greaterThan(glm::abs(at_m), glm::dvec3(kFarthestApproach_m))))
       return tl::unexpected(std::string("miss: the flight leaves the world, which ends 1e8 m from its origin"));
-    put_at(waypoint, at_m, start.earth);
+    put_at(waypoints[i], at_m, start.earth);
   }
   return waypoints;
 }
@@ -128,7 +184,8 @@ std::optional<ApproachStart> approach_start(const ViewContext& context, int intr
                       .last_frame = last,
                       .first_s = time_of_frame_s(scene.footage, first),
                       .last_s = time_of_frame_s(scene.footage, last),
-                      .earth = stated_frame(context.project().geo)};
+                      .earth = stated_frame(context.project().geo),
+                      .footage = scene.footage};
   const std::optional<PresentApproach> present = approach_between(start.own, start.flight, scene.footage);
   if (!present || start.plan.waypoints.empty() || !(start.last_s > start.first_s)) return std::nullopt;
   start.present = *present;
@@ -139,21 +196,63 @@ tl::expected<std::vector<WaypointSettings>, std::string> waypoints_for(const App
                                                                        const PlannedApproach& wanted) {
   const PresentApproach& present = start.present;
   const bool has_direction = present.is_within && present.approach.closing_speed_mps > 0;
-  return has_direction && keeps_motion(present.approach, wanted) ? moved_together(start, wanted)
-                                                                 : straight(start, wanted);
+  if (has_direction && keeps_motion(present.approach, wanted)) return curved(start, wanted);
+  // The flight as planned by numbers alone says why there can be none at all.
+  tl::expected<std::vector<WaypointSettings>, std::string> plain = straight(start, wanted);
+  const bool is_curve = !present.is_straight && start.plan.waypoints.size() > 2 &&
+                        start.plan.timing == TimingChoice::frames && start.plan.spline == SplineChoice::interpolating;
+  return plain && is_curve ? curved(start, wanted) : plain;
 }
 
-std::string change_approach(const ViewContext& context, const ApproachStart& start, const PlannedApproach& wanted,
-                            const std::string& gesture) {
-  tl::expected<std::vector<WaypointSettings>, std::string> waypoints = waypoints_for(start, wanted);
+tl::expected<PlannedApproach, std::string> approach_at_distance(const ApproachStart& start, double distance_m) {
+  const PlannedApproach& from = start.present.approach;
+  const auto scaled_by = [&](double factor) {
+    PlannedApproach approach = from;
+    approach.miss_m *= factor;
+    approach.vertical_miss_m *= factor;
+    if (from.miss_m == 0 && from.vertical_miss_m == 0) approach.miss_m = factor;
+    return approach;
+  };
+  const auto distance_of = [&](double factor) {
+    const Result<NearestMoments> nearest =
+        nearest_moments(start.own, changed_flight(start.flight, change_to(start, scaled_by(factor))));
+    return nearest ? nearest->slant.range_m : HUGE_VAL;
+  };
+  // The distance rises with the factor from some factor on: bracketed, then halved.
+  double low = 0;
+  double high = 1;
+  while (high < 1e9 && !(distance_of(high) >= distance_m)) high *= 2;
+  constexpr int kHalvings = 44;
+  for (int i = 0; i < kHalvings; ++i) (distance_of((low + high) / 2) < distance_m ? low : high) = (low + high) / 2;
+  if (!(std::abs(distance_of(high) - distance_m) <= kStraight_m))
+    return tl::unexpected(fmt::format("closest distance: {:.2f} m is the least with these flights", distance_of(0)));
+  return scaled_by(high);
+}
+
+namespace {
+
+std::string put_waypoints(const ViewContext& context, const char* name, const ApproachStart& start,
+                          tl::expected<std::vector<WaypointSettings>, std::string> waypoints,
+                          const std::string& gesture) {
   if (!waypoints) return waypoints.error();
   context.edits.change(
-      "change closest approach",
+      name,
       [intruder = static_cast<std::size_t>(start.intruder), waypoints = std::move(*waypoints)](Project& project) {
         project.intruders[intruder].trajectory.waypoints = waypoints;
       },
       gesture);
   return {};
+}
+
+}  // namespace
+
+std::string change_approach(const ViewContext& context, const ApproachStart& start, const PlannedApproach& wanted,
+                            const std::string& gesture) {
+  return put_waypoints(context, "change closest approach", start, waypoints_for(start, wanted), gesture);
+}
+
+std::string make_straight(const ViewContext& context, const ApproachStart& start) {
+  return put_waypoints(context, "make flight straight", start, straight(start, start.present.approach), "");
 }
 
 std::string misses_text(const PlannedApproach& approach) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "editor/views/context.h"
+#include "encounter/encounter.h"
 #include "encounter/planned_approach.h"
 
 namespace sigs::editor {
@@ -22,7 +23,8 @@ struct PresentApproach {
   AircraftState intruder;
   double frame = 0;       // fractional
   bool is_within = true;  // false: the least distance is at an end of the clip, where it still falls or has only risen
-  bool is_straight = true;  // the intruder flies straight at constant velocity, to 1 mm
+  bool is_straight = true;        // the intruder flies straight at constant velocity, to 1 mm
+  NearestMoment nearest_3d = {};  // of least slant range, which is another moment where one climbs
 };
 
 // Of an intruder of the project, by the scene that is open, which may be of an older revision than the document. None
@@ -54,19 +56,30 @@ struct ApproachStart {
   double first_s = 0;  // their times
   double last_s = 1;
   std::optional<LocalFrame> earth = {};  // for waypoints that are places on the Earth
+  FootageShape footage;                  // times of frames
 };
 // None as of present_approach(), and while the open scene is not the document's present state.
 [[nodiscard]] std::optional<ApproachStart> approach_start(const ViewContext& context, int intruder);
 
 // The waypoints of the flight that has this closest approach. Where only the misses differ from what is there, all
-// waypoints move together, and the flight keeps its shape; else it becomes straight, with two waypoints, in the first
-// frame and in the last one. Where there is no such flight: the reason in one line that begins with the quantity.
+// waypoints move together. Otherwise a straight flight gets two waypoints, in the first frame and in the last one, and
+// a curve stays a curve with its waypoints: the flight is moved in time with its closest approach, turned about the
+// vertical as its course there is, and has a constant velocity added, so that its turns keep their accelerations.
+// Where there is no such flight: the reason in one line that begins with the quantity.
 [[nodiscard]] tl::expected<std::vector<WaypointSettings>, std::string> waypoints_for(const ApproachStart& start,
                                                                                      const PlannedApproach& wanted);
+
+// The approach whose misses are those of the start, both in the same proportion larger or smaller, so that the least
+// slant range becomes distance_m >= 0; equal misses of 0 become horizontal. Where no proportion does: the reason.
+[[nodiscard]] tl::expected<PlannedApproach, std::string> approach_at_distance(const ApproachStart& start,
+                                                                              double distance_m);
 
 // Queues the edit as part of a gesture; "": done, else the reason why not, and nothing changes.
 [[nodiscard]] std::string change_approach(const ViewContext& context, const ApproachStart& start,
                                           const PlannedApproach& wanted, const std::string& gesture);
+
+// Queues that the flight becomes straight with the closest approach that it has; "" or the reason why not, as above.
+[[nodiscard]] std::string make_straight(const ViewContext& context, const ApproachStart& start);
 
 // "62.1 m to the right, 14.0 m above"
 [[nodiscard]] std::string misses_text(const PlannedApproach& approach);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -101,7 +102,8 @@ void draw_notes(const PresentApproach& present, const ViewContext& context) {
     note(is_first ? "The clip begins after the closest approach: the distance only rises. A number makes one within."
                   : "The clip ends before the closest approach: the distance still falls. A number makes one within.");
   } else if (!present.is_straight) {
-    note("The flight curves. A miss moves it as a whole; any other number makes it straight, with two waypoints.");
+    note(
+        "The flight curves, and stays a curve: misses move it as a whole, other numbers turn it and change its speed.");
   }
 }
 
@@ -115,10 +117,14 @@ void EncounterBlock::settle(const ViewContext& context, int intruder) {
     intruder_ = intruder;
     start_.reset();
     wish_.reset();
+    wished_distance_m_.reset();
     reason_.clear();
     is_held_ = false;
   }
-  if (wish_ && !is_held_ && context.shown.scene->revision == revision) wish_.reset();
+  if (!is_held_ && context.shown.scene->revision == revision) {
+    wish_.reset();
+    wished_distance_m_.reset();
+  }
   if (!is_held_ && revision != reason_revision_) reason_.clear();
 }
 
@@ -132,15 +138,59 @@ std::optional<PlannedApproach> EncounterBlock::draw_numbers(const ViewContext& c
     if (draw_number(number, approach, width)) edited = approach;
     context.ui_probe.note_item(fmt::format("inspector/encounter/{}", number.id));
     tooltip_for_item(number.help);
-    if (ImGui::IsItemActivated()) {
-      is_held_ = true;
-      start_.reset();
-      revision_before_ = context.document.revision().number;
-    }
-    if (ImGui::IsItemDeactivated()) is_held_ = false;
+    follow_hold(context);
     ImGui::PopID();
   }
+  if (edited) wished_distance_m_.reset();
   return edited;
+}
+
+void EncounterBlock::follow_hold(const ViewContext& context) {
+  if (ImGui::IsItemActivated()) {
+    is_held_ = true;
+    start_.reset();
+    revision_before_ = context.document.revision().number;
+  }
+  if (ImGui::IsItemDeactivated()) is_held_ = false;
+}
+
+std::optional<PlannedApproach> EncounterBlock::draw_distance(const ViewContext& context, FieldRows& rows, int intruder,
+                                                             const PresentApproach& present) {
+  ImGui::PushID("distance");
+  double distance_m = wished_distance_m_.value_or(present.nearest_3d.range_m);
+  ImGui::SetNextItemWidth(rows.begin_row("Closest, 3-D"));
+  const bool is_changed =
+      ImGui::DragScalar("##number", ImGuiDataType_Double, &distance_m, 0.5F, nullptr, nullptr, "%.2f m");
+  context.ui_probe.note_item("inspector/encounter/distance");
+  tooltip_for_item(fmt::format("Least distance in space, at {:.3f} s. A change makes both misses larger or smaller in "
+                               "the same proportion",
+                               present.nearest_3d.time_s)
+                       .c_str());
+  follow_hold(context);
+  ImGui::PopID();
+  if (!is_changed) return std::nullopt;
+  if (!start_) start_ = approach_start(context, intruder);
+  if (!start_) return std::nullopt;
+  distance_m = std::max(0.0, distance_m);
+  const tl::expected<PlannedApproach, std::string> wanted = approach_at_distance(*start_, distance_m);
+  if (wanted) {
+    wished_distance_m_ = distance_m;
+    return *wanted;
+  }
+  reason_ = wanted.error();
+  reason_revision_ = context.document.revision().number;
+  return std::nullopt;
+}
+
+void EncounterBlock::draw_straight(const ViewContext& context, int intruder) {
+  const bool is_clicked = ImGui::Button("Make it straight");
+  context.ui_probe.note_item("inspector/encounter/straight");
+  tooltip_for_item("Two waypoints, in the first frame and in the last one; the closest approach stays");
+  if (!is_clicked) return;
+  if (const std::optional<ApproachStart> start = approach_start(context, intruder)) {
+    reason_ = make_straight(context, *start);
+    reason_revision_ = context.document.revision().number;
+  }
 }
 
 void EncounterBlock::change(const ViewContext& context, int intruder, const PlannedApproach& wanted) {
@@ -167,7 +217,8 @@ void EncounterBlock::draw(const ViewContext& context, FieldRows& rows) {
   settle(context, *intruder);
   note("Closest approach");
   const bool was_held = is_held_;
-  const std::optional<PlannedApproach> edited = draw_numbers(context, rows, wish_.value_or(present->approach));
+  std::optional<PlannedApproach> edited = draw_numbers(context, rows, wish_.value_or(present->approach));
+  if (const auto by_distance = draw_distance(context, rows, *intruder, *present)) edited = by_distance;
   if (edited) change(context, *intruder, *edited);
   if (!is_held_ && (was_held || edited)) {
     context.edits.end_gesture();
@@ -186,6 +237,7 @@ void EncounterBlock::draw(const ViewContext& context, FieldRows& rows) {
     context.ui_probe.note_item("inspector/encounter/reason");
   }
   draw_notes(*present, context);
+  if (!present->is_straight) draw_straight(context, *intruder);
   draw_volumes_lost(context, rows, *intruder);
 }
 

@@ -22,7 +22,13 @@ class EncounterBlock {
   // Draws the numbers; the approach with the one that was edited in this update.
   [[nodiscard]] std::optional<PlannedApproach> draw_numbers(const ViewContext& context, FieldRows& rows,
                                                             const PlannedApproach& shown);
+  // The least distance in space; the approach with the one that was edited in this update.
+  [[nodiscard]] std::optional<PlannedApproach> draw_distance(const ViewContext& context, FieldRows& rows, int intruder,
+                                                             const PresentApproach& present);
+  // Whether the number that was drawn last is held.
+  void follow_hold(const ViewContext& context);
   void change(const ViewContext& context, int intruder, const PlannedApproach& wanted);
+  void draw_straight(const ViewContext& context, int intruder);
 
   PresentApproachMemory memory_;
   int intruder_ = -1;
@@ -32,6 +38,7 @@ class EncounterBlock {
   std::uint64_t revision_before_ = 0;
   // What the user has asked for last, shown until the scene has it.
   std::optional<PlannedApproach> wish_;
+  std::optional<double> wished_distance_m_;  // in space, likewise
   bool is_held_ = false;
   std::string reason_;  // why the wish cannot be
   std::uint64_t reason_revision_ = 0;

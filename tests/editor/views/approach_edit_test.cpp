@@ -153,10 +153,32 @@ TEST_CASE("a drag of many steps is one step of undo, and each step is measured f
   CHECK_FALSE(it.document.can_undo());
 }
 
-TEST_CASE("a miss moves a curved flight as a whole; another number makes it straight") {
-  const Project curved = flown_by({{.frame = 0, .position_m = {300, 20, -160}},
-                                   {.frame = 90, .position_m = {110, 45, -165}},
-                                   {.frame = 199, .position_m = {-120, 10, -150}}});
+namespace {
+
+Project curving() {
+  return flown_by({{.frame = 0, .position_m = {300, 20, -160}},
+                   {.frame = 90, .position_m = {110, 45, -165}},
+                   {.frame = 199, .position_m = {-120, 10, -150}}});
+}
+
+// The horizontal acceleration in the middle of the clip, by differences of the flight's positions.
+glm::dvec3 acceleration_mps2(const Authoring& it, double time_s) {
+  const EncounterTrack flight = encounter_track_of_intruder(it.shown.scene->draft.scene, 0);
+  constexpr double kStep_s = 0.05;
+  const auto at = [&](double t_s) { return flight.at(t_s).position_m; };
+  return (at(time_s + kStep_s) - 2.0 * at(time_s) + at(time_s - kStep_s)) / (kStep_s * kStep_s);
+}
+
+// By the search over the scene's flights.
+NearestMoment nearest_3d(const Authoring& it) {
+  const Scene& scene = it.shown.scene->draft.scene;
+  return encounter_of(encounter_track_of_camera(scene), encounter_track_of_intruder(scene, 0), {}).value().nearest;
+}
+
+}  // namespace
+
+TEST_CASE("a miss moves a curved flight as a whole") {
+  const Project curved = curving();
   Authoring it(curved);
   CHECK_FALSE(it.present().is_straight);
   PlannedApproach wanted = it.present().approach;
@@ -170,12 +192,60 @@ TEST_CASE("a miss moves a curved flight as a whole; another number makes it stra
     CHECK(glm::distance(it.waypoints()[i].position_m - curved.intruders[0].trajectory.waypoints[i].position_m,
                         moved_m) < 1e-9);
   CHECK(moved_m.z == doctest::Approx(7));
-  wanted = it.present().approach;
-  wanted.closing_speed_mps = 80;
-  CHECK(it.ask(wanted).empty());
+}
+
+TEST_CASE("a curve stays a curve of the same accelerations whatever number is changed, and the number comes true") {
+  struct Change {
+    const char* name;
+    void (*make)(PlannedApproach&);
+  };
+  const Change changes[] = {{"speed", [](PlannedApproach& a) { a.closing_speed_mps = 80; }},
+                            {"time", [](PlannedApproach& a) { a.time_s += 0.7; }},
+                            {"bearing", [](PlannedApproach& a) { a.bearing_rad += 40 * kDegree; }},
+                            {"climb", [](PlannedApproach& a) { a.climb_mps = 2.5; }}};
+  for (const auto& path : {std::shared_ptr<const PiecewiseCubic>(), curving_path()})
+    for (const Change& change : changes) {
+      CAPTURE(change.name);
+      Authoring it(curving(), path);
+      const PlannedApproach before = it.present().approach;
+      PlannedApproach wanted = before;
+      change.make(wanted);
+      const double size_mps2 = glm::length(acceleration_mps2(it, before.time_s));
+      CHECK(size_mps2 > 0.5);
+      const std::string reason = it.ask(wanted);
+      CHECK_MESSAGE(reason.empty(), reason);
+      CHECK(it.waypoints().size() == 3);
+      CHECK_FALSE(it.present().is_straight);
+      check_truth(it, wanted);
+      CHECK(glm::length(acceleration_mps2(it, wanted.time_s)) == doctest::Approx(size_mps2).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("a curve becomes straight when that is asked for, and its closest approach stays") {
+  Authoring it(curving());
+  const PlannedApproach wanted = it.present().approach;
+  CHECK(make_straight(it.context, approach_start(it.context, 0).value()).empty());
+  it.apply();
   CHECK(it.waypoints().size() == 2);
   CHECK(it.present().is_straight);
   check_truth(it, wanted);
+}
+
+TEST_CASE("the least distance in space is shown, and comes true when it is asked for") {
+  for (const Project& project : {passing(), curving()})
+    for (const double distance_m : {12.5, 44.0, 90.0}) {
+      Authoring it(project);
+      CHECK(it.present().nearest_3d.range_m == doctest::Approx(nearest_3d(it).range_m));
+      const ApproachStart start = approach_start(it.context, 0).value();
+      const auto wanted = approach_at_distance(start, distance_m);
+      REQUIRE(wanted);
+      CHECK(wanted->miss_m / wanted->vertical_miss_m ==
+            doctest::Approx(start.present.approach.miss_m / start.present.approach.vertical_miss_m));
+      CHECK(it.ask(*wanted).empty());
+      CHECK(std::abs(nearest_3d(it).range_m - distance_m) < 2e-3);  // found to 1 mm, shown to 1 cm
+    }
+  // 30 m beside and 10 m above in level flight: the closed form.
+  CHECK(Authoring(passing()).present().nearest_3d.range_m == doctest::Approx(std::sqrt(1000.0)));
 }
 
 TEST_CASE("what cannot be is named and changes nothing") {
