@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "editor/app/layout.h"
@@ -27,6 +29,15 @@ void add_place(std::vector<BrowserPlace>& places, std::string name, fs::path fol
   const bool is_known =
       std::any_of(places.begin(), places.end(), [&](const BrowserPlace& place) { return place.folder == folder; });
   if (!folder.empty() && !is_known && fs::is_directory(folder, code)) places.push_back({std::move(name), folder});
+}
+
+// The folder in which somebody started the program by name; none where a desktop did, which starts all in one folder.
+std::optional<fs::path> started_in() {
+  std::error_code code;
+  const fs::path folder = fs::current_path(code);
+  const char* const home = std::getenv("HOME");
+  if (code || folder == folder.root_path() || (home != nullptr && folder == fs::path(home))) return std::nullopt;
+  return folder;
 }
 
 // Where a person who works on this project probably wants to go.
@@ -62,7 +73,8 @@ AppShell::AppShell(Document& document, Settings& settings, Setup setup)
       change_model_(gallery_, setup_.wake),
       start_page_(setup_.samples, setup_.wake) {
   const fs::path usual = settings.recent.empty() ? setup_.samples : settings.recent.front().parent_path();
-  browser_.set_folder(settings.last_folder.empty() ? usual : settings.last_folder);
+  const fs::path last = settings.last_folder.empty() ? usual : settings.last_folder;
+  browser_.set_folder(started_in().value_or(last));
 }
 
 bool AppShell::needs_redraw() const {

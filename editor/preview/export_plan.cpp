@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "labels/labels.h"
+#include "project/fields.h"
+#include "project/json.h"
 #include "scene/opened_project.h"
 
 namespace sigs::editor {
@@ -80,9 +83,30 @@ std::vector<fs::path> outputs_there(const Project& project, const fs::path& fold
   return paths;
 }
 
-std::string export_command(const ExportRequest& request) {
+std::optional<std::vector<std::string>> assignments_between(const Project& saved, const Project& present) {
+  Project copy = present;
+  std::vector<std::string> keys;
+  for (const Field& field : fields_of(copy)) keys.push_back(field.key);
+  const std::vector<std::string> before = setting_texts(saved, keys);
+  const std::vector<std::string> after = setting_texts(present, keys);
+  std::vector<std::string> assignments;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (before[i] == after[i]) continue;
+    const nlohmann::json value = nlohmann::json::parse(after[i], nullptr, false);
+    assignments.push_back(keys[i] + "=" + (value.is_string() ? value.get<std::string>() : after[i]));
+    if (assignments.size() > kMaxAssignments) return std::nullopt;
+  }
+  Project reached = saved;
+  for (const std::string& assignment : assignments)
+    if (!set_field(reached, assignment)) return std::nullopt;
+  if (text_of(reached) != text_of(present)) return std::nullopt;
+  return assignments;
+}
+
+std::string export_command(const ExportRequest& request, const std::vector<std::string>& assignments) {
   const fs::path& file = request.project.file;
   std::string text = "sigs export " + (file.empty() ? std::string("PROJECT.json") : quoted(file.string()));
+  for (const std::string& assignment : assignments) text += " --set " + quoted(assignment);
   if (request.frames) text += fmt::format(" --frames {}-{}", request.frames->first, request.frames->last);
   text += " --out " + quoted(request.folder.string());
   if (request.overwrite) text += " --force";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,14 @@ namespace sigs::editor {
 [[nodiscard]] std::vector<std::filesystem::path> outputs_there(const Project& project,
                                                                const std::filesystem::path& folder);
 
+// What `--set` needs to make one project of the other: "export.video.codec=h264". None where that cannot be said in a
+// few settings: waypoints or intruders are added or taken away, or more than kMaxAssignments settings differ.
+inline constexpr std::size_t kMaxAssignments = 12;
+[[nodiscard]] std::optional<std::vector<std::string>> assignments_between(const Project& saved, const Project& present);
+
 // The equal command, quoted for a shell: "sigs export 'my project.json' --frames 10-20 --out out".
-[[nodiscard]] std::string export_command(const ExportRequest& request);
+//   assignments  for `--set`
+[[nodiscard]] std::string export_command(const ExportRequest& request,
+                                         const std::vector<std::string>& assignments = {});
 
 }  // namespace sigs::editor

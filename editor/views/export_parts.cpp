@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "base/text.h"
+#include "editor/document/field_edits.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
@@ -132,30 +133,6 @@ std::string threshold_help(std::string_view left_out) {
   return fmt::format("No label where {}; {} leave nothing out", left_out, listed(names_without_thresholds(), " and "));
 }
 
-void draw_thresholds(const ViewContext& context) {
-  ExportSettings output = context.project().output;
-  ImGui::SetNextItemWidth(scaled(150));
-  if (ImGui::DragInt("##least pixels", &output.label_least_pixels, 0.2F, 1, 1'000'000, "from %d px on",
-                     ImGuiSliderFlags_AlwaysClamp))
-    context.edits.change(
-        "least pixels", [px = output.label_least_pixels](Project& p) { p.output.label_least_pixels = px; },
-        "export least pixels");
-  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
-  context.ui_probe.note_item("export/least pixels");
-  tooltip_for_item(threshold_help("fewer pixels show the intruder").c_str());
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(scaled(150));
-  auto percent = static_cast<float>(100 * output.label_least_visible_fraction);
-  if (ImGui::SliderFloat("##least visible", &percent, 0, 100, "%.0f %% visible", ImGuiSliderFlags_AlwaysClamp))
-    context.edits.change(
-        "least visible",
-        [share = std::round(percent) / 100.0](Project& p) { p.output.label_least_visible_fraction = share; },
-        "export least visible");
-  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
-  context.ui_probe.note_item("export/least visible");
-  tooltip_for_item(threshold_help("less of the intruder can be seen").c_str());
-}
-
 }  // namespace
 
 void note_line(Icon icon, ImU32 color, const std::string& text) {
@@ -175,20 +152,61 @@ void draw_video_choices(const ViewContext& context) {
       p.output.codec = codec;
       if (const int worst = max_crf(video_codec_of(codec)); worst > 0) p.output.crf = std::min(p.output.crf, worst);
     });
-  if (writes_images(output.codec)) return;
   ImGui::SameLine();
+  ImGui::BeginDisabled(writes_images(output.codec));
   if (choose(context, "container", kContainers, output.container, scaled(90)))
     context.edits.change("container", [container = output.container](Project& p) { p.output.container = container; });
+  ImGui::EndDisabled();
   tooltip_for_item("Container; auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for raw");
+}
+
+void draw_quality(const ViewContext& context) {
+  ExportSettings output = context.project().output;
   const int worst = max_crf(video_codec_of(output.codec));
-  if (worst == 0) return;
+  const bool is_jpeg = output.codec == CodecChoice::jpeg;
+  begin_setting(label_of(is_jpeg ? "export.video.quality" : "export.video.crf").c_str());
   ImGui::SetNextItemWidth(scaled(210));
-  if (ImGui::SliderInt("##crf", &output.crf, 0, worst, "crf %d", ImGuiSliderFlags_AlwaysClamp))
+  ImGui::BeginDisabled(worst == 0 && !is_jpeg);
+  int& value = is_jpeg ? output.jpeg_quality : output.crf;
+  const char* const format = worst > 0 || is_jpeg ? "%d" : "not of this codec";
+  if (ImGui::SliderInt("##crf", &value, is_jpeg ? 1 : 0, is_jpeg ? 100 : std::max(worst, 51), format,
+                       ImGuiSliderFlags_AlwaysClamp))
     context.edits.change(
-        "crf", [crf = output.crf](Project& p) { p.output.crf = crf; }, "export crf");
+        "quality", [output](Project& p) { p.output.crf = output.crf, p.output.jpeg_quality = output.jpeg_quality; },
+        "export crf");
   if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  ImGui::EndDisabled();
   context.ui_probe.note_item("export/crf");
-  tooltip_for_item(fmt::format("Quality: 0 lossless, 18 visually so, {} worst", worst).c_str());
+  tooltip_for_item(is_jpeg     ? "1 worst, 100 best"
+                   : worst > 0 ? fmt::format("0 lossless, 18 visually so, {} worst", worst).c_str()
+                               : "Counts for h264, hevc, av1 and jpeg alone");
+}
+
+void draw_thresholds(const ViewContext& context) {
+  ExportSettings output = context.project().output;
+  ImGui::BeginDisabled(!has_thresholds(output));
+  begin_setting(label_of("export.label_least_pixels").c_str());
+  ImGui::SetNextItemWidth(scaled(150));
+  if (ImGui::DragInt("##least pixels", &output.label_least_pixels, 0.2F, 1, 1'000'000, "%d px",
+                     ImGuiSliderFlags_AlwaysClamp))
+    context.edits.change(
+        "least pixels", [px = output.label_least_pixels](Project& p) { p.output.label_least_pixels = px; },
+        "export least pixels");
+  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  context.ui_probe.note_item("export/least pixels");
+  tooltip_for_item(threshold_help("fewer pixels show the intruder").c_str());
+  begin_setting(label_of("export.label_least_visible_fraction").c_str());
+  ImGui::SetNextItemWidth(scaled(150));
+  auto percent = static_cast<float>(100 * output.label_least_visible_fraction);
+  if (ImGui::SliderFloat("##least visible", &percent, 0, 100, "%.0f %%", ImGuiSliderFlags_AlwaysClamp))
+    context.edits.change(
+        "least visible",
+        [share = std::round(percent) / 100.0](Project& p) { p.output.label_least_visible_fraction = share; },
+        "export least visible");
+  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  context.ui_probe.note_item("export/least visible");
+  tooltip_for_item(threshold_help("less of the intruder can be seen").c_str());
+  ImGui::EndDisabled();
 }
 
 void draw_mask_choice(const ViewContext& context) {
@@ -210,7 +228,6 @@ void draw_label_choice(const ViewContext& context) {
     ++place;
     draw_label_format(context, format);
   }
-  if (has_thresholds(context.project().output)) draw_thresholds(context);
 }
 
 std::string progress_text(const ExportState& state) {

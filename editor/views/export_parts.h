@@ -15,6 +15,10 @@ namespace sigs::editor {
 void draw_video_choices(const ViewContext& context);
 void draw_mask_choice(const ViewContext& context);
 void draw_label_choice(const ViewContext& context);
+// Each as rows of a table of two columns, called as in the inspector (label_of()). They stay where they are whatever is
+// chosen, greyed where they do not count.
+void draw_quality(const ViewContext& context);
+void draw_thresholds(const ViewContext& context);
 
 // "120 of 322 frames, 41.2 frames/s, 0:05 left"
 [[nodiscard]] std::string progress_text(const ExportState& state);

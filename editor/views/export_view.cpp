@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "editor/preview/export_plan.h"
 #include "editor/views/export_parts.h"
@@ -13,6 +14,7 @@
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
+#include "project/json.h"
 
 namespace sigs::editor {
 
@@ -96,10 +98,12 @@ void ExportView::draw_choices(const ViewContext& context) {
   draw_range(context);
   begin_setting("Video");
   draw_video_choices(context);
+  draw_quality(context);
   begin_setting("Masks");
   draw_mask_choice(context);
   begin_setting("Labels");
   draw_label_choice(context);
+  draw_thresholds(context);
   begin_setting("Threads");
   ImGui::SetNextItemWidth(scaled(150));
   const std::string automatic = fmt::format("automatic ({})", usual_jobs());
@@ -108,10 +112,21 @@ void ExportView::draw_choices(const ViewContext& context) {
   tooltip_for_item("Frames that are made side by side; the result does not depend on it");
 }
 
+const std::optional<std::vector<std::string>>& ExportView::assignments(const Document& document) {
+  const std::uint64_t revision = document.has_unsaved_changes() ? document.revision().number : 0;
+  if (std::exchange(assignments_of_, revision) == revision && assignments_) return assignments_;
+  assignments_ = std::vector<std::string>();
+  if (revision == 0 && document.has_file()) return assignments_;
+  const Result<ReadProject> saved = read_project(document.project().file);
+  assignments_ = saved ? assignments_between(saved->project, document.project()) : std::nullopt;
+  return assignments_;
+}
+
 void ExportView::draw_command(const ViewContext& context) {
   ExportRequest request = request_of(context);
   request.overwrite = !there_.empty();
-  const std::string command = export_command(request);
+  const std::string command =
+      export_command(request, assignments(context.document).value_or(std::vector<std::string>()));
   ImGui::TextDisabled("The same from the command line:");
   const float copy = icon_button_width() + ImGui::GetStyle().ItemSpacing.x;
   ImGui::PushFont(font(Font::mono));
@@ -132,10 +147,10 @@ void ExportView::draw_command(const ViewContext& context) {
 }
 
 void ExportView::draw_notes(const ViewContext& context) {
-  if (context.document.has_unsaved_changes() || !context.document.has_file())
-    note_line(
-        Icon::info, color::kAccent,
-        "There are unsaved changes. They are exported; the command below takes the project as it was last saved.");
+  if (!assignments(context.document))
+    note_line(Icon::info, color::kAccent,
+              "There are unsaved changes. They are exported; the command below takes the project as it was last saved. "
+              "Save it first (Ctrl+S) for the same from the command line.");
   if (context.shown.scene && !context.shown.scene->draft.problems.empty()) {
     const Problem& problem = context.shown.scene->draft.problems.front();
     note_line(Icon::warning, color::kBad, problem.field + ": " + problem.what);
@@ -154,7 +169,7 @@ void ExportView::draw_notes(const ViewContext& context) {
 
 void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
   if (ImGui::BeginTable("choices", 2)) {
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, scaled(80));
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, scaled(112));
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
     draw_choices(context);
     ImGui::EndTable();

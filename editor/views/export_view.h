@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,9 @@ class ExportView {
   void draw_running(const ViewContext& context, ExportJob& job, const ExportState& state);
   void draw_done(const ViewContext& context, ExportJob& job, const ExportState& state);
 
+  // What the command needs besides the file; none: the file does not say what is exported, nor can settings.
+  const std::optional<std::vector<std::string>>& assignments(const Document& document);
+
   bool open_ = false;
   // The person has closed it in this update.
   bool closed_ = false;
@@ -47,6 +52,9 @@ class ExportView {
   int jobs_ = 0;
   // The question whether the files in there_ may be replaced is shown.
   bool overwrite_asked_ = false;
+  // For the revision with this number.
+  std::optional<std::vector<std::string>> assignments_;
+  std::uint64_t assignments_of_ = 0;
   // What would be overwritten.
   std::vector<std::filesystem::path> there_;
 };

@@ -12,14 +12,34 @@
 
 namespace sigs::editor {
 
+namespace {
+
+// In the middle of the screen when the dialog appears; then it stays, so that what is pressed does not move away where
+// the dialog grows, unless it would leave the screen.
+float upper_edge(const char* title, float margin) {
+  const ImGuiViewport& screen = *ImGui::GetMainViewport();
+  ImGuiWindow* const window = ImGui::FindWindowByName(title);
+  if (window == nullptr) return screen.Pos.y + screen.Size.y / 3;
+  // ImGui takes some updates to find how high it is.
+  constexpr int kUpdatesToMeasure = 5;
+  int& updates = *window->StateStorage.GetIntRef(ImHashStr("updates"));
+  const bool was_drawn = ImGui::GetFrameCount() - window->LastFrameActive <= 1;
+  updates = was_drawn ? std::min(updates + 1, kUpdatesToMeasure) : 0;
+  if (updates < kUpdatesToMeasure) return screen.Pos.y + (screen.Size.y - window->Size.y) / 2;
+  return std::max(screen.Pos.y + margin,
+                  std::min(window->Pos.y, screen.Pos.y + screen.Size.y - margin - window->Size.y));
+}
+
+}  // namespace
+
 bool begin_dialog(const char* title, double width, double height, bool& closed) {
   const ImGuiViewport& screen = *ImGui::GetMainViewport();
   const float margin = scaled(16);
   const float w = std::min(scaled(width), screen.Size.x - 2 * margin);
   const float h = std::min(scaled(height), screen.Size.y - 2 * margin);
   if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
-  ImGui::SetNextWindowPos({screen.Pos.x + screen.Size.x / 2, screen.Pos.y + screen.Size.y / 2}, ImGuiCond_Always,
-                          {0.5F, 0.5F});
+  ImGui::SetNextWindowPos({screen.Pos.x + screen.Size.x / 2, upper_edge(title, margin)}, ImGuiCond_Always,
+                          {0.5F, 0.0F});
   if (height > 0)
     ImGui::SetNextWindowSize({w, h});
   else
@@ -120,6 +140,19 @@ SplitterMove vertical_splitter(const char* id, float length) {
 
 SplitterMove horizontal_splitter(const char* id, float length) {
   return splitter(id, {length, splitter_thickness()}, false);
+}
+
+void place_tooltip_beside_panel(float width) {
+  const ImGuiViewport& screen = *ImGui::GetMainViewport();
+  const ImVec2 low = ImGui::GetWindowPos();
+  const float right = low.x + ImGui::GetWindowSize().x;
+  if (ImGui::GetWindowSize().x > 0.55F * screen.Size.x) return;
+  const float gap = scaled(8);
+  const float y = ImGui::GetItemRectMin().y;
+  if (low.x - screen.Pos.x >= width + gap)
+    ImGui::SetNextWindowPos({low.x - gap, y}, ImGuiCond_Always, {1, 0});
+  else if (screen.Pos.x + screen.Size.x - right >= width + gap)
+    ImGui::SetNextWindowPos({right + gap, y}, ImGuiCond_Always);
 }
 
 }  // namespace sigs::editor

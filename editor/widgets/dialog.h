@@ -39,4 +39,9 @@ struct SplitterMove {
 [[nodiscard]] SplitterMove horizontal_splitter(const char* id, float length);  // upper / lower
 [[nodiscard]] float splitter_thickness();
 
+// Before a tooltip for the item that ImGui drew last: beside the panel or dialog, level with the item, so that the rows
+// below it stay in sight. In wide windows, and where there is no room, it comes where ImGui has it: at the mouse.
+//   width  of the tooltip, screen pixels
+void place_tooltip_beside_panel(float width);
+
 }  // namespace sigs::editor

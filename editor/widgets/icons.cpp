@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/widgets/icons.h"
+#include "editor/widgets/dialog.h"
 
 #include <imgui_internal.h>
 
@@ -384,6 +385,7 @@ bool item_wants_tooltip() {
 
 void tooltip_for_item(const char* text) {
   if (*text == '\0' || !item_wants_tooltip()) return;
+  place_tooltip_beside_panel(ImGui::GetFontSize() * 26 + 2 * ImGui::GetStyle().WindowPadding.x);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
   ImGui::TextUnformatted(shortened(text).c_str());

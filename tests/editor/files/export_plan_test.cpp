@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cli/tiny_project.h"
+#include "project/fields.h"
 #include "project/json.h"
 
 using namespace sigs;
@@ -58,4 +59,32 @@ TEST_CASE("the equivalent command is quoted correctly for a shell") {
   request.overwrite = true;
   request.folder = "out";
   CHECK(export_command(request) == "sigs export a/b.json --frames 10-20 --out out --force");
+}
+
+TEST_CASE("settings that are not saved are in the command: what it sets makes the saved project the present one") {
+  Project saved;
+  saved.file = "/a/b/p.json";
+  saved.intruders.resize(1);
+  saved.intruders[0].trajectory.waypoints = {{.frame = 0, .position_m = {1, 2, 3}}};
+  CHECK(assignments_between(saved, saved)->empty());
+  Project present = saved;
+  present.name = "it's mine";
+  present.output.codec = CodecChoice::h264;
+  present.output.crf = 23;
+  present.output.labels = {"xml", "coco"};
+  present.footage.last_frame = 30;
+  present.camera.speed_mps = 31.25;
+  present.intruders[0].trajectory.waypoints[0].position_m.y = -7.125;
+  const auto assignments = assignments_between(saved, present);
+  REQUIRE(assignments);
+  Project reached = saved;
+  for (const std::string& assignment : *assignments) CHECK_MESSAGE(set_field(reached, assignment), assignment);
+  CHECK(reached == present);
+  const std::string command = export_command({.project = present, .folder = "out"}, *assignments);
+  CHECK(command.find(R"( --set 'name=it'\''s mine')") != std::string::npos);
+  CHECK(command.find(" --set export.video.codec=h264 ") != std::string::npos);
+  // What no setting says.
+  present.intruders[0].trajectory.waypoints.push_back({.frame = 9, .position_m = {4, 5, 6}});
+  CHECK_FALSE(assignments_between(saved, present));
+  CHECK_FALSE(assignments_between(Project(), saved));
 }
