@@ -105,19 +105,18 @@ std::string rounded_text(double value) {
 }
 
 // Sizes of images, each footage opened once.
-class ImageSizes {
+class Footages {
  public:
-  Result<double> pixels_of(const Project& project) {
+  Result<VideoInfo> info_of(const Project& project) {
     const std::string path = resolved(project, project.footage.video).string();
-    if (const auto known = pixels_.find(path); known != pixels_.end()) return known->second;
+    if (const auto known = infos_.find(path); known != infos_.end()) return known->second;
     const Result<FrameSource> source = open_footage(project);
     if (!source) return fail(source.error());
-    const cv::Size size = source->info().size_px;
-    return pixels_[path] = double(size.width) * size.height;
+    return infos_[path] = source->info();
   }
 
  private:
-  std::map<std::string, double> pixels_;
+  std::map<std::string, VideoInfo> infos_;
 };
 
 std::string or_dash(const std::map<std::string, std::string>& tags, const char* key) {
@@ -218,17 +217,17 @@ std::string resamples_line(const std::vector<const PlannedVideo*>& videos) {
 Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
                              const std::vector<std::optional<Visibility>>& visibilities) {
   Measured all{.videos = videos, .visibilities = visibilities, .frames = {}};
-  ImageSizes sizes;
+  Footages footages;
   long long frames = 0;
   double bytes = 0;
   for (const PlannedVideo* const video : videos) {
-    const Result<int> count = frames_of(video->project);
+    const Result<VideoInfo> footage = footages.info_of(video->project);
+    if (!footage) return fail(video->name, footage.error().text(), footage.error().kind);
+    const Result<int> count = frames_of(video->project, *footage);
     if (!count) return fail(video->name, count.error().text(), count.error().kind);
-    const Result<double> pixels = sizes.pixels_of(video->project);
-    if (!pixels) return fail(video->name, pixels.error().text(), pixels.error().kind);
     all.frames.push_back(*count);
     frames += *count;
-    bytes += *pixels * *count * bytes_a_pixel(video->project.output);
+    bytes += double(footage->size_px.area()) * *count * bytes_a_pixel(video->project.output);
   }
   std::string text;
   for (const Block& block : blocks_of(videos)) text += table_text(columns_of(block, all));

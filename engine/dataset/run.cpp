@@ -20,7 +20,9 @@
 #include "dataset/merge_labels.h"
 #include "dataset/video_folder.h"
 #include "dataset/video_name.h"
+#include "project/validate.h"
 #include "scene/opened_project.h"
+#include "scene/scene_parts.h"
 #include "video/frame_source.h"
 
 namespace sigs {
@@ -141,7 +143,8 @@ void DatasetRun::inspect(Task& task) {
     if (entry && !why.empty() && !is_cancelled() && !request_.merge_only) warn({video.name, "is made anew: " + why});
   }
   if (!task.is_pending() || request_.merge_only) return;
-  const Result<int> frames = frames_of(video.project, control_.cancel);
+  const Result<FrameSource> footage = open_footage(video.project, control_.cancel);
+  const Result<int> frames = footage ? frames_of(video.project, footage->info()) : Result<int>(fail(footage.error()));
   if (frames)
     task.frames = *frames;
   else
@@ -354,11 +357,10 @@ Result<DatasetReport> made_in(const fs::path& dataset, const Plan& plan, const D
 
 }  // namespace
 
-Result<int> frames_of(const Project& project, const std::atomic<bool>* cancel) {
-  if (project.footage.last_frame) return *project.footage.last_frame - project.footage.first_frame + 1;
-  const Result<FrameSource> source = open_footage(project, cancel);
-  if (!source) return fail(source.error());
-  return source->info().frame_count() - project.footage.first_frame;
+Result<int> frames_of(const Project& project, const VideoInfo& footage) {
+  const OrProblem<FrameRange> range = scene_range(project.footage, shape_of(footage));
+  if (!range) return fail(error_of(project, range.error()));
+  return range->last - range->first + 1;
 }
 
 Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& request, const DatasetControl& control) {

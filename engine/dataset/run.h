@@ -12,6 +12,7 @@
 #include "dataset/dataset_lock.h"
 #include "dataset/index.h"
 #include "dataset/plan.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 
@@ -56,8 +57,8 @@ struct DatasetControl {
 [[nodiscard]] Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& request,
                                                  const DatasetControl& control);
 
-// Number of frames of an export of the project. Opens the footage only where the project has no last frame. Errors as
-// FrameSource::open().
-[[nodiscard]] Result<int> frames_of(const Project& project, const std::atomic<bool>* cancel = nullptr);
+// Number of frames of an export of the project from this footage. Error bad_project: the footage has not the frames
+// that the project names.
+[[nodiscard]] Result<int> frames_of(const Project& project, const VideoInfo& footage);
 
 }  // namespace sigs

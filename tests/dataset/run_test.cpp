@@ -42,6 +42,21 @@ std::set<std::string> names_in(const fs::path& folder) {
 
 }  // namespace
 
+TEST_CASE("a video has the frames that its footage has, whatever its project says") {
+  VideoInfo footage;
+  for (int n = 0; n < 50; ++n) footage.times_s.push_back(n / 25.0);
+  Project project;
+  project.footage.first_frame = 10;
+  CHECK(frames_of(project, footage).value() == 40);
+  project.footage.last_frame = 49;
+  CHECK(frames_of(project, footage).value() == 40);
+  for (const auto& [first, last] : std::vector<std::pair<int, int>>{{10, 50}, {10, 1000}, {20, 19}, {50, 60}}) {
+    project.footage.first_frame = first;
+    project.footage.last_frame = last;
+    CHECK_FALSE(frames_of(project, footage));
+  }
+}
+
 TEST_CASE("a dataset is a folder for each video, lists of its splits, checksums and an index") {
   const TinyPlan tiny;
   const DatasetReport report = made(tiny.plan, into(tiny.out()));
