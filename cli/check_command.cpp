@@ -11,6 +11,8 @@
 
 #include "base/text.h"
 #include "cli/options.h"
+#include "cli/process.h"
+#include "ego_motion/project_motion.h"
 #include "export/export_project.h"
 #include "project/validate.h"
 #include "scene/likely_mistakes.h"
@@ -40,6 +42,13 @@ void print_intruders(const Project& project, const Scene& scene, const std::vect
   }
 }
 
+// The log by whose attitude the camera turns; empty: none.
+std::filesystem::path log_of(const Project& project) {
+  const TrackSettings& track = project.camera.track;
+  const bool turns = !track.file.empty() && track.attitude != TrackAttitudeChoice::none;
+  return turns ? resolved(project, track.file) : std::filesystem::path();
+}
+
 // What can be seen without opening anything; then what only opening shows.
 Result<void> check(const ProjectOptions& options) {
   const Result<Project> project = project_of(options);
@@ -48,11 +57,11 @@ Result<void> check(const ProjectOptions& options) {
   for (const Problem& problem : problems) print(error_of(*project, problem));
   if (!problems.empty())
     return fail(project->file.string(), count_text(problems.size(), "problem"), problems.front().kind);
-  const Result<FrameSource> source = open_footage(*project);
+  Result<FrameSource> source = open_footage(*project);
   if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
   std::vector<Warning> warnings = warnings_of(source->info());
   for (Warning& warning : codec_warnings_of(*project, source->info())) warnings.push_back(std::move(warning));
-  for (Problem& mistake : footage_mistakes(source->info().path))
+  for (Problem& mistake : footage_mistakes(source->info().path, log_of(*project)))
     warnings.push_back({project->file.string() + ": " + mistake.field, std::move(mistake.what)});
   if (const Result<void> output = check_output(*project, source->info()); !output) return fail(output.error());
   SceneFiles files;
@@ -60,6 +69,8 @@ Result<void> check(const ProjectOptions& options) {
   if (!scene) return fail(scene.error());
   const std::vector<Visibility> visibilities = estimated_visibilities(*scene, std::numeric_limits<int>::max());
   for (Warning& warning : warnings_of(*project, *scene, visibilities)) warnings.push_back(std::move(warning));
+  if (const auto level = level_contradiction(seen_horizons(*source, *scene, &interrupt_flag()), *project, *scene))
+    warnings.insert(warnings.begin(), {project->file.string() + ": " + level->field, level->what});
   for (const Warning& warning : warnings) print_warning(warning);
   print_intruders(*project, *scene, visibilities);
   std::printf("%s: %s; frames %d to %d, %s\n", project->file.c_str(),

@@ -19,6 +19,9 @@
 #include "cli/progress.h"
 #include "ego_motion/attitude_plot.h"
 #include "ego_motion/ego_motion.h"
+#include "ego_motion/project_motion.h"
+#include "project/json.h"
+#include "scene/opened_project.h"
 #include "telemetry/read_track.h"
 #include "telemetry/track_csv.h"
 
@@ -32,7 +35,8 @@ constexpr const char* kEgoMotionFooter =
     "Examples:\n"
     "  sigs ego-motion flight.mp4 --calibration gopro.xml --out attitude.csv\n"
     "  sigs ego-motion flight.mp4 --calibration gopro.xml --mask own_body.png --telemetry flight.mp4 \\\n"
-    "    --readout-ms 20 --out attitude.csv --plot attitude.png";
+    "    --readout-ms 20 --out attitude.csv --plot attitude.png\n"
+    "  sigs ego-motion --into encounter.json";
 
 struct EgoMotionOptions {
   fs::path video;
@@ -41,19 +45,38 @@ struct EgoMotionOptions {
   fs::path telemetry;  // likewise
   fs::path csv;
   fs::path plot;  // empty: none
+  fs::path into;  // the project to follow the attitudes; empty: none
+  double max_unknown_percent = 100 * kMaxUnknownShare;
   std::optional<double> readout_ms;
   bool force = false;
   std::string progress = "auto";
 };
+
+// With a project it names footage, calibration and the rest; without one they are asked for.
+Result<void> check_inputs(const EgoMotionOptions& options) {
+  const bool has_project = !options.into.empty();
+  const auto said = [&](const char* name, bool is_given, bool is_needed) -> Result<void> {
+    if (has_project && is_given) return fail(name, "is named by the project of --into; leave it out", ErrorKind::usage);
+    if (!has_project && is_needed && !is_given) return fail(name, "is required", ErrorKind::usage);
+    return {};
+  };
+  for (const Result<void>& one :
+       {said("VIDEO", !options.video.empty(), true), said("--calibration", !options.calibration.empty(), true),
+        said("--mask", !options.mask.empty(), false), said("--telemetry", !options.telemetry.empty(), false),
+        said("--readout-ms", options.readout_ms.has_value(), false)})
+    if (!one) return one;
+  if (!has_project && options.csv.empty()) return fail("--out", "is required", ErrorKind::usage);
+  return {};
+}
 
 Result<void> check_names(const EgoMotionOptions& options) {
   if (!options.plot.empty() && lower_extension(options.plot) != ".png")
     return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
   if (!options.plot.empty() && canonical_name(options.csv) == canonical_name(options.plot))
     return fail("--plot " + options.plot.string(), "is where --out goes", ErrorKind::usage);
-  std::vector<fs::path> inputs{options.video, options.calibration};
-  for (const fs::path& more : {options.mask, options.telemetry})
-    if (!more.empty()) inputs.push_back(more);
+  std::vector<fs::path> inputs;
+  for (const fs::path& one : {options.video, options.calibration, options.mask, options.telemetry, options.into})
+    if (!one.empty()) inputs.push_back(one);
   for (const auto& [option, path] : {std::pair("--out ", options.csv), std::pair("--plot ", options.plot)}) {
     if (path.empty()) continue;
     if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
@@ -68,13 +91,13 @@ Result<cv::Mat> mask_of(const fs::path& path) {
   return read_image_file(path, cv::IMREAD_GRAYSCALE);
 }
 
-// What is found, and the log of the flight, if there is one.
+// What is found, and the same with what the log of the flight knows besides.
 struct Estimated {
   EgoMotion motion;
-  std::optional<Track> log;
+  Track track;
 };
 
-Result<Estimated> estimated(const EgoMotionOptions& options) {
+Result<Estimated> estimated(const EgoMotionOptions& options, const EgoMotionControl& control) {
   Result<FrameSource> footage = FrameSource::open(options.video, &interrupt_flag());
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
@@ -83,31 +106,28 @@ Result<Estimated> estimated(const EgoMotionOptions& options) {
   for (const Warning& warning : camera->warnings) print_warning(warning);
   const Result<cv::Mat> mask = mask_of(options.mask);
   if (!mask) return fail(mask.error());
-  std::optional<Track> track;
+  std::optional<Track> log;
   if (!options.telemetry.empty()) {
     Result<Track> read = read_track(options.telemetry, {.cancel = &interrupt_flag()});
     if (!read) return fail(read.error());
     for (const Warning& warning : read->warnings) print_warning(warning);
-    track = std::move(*read);
+    log = std::move(*read);
   }
   EgoMotionSettings settings;
   if (options.readout_ms) settings.readout_s = *options.readout_ms / 1000;
-  Progress progress(progress_style(options.progress));
-  const EgoMotionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
-                                 .cancel = &interrupt_flag()};
-  Result<EgoMotion> motion =
-      estimate_ego_motion(*footage, *camera, *mask, track ? &*track : nullptr, settings, control);
-  progress.end();
+  Result<EgoMotion> motion = estimate_ego_motion(*footage, *camera, *mask, log ? &*log : nullptr, settings, control);
   if (!motion) return fail(motion.error());
+  if (const Result<void> known = check_known(*motion, options.video.string(), options.max_unknown_percent / 100);
+      !known)
+    return fail(known.error().where, known.error().what + "; --max-unknown allows more", known.error().kind);
+  Track track = track_of(*motion, options.video);
+  if (log) add_log(track, *log, *motion);
+  if (options.readout_ms) track.readout_s = *options.readout_ms / 1000;
   return Estimated{*std::move(motion), std::move(track)};
 }
 
-Result<void> write(StagedOutputs& outputs, const fs::path& csv, const fs::path& plot, const Estimated& found,
-                   const EgoMotionOptions& options) {
-  Track track = track_of(found.motion, options.video);
-  if (found.log) add_log(track, *found.log, found.motion);
-  if (options.readout_ms) track.readout_s = *options.readout_ms / 1000;
-  if (const Result<void> listed = write_bytes(csv, track_csv_text(track)); !listed)
+Result<void> write(StagedOutputs& outputs, const fs::path& csv, const fs::path& plot, const Estimated& found) {
+  if (const Result<void> listed = write_bytes(csv, track_csv_text(found.track)); !listed)
     return fail(outputs.with_final_names(listed.error()));
   if (!plot.empty())
     if (const Result<void> drawn = write_png(plot, attitude_plot(found.motion)); !drawn)
@@ -119,12 +139,14 @@ void print_summary(const EgoMotion& motion) {
   for (const Warning& warning : motion.warnings) print_warning(warning);
   double largest_rad = 0;
   int lost = 0;
+  const int unknown = unknown_frames(motion);
   for (const EgoFrame& frame : motion.frames) {
     for (int axis = 0; axis < 3; ++axis) largest_rad = std::max(largest_rad, frame.sd_rad[axis]);
     lost += frame.is_lost ? 1 : 0;
   }
-  std::fprintf(stderr, "%s, %d of them lost; largest standard deviation since frame 0: %s deg\n",
-               count_text(static_cast<std::int64_t>(motion.frames.size()), "frame").c_str(), lost,
+  std::fprintf(stderr,
+               "%s, %d of them lost, %d not known against frame 0; largest standard deviation since frame 0: %s deg\n",
+               count_text(static_cast<std::int64_t>(motion.frames.size()), "frame").c_str(), lost, unknown,
                short_number_text(deg_of_rad(largest_rad)).c_str());
   if (motion.level_sd_rad)
     std::fprintf(stderr, "horizon seen: roll and pitch are absolute to %s deg\n",
@@ -137,8 +159,31 @@ void print_summary(const EgoMotion& motion) {
         fixed_text(motion.gyro->slope, 3).c_str(), motion.gyro->is_fused ? "" : "; not used");
 }
 
-Result<void> run(const EgoMotionOptions& options) {
-  if (const Result<void> named = check_names(options); !named) return named;
+// As the project names it: relative to its folder, so that both can be moved together.
+std::string path_beside(const fs::path& file, const fs::path& project) {
+  const fs::path relative =
+      canonical_name(file).lexically_relative(canonical_path(fs::absolute(project).parent_path()));
+  return relative.empty() ? canonical_name(file).string() : relative.generic_string();
+}
+
+// What a project is estimated from, and becomes.
+Result<Estimated> estimated_for(Project& project, const EgoMotionOptions& options, const EgoMotionControl& control) {
+  Result<ProjectMotion> found = estimated_project_motion(project, control, options.max_unknown_percent / 100);
+  if (!found) return fail(found.error());
+  for (const Warning& warning : found->warnings) print_warning(warning);
+  found->found.file = path_beside(options.csv, options.into);
+  follow_attitudes(project, found->found);
+  return Estimated{std::move(found->motion), std::move(found->track)};
+}
+
+Result<void> estimate_and_write(const EgoMotionOptions& options) {
+  std::optional<Project> project;
+  if (!options.into.empty()) {
+    Result<Project> read = project_of({.file = options.into, .settings = {}});
+    if (!read) return fail(read.error());
+    if (const Result<void> valid = check_valid(*read); !valid) return fail(valid.error());
+    project = *std::move(read);
+  }
   defer_interrupts();
   StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
   const Result<fs::path> csv = outputs.add_file(options.csv);
@@ -149,12 +194,26 @@ Result<void> run(const EgoMotionOptions& options) {
     if (!added) return fail(added.error());
     plot = *added;
   }
-  const Result<Estimated> found = estimated(options);
+  Progress progress(progress_style(options.progress));
+  const EgoMotionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+                                 .cancel = &interrupt_flag()};
+  const Result<Estimated> found = project ? estimated_for(*project, options, control) : estimated(options, control);
+  progress.end();
   if (!found) return fail(found.error());
-  if (const Result<void> written = write(outputs, *csv, plot, *found, options); !written) return written;
+  if (const Result<void> written = write(outputs, *csv, plot, *found); !written) return written;
+  if (project)
+    if (const Result<void> saved = write_project(*project, options.into, true); !saved) return saved;
   for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
+  if (project) std::printf("%s\n", options.into.c_str());
   print_summary(found->motion);
   return {};
+}
+
+Result<void> run(EgoMotionOptions options) {
+  if (const Result<void> given = check_inputs(options); !given) return given;
+  if (options.csv.empty()) options.csv = options.into.parent_path() / (options.into.stem().string() + ".attitude.csv");
+  if (const Result<void> named = check_names(options); !named) return named;
+  return estimate_and_write(options);
 }
 
 }  // namespace
@@ -165,16 +224,25 @@ Command add_ego_motion_command(CLI::App& program) {
   const auto add_input = [command](const char* name, fs::path& path, const char* help) {
     return command->add_option(name, path, help)->option_text("FILE")->check(not_empty());
   };
-  command->add_option("VIDEO", options->video, "the footage")->required()->check(not_empty());
-  add_input("--calibration", options->calibration, "the camera's calibration")->required();
+  command->add_option("VIDEO", options->video, "the footage; with --into the project names it")->check(not_empty());
+  add_input("--calibration", options->calibration, "the camera's calibration");
   add_input("--mask", options->mask, "the own body's mask: 8-bit grey, white where the own body is");
   add_input("--telemetry", options->telemetry, "a log with the camera's rates, or the video that has it");
   command->add_option("--readout-ms", options->readout_ms, "rolling shutter, first row to last; milliseconds")
       ->option_text("MS")
       ->check(from_to(0, 1000));
-  command->add_option("--out", options->csv, "the attitudes, as CSV")
+  command
+      ->add_option("--into", options->into,
+                   "estimate from what this project names, and make it follow the attitudes (camera.track)")
+      ->option_text("PROJECT")
+      ->check(not_empty());
+  command
+      ->add_option("--max-unknown", options->max_unknown_percent,
+                   "fail if the rotation since frame 0 is not known in more of the frames, percent (50)")
+      ->option_text("PERCENT")
+      ->check(from_to(0, 100));
+  command->add_option("--out", options->csv, "the attitudes, as CSV; with --into beside the project by default")
       ->option_text("FILE")
-      ->required()
       ->check(output_path());
   command->add_option("--plot", options->plot, "draw roll, pitch and yaw with their deviations; a PNG")
       ->option_text("FILE")

@@ -111,6 +111,7 @@ App::App(Window& window, Settings settings, ProbeWriter probe)
       previewer_(PreviewLimits(), [] { Window::wake(); }),
       own_body_(edits_, [] { Window::wake(); }),
       ego_motion_(edits_, [] { Window::wake(); }),
+      horizon_watch_([] { Window::wake(); }),
       appearance_(edits_, [] { Window::wake(); }),
       scoring_([] { Window::wake(); }),
       shell_(document_, settings_,
@@ -199,6 +200,7 @@ void App::draw(const PreviewOutput& shown) {
                             .scored = scored_.get(),
                             .ego_motion = &ego_motion_.state(),
                             .appearance = &appearance_.state(),
+                            .horizons = horizon_watch_.seen(),
                             .guesses = &shell_.guesses()};
   ask_scores(context);
   shell_.draw_menu(context);
@@ -314,6 +316,7 @@ void App::update(double now_s, bool something_happened) {
   scored_ = scoring_.scored();
   report_result_problems();
   ego_motion_.follow(document_);
+  horizon_watch_.follow(shown.scene);
   appearance_.follow(document_);
   window_.begin(settings_);
   draw(shown);

@@ -129,6 +129,7 @@ class App {
   Previewer previewer_;
   OwnBodySession own_body_;
   EgoMotionSession ego_motion_;
+  HorizonWatch horizon_watch_;
   AppearanceSession appearance_;
   ResultFiles results_;
   Scoring scoring_;

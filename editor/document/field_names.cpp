@@ -14,11 +14,12 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 55> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 56> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
     {"camera.track.attitude", "Its attitude"},
+    {"camera.track.mount", "Its mount"},
     {"camera.track.incomplete", "If incomplete"},
     {"camera.readout_s", "Shutter readout"},
     {"camera.exposure_s", "Exposure time"},

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "editor/preview/background_job.h"
+#include "editor/preview/preview_output.h"
+#include "ego_motion/project_motion.h"
 #include "project/project.h"
 
 namespace sigs::editor {
@@ -26,16 +28,39 @@ struct EstimatedMotion {
                                        // frame 0 is as the project's camera.attitude_deg says
   bool is_level_stated = false;        // without a horizon: the project had roll or pitch
   bool is_gyro_used = false;
+  FoundAttitudes found = {};  // what the project has to state of them, without the file's name
   std::vector<Warning> warnings;
 };
 
-// Estimates the camera's rotation from the project's footage, calibration and own-body mask, and with the rates of
-// camera.track.file where that has some (ego_motion/ego_motion.h), and writes it as the camera's whole attitude. On the
-// calling thread, for minutes. Nothing is written where it fails or is cancelled. Errors: those of FrameSource::open(),
-// of calibration and mask, of estimate_ego_motion(), and of writing a file that must not be there yet.
+// Estimates the camera's rotation (estimated_project_motion()) and writes it as the camera's whole attitude. On the
+// calling thread, for minutes. Nothing is written where it fails or is cancelled. Errors: those of
+// estimated_project_motion(), and of writing a file that must not be there yet.
 [[nodiscard]] Result<EstimatedMotion> estimated_motion(const EgoMotionRequest& request, const JobControl& control);
 
 // The same in the background (editor/views/estimate_session.h).
 using EgoMotionState = JobState<EgoMotionRequest, EstimatedMotion>;
+
+// Looks for the horizon in the footage of the scenes that are shown, in the background: once for each footage, lens and
+// own body, where the attitude is stated and all could be opened. For the window's thread, all calls.
+class HorizonWatch {
+ public:
+  explicit HorizonWatch(std::function<void()> wake);
+
+  // Once per update.
+  void follow(const std::shared_ptr<const OpenedScene>& shown);
+
+  // What was found in the footage of the scene that was followed last; null: nothing yet.
+  [[nodiscard]] const std::shared_ptr<const SeenHorizons>& seen() const { return seen_; }
+
+ private:
+  struct Request {
+    std::shared_ptr<const OpenedScene> scene;
+  };
+  [[nodiscard]] static Result<SeenHorizons> found(const Request& request, const JobControl& control);
+
+  BackgroundJob<Request, SeenHorizons> job_;
+  FootageSettings asked_;  // for which it was begun
+  std::shared_ptr<const SeenHorizons> seen_;
+};
 
 }  // namespace sigs::editor

@@ -67,6 +67,11 @@ void add_doubtful_frames(EgoMotion& motion, const std::string& where) {
   warn(has_gyro ? "the image stands still; the gyroscope alone tells how the camera turned"
                 : "the image stands still; how the camera turned is not known",
        still);
+  if (const int unknown = unknown_frames(motion); unknown > 0)
+    motion.warnings.insert(
+        motion.warnings.begin(),
+        {where, fmt::format("how the camera turned since frame 0 is not known in {} of {} frames, {:.0f} %", unknown,
+                            motion.frames.size(), 100.0 * unknown / static_cast<double>(motion.frames.size()))});
   if (!motion.level_sd_rad)
     motion.warnings.push_back(
         {where, "no horizon was found: roll and pitch are against frame 0, which counts as level"});

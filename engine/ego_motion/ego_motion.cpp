@@ -210,10 +210,11 @@ class Estimate {
     const double half_rad = std::acos(std::clamp(ray->x, 0.0, 1.0));
     const auto field_deg = [&](double scale) { return 2 * std::atan(std::tan(half_rad) / scale) * 57.29577951308232; };
     const std::string narrow = found.largest > 0 ? fmt::format("{:.0f} to", field_deg(found.largest)) : "at most";
-    warn(fmt::format(
+    const std::string what = fmt::format(
         "the images turn as with a field of view of {} {:.0f} degrees across, the calibration has {:.0f}: zoomed, "
         "cropped, stabilized, or a guess? Attitudes are wrong by as much",
-        narrow, field_deg(found.least), field_deg(1)));
+        narrow, field_deg(found.least), field_deg(1));
+    motion_.warnings.insert(motion_.warnings.begin(), {path_, what});
   }
 
   // What the camera turned its images by, at each frame.

@@ -66,7 +66,8 @@ struct EgoMotion {
   std::optional<GyroLink> gyro;
   std::optional<FocalScale> focal_scale;  // what the turns show of it; nothing is corrected by it
   bool is_stabilized = false;             // the log states that the camera turned the image (Track::camera_from_image)
-  std::vector<Warning> warnings;          // with ranges of frames
+  std::vector<Warning> warnings;          // with ranges of frames; first what puts the whole in doubt: many frames of
+                                          // which nothing is known, a lens unlike its calibration
 };
 
 // The camera's rotation frame by frame, in one pass over the footage: README.md. The time of a frame is that of its
@@ -82,9 +83,20 @@ struct EgoMotion {
                                                     const Track* telemetry, const EgoMotionSettings& settings,
                                                     const EgoMotionControl& control);
 
+// The number of frames whose rotation since frame 0 is not known: its standard deviation is above 90 degrees.
+[[nodiscard]] int unknown_frames(const EgoMotion& motion);
+
+// The share of such frames above which a motion is of no use: a camera that follows it hardly moves.
+inline constexpr double kMaxUnknownShare = 0.5;
+
+// Error bad_data with the two numbers where their share is above that.
+//   where  what the error names: the footage
+[[nodiscard]] Result<void> check_known(const EgoMotion& motion, const std::string& where,
+                                       double max_unknown_share = kMaxUnknownShare);
+
 // The same as a track, to be written or used as any other: ned_from_camera with camera_attitude_sd_rad, in which the
 // level's uncertainty is included; heading_is_north is false, on_footage_time true. Lost frames are left out.
-// level_is_known says whether roll and pitch are absolute.
+// level_is_known says whether roll and pitch are absolute; attitude_is_whole is true.
 [[nodiscard]] Track track_of(const EgoMotion& motion, const std::filesystem::path& footage);
 
 // Adds to the attitudes what the log of the same flight knows besides: position, velocity, exposure, UTC, on the

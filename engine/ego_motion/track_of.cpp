@@ -1,12 +1,35 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "ego_motion/ego_motion.h"
 
 namespace sigs {
 
+int unknown_frames(const EgoMotion& motion) {
+  return static_cast<int>(std::count_if(motion.frames.begin(), motion.frames.end(), [](const EgoFrame& frame) {
+    return frame.is_lost || std::max({frame.sd_rad.x, frame.sd_rad.y, frame.sd_rad.z}) > kUnknownRotation_rad / 2;
+  }));
+}
+
+Result<void> check_known(const EgoMotion& motion, const std::string& where, double max_unknown_share) {
+  const int unknown = unknown_frames(motion);
+  const auto frames = static_cast<int>(motion.frames.size());
+  if (unknown <= max_unknown_share * frames) return {};
+  return fail(where, fmt::format("how the camera turned is not known in {} of {} frames, more than {:g} %: the images "
+                                 "show too little that stays in place, such as sky alone; use a part of the footage or "
+                                 "a log with angular rates",
+                                 unknown, frames, 100 * max_unknown_share));
+}
+
 Track track_of(const EgoMotion& motion, const std::filesystem::path& footage) {
-  Track track{.file = footage, .format = "images", .on_footage_time = true, .heading_is_north = false};
+  Track track{.file = footage,
+              .format = "images",
+              .on_footage_time = true,
+              .heading_is_north = false,
+              .attitude_is_whole = true};
   track.ned_from_camera.source = "ego-motion";
   track.ned_from_camera.clock = "footage";
   track.camera_attitude_sd_rad.source = "ego-motion";

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+const std::string kEgoMotion = "`sigs ego-motion --into` finds in the images";
 constexpr double kMinSpeed_mps = 2;  // slower ones are hidden in the error of satellite positions
 constexpr double kMaxSpeed_mps = 300;
 
@@ -75,15 +76,18 @@ std::vector<FirstProjectNote> set_track(const FirstLog& log, const std::string& 
                                         const FrameRange& range, Project& project) {
   FirstProjectNote note{.field = "camera.track.file"};
   const auto unused = [&](const std::string& why) {
-    note.text = fmt::format("none: {}, {}, is not used: {}; the camera stands still", log.file.filename().string(),
-                            log.track->format, why);
+    note.text = fmt::format("none: {}, {}, is not used: {}; the camera stands still; how it turns, {}",
+                            log.file.filename().string(), log.track->format, why, kEgoMotion);
     note.is_guess = true;
     return std::vector{note};
   };
   if (!log.track) {
-    return {{.field = "camera.speed_mps",
-             .text = "0: no flight log tells how the camera moves, so the intruder's motion is that against the camera",
-             .is_guess = true}};
+    return {
+        {.field = "camera.speed_mps",
+         .text = "0: no flight log tells how the camera moves, so the intruder's motion is that against the camera; "
+                 "how it turns, " +
+                 kEgoMotion,
+         .is_guess = true}};
   }
   const Track& track = *log.track;
   if (!track.on_footage_time) return unused("its time of the footage's frame 0 is not known (camera.track.offset_s)");
@@ -108,7 +112,7 @@ std::vector<FirstProjectNote> set_track(const FirstLog& log, const std::string& 
   const bool has_path = used->flight.motion.path != nullptr;
   note.text = fmt::format("{}, {}: the camera follows its {}", log.file.filename().string(), track.format,
                           has_path && has_camera ? "path and attitude"
-                          : has_path             ? "path"
+                          : has_path             ? "path; it has no attitude of the camera, which " + kEgoMotion
                                                  : "attitude");
   std::vector<FirstProjectNote> notes{note};
   if (has_path && (!has_camera || !track.heading_is_north) && used->flight.earth) {

@@ -117,6 +117,9 @@ void add_camera(FieldList list, CameraSettings& camera) {
            "the log's positions: used where there are some; must be there; left out");
   list.add("track.attitude", choice_of(camera.track.attitude, {"auto", "camera", "airframe", "none"}), "",
            "the log's attitude: the camera's, else the airframe's; or just one of them; or none");
+  list.add("track.mount", choice_of(camera.track.mount, {"auto", "attitude_deg", "none"}), "",
+           "the mount on what that attitude describes: camera.attitude_deg; none: it is the camera's own; auto: as the "
+           "log says, else camera.attitude_deg");
   list.add("track.incomplete", choice_of(camera.track.incomplete, {"refuse", "use"}), "",
            "a log that is damaged or does not cover all frames: an error, or its sound part is used");
   list.number("readout_s", &camera.readout_s, "s", 0, 1,

@@ -81,6 +81,10 @@ enum class TrackAttitudeChoice { automatic, camera, airframe, none };
 // Whether the log's positions are used: where it has some; always (it is an error if it has none); never.
 enum class TrackPositionChoice { automatic, log, none };
 
+// How the camera sits on what the log's attitude describes: at camera.attitude_deg, the mount's angles; not at all, as
+// that attitude is the camera's own; or as the log itself says (Track::attitude_is_whole), else at camera.attitude_deg.
+enum class TrackMountChoice { automatic, attitude_deg, none };
+
 // What happens with a log that is damaged or does not cover all frames: it is an error, or its sound part is used.
 enum class IncompleteTrackChoice { refuse, use };
 
@@ -90,6 +94,7 @@ struct TrackSettings {
   double offset_s = 0;  // time in the log at the footage's frame 0
   TrackPositionChoice position = TrackPositionChoice::automatic;
   TrackAttitudeChoice attitude = TrackAttitudeChoice::automatic;
+  TrackMountChoice mount = TrackMountChoice::automatic;
   IncompleteTrackChoice incomplete = IncompleteTrackChoice::refuse;
 
   [[nodiscard]] bool operator==(const TrackSettings&) const = default;
@@ -297,8 +302,8 @@ enum class MasksChoice { none, video, png };
 
 // The label formats that export.labels may contain: the names of the table in engine/labels/labels.cpp, in its order.
 // They are repeated because this module may not include labels; tests/labels/labels_test.cpp compares them.
-inline constexpr auto kLabelNames =
-    std::to_array<std::string_view>({"xml", "coco", "yolo", "voc", "mot", "kitti", "cvat", "vot", "aot", "csv", "jsonl"});
+inline constexpr auto kLabelNames = std::to_array<std::string_view>(
+    {"xml", "coco", "yolo", "voc", "mot", "kitti", "cvat", "vot", "aot", "csv", "jsonl"});
 
 // The volumes that export.encounter may contain: the names of well_clear_volumes() in engine/encounter/well_clear.h, in
 // its order. They are repeated because this module may not include encounter; tests/scene/encounter_tracks_test.cpp

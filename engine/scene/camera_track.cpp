@@ -14,6 +14,7 @@
 #include "scene/scene_at.h"
 #include "spline/splines.h"
 #include "telemetry/log_samples.h"
+#include "telemetry/track_report.h"
 
 namespace sigs {
 
@@ -134,6 +135,11 @@ OrProblem<UsedParts> used_parts(const Track& track, const TrackSettings& setting
   const bool has_position = parts.places != nullptr || parts.local_m != nullptr;
   if (settings.position == TrackPositionChoice::log && !has_position)
     return log_problem("has no position, which camera.track.position asks for");
+  if (settings.attitude == TrackAttitudeChoice::automatic && parts.attitude == nullptr)
+    return log_problem("has no attitude, so that nothing would be locked to the images; it has " +
+                       contents_text(track) +
+                       ": let `sigs ego-motion --into` find the attitude in the images, or set camera.track.attitude "
+                       "to none to go on without");
   if (parts.attitude == nullptr && !has_position)
     return log_problem("has neither attitude nor position that camera.track.attitude and camera.track.position allow");
   return parts;
@@ -235,18 +241,30 @@ std::shared_ptr<const PiecewiseCubic> path_of(const Project& project, const Used
   return std::make_shared<const PiecewiseCubic>(interpolating_spline(points));
 }
 
-void turn_by_log(const Track& track, const UsedParts& parts, const LogTimes& times, double heading_rad,
-                 CameraFlight& flight) {
+// Whether the log's attitude is the camera's own rather than that of what it is mounted on.
+bool is_whole(const Track& track, const UsedParts& parts, TrackMountChoice mount) {
+  if (mount != TrackMountChoice::automatic) return mount == TrackMountChoice::none;
+  return track.attitude_is_whole && parts.attitude == &track.ned_from_camera;
+}
+
+void turn_by_log(const Project& project, const Track& track, const UsedParts& parts, const LogTimes& times,
+                 double heading_rad, CameraFlight& flight) {
   flight.motion.turns = on_footage_time(*parts.attitude, times);
   // Where yaw is not against north, it counts from the heading at frame 0, which is that of world X.
   const double zero_rad = track.heading_is_north ? heading_rad : yaw_at(flight.motion.turns, 0);
   const glm::dquat world_from_ned = rotation_of({0, 0, -zero_rad});
-  // Turns against an attitude at the start that is not known: it is the project's, so that with its mount's angles,
-  // which come last, the whole is (attitude at the start) * (turn since).
   const bool is_level_known = track.level_is_known || parts.attitude != &track.ned_from_camera;
-  const glm::dquat start = is_level_known ? glm::dquat(1, 0, 0, 0) : flight.motion.world_from_camera_at_start.rotation;
+  const bool is_own = is_whole(track, parts, project.camera.track.mount);
+  // camera.attitude_deg stands on the right where it is the mount's. Where it is the camera's own at the start, the
+  // part of it that the log does not know stands on the left: all of it, the heading, or nothing. What stands on the
+  // right of all turns (camera_at) is taken off again.
+  const glm::dquat given = flight.motion.world_from_camera_at_start.rotation;
+  const glm::dquat none(1, 0, 0, 0);
+  const glm::dquat heading = rotation_of({0, 0, rad_of_deg(project.camera.yaw_deg)});
+  const glm::dquat left = !is_level_known ? given : is_own && !track.heading_is_north ? heading : none;
+  const glm::dquat right = is_own || !is_level_known ? glm::conjugate(given) : none;
   for (CarrierAttitude& turn : flight.motion.turns)
-    turn.world_from_carrier = glm::normalize(start * world_from_ned * turn.world_from_carrier * glm::conjugate(start));
+    turn.world_from_carrier = glm::normalize(left * world_from_ned * turn.world_from_carrier * right);
   const Channel<glm::dvec3>& sd = track.camera_attitude_sd_rad;
   if (parts.attitude == &track.ned_from_camera)
     for (std::size_t i = 0; i < sd.values.size(); ++i)
@@ -337,7 +355,17 @@ OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track
     flight.motion.source.position = fmt::format("{}: {}", track.format, source);
     if (parts->places != nullptr) flight.motion.moves_with_start = moves_with_start(project.geo);
   }
-  if (parts->attitude != nullptr) turn_by_log(track, *parts, times, heading_rad, flight);
+  if (parts->attitude != nullptr) turn_by_log(project, track, *parts, times, heading_rad, flight);
+  if (const int unknown = unknown_attitudes(flight.motion, footage, range); unknown > 0) {
+    const int frames = range.last - range.first + 1;
+    const std::string what = fmt::format(
+        "does not know the camera's attitude in {} of the project's {} frames: the standard deviation is "
+        "above 90 degrees; intruders are not locked to the images there",
+        unknown, frames);
+    if (2 * unknown > frames && settings.incomplete == IncompleteTrackChoice::refuse)
+      return log_problem(what + "; set camera.track.incomplete to use if that will do");
+    flight.warnings.insert(flight.warnings.begin(), {track.file.string(), what});
+  }
   flight.motion.readout_s = project.camera.readout_s.value_or(track.readout_s.value_or(0));
   if (!project.camera.exposure_s) flight.motion.exposures = exposures_of(track.exposure_s, times);
   if (track.utc_at_zero_s) flight.utc_at_frame_0_s = *track.utc_at_zero_s + settings.offset_s;

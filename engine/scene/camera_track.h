@@ -32,15 +32,19 @@ void take_camera_flight(Scene& scene, CameraFlight flight);
 // Position: the log's geodetic positions, else its local ones, joined by a C2 cubic spline. Where the project states
 // latitude and longitude of the world's origin, geodetic positions are absolute; else the camera is at
 // camera.position_m at the footage's frame 0 and the log adds the displacement since.
-// Attitude: world_from_ned * (the log's attitude) * (camera.attitude_deg), the last one being the mount's angles. Of a
-// log that knows turns since its first sample alone (Track::level_is_known): (camera.attitude_deg) * (turn), so that
-// camera.attitude_deg is the camera's attitude at the start.
+// Attitude: world_from_ned * (the log's attitude) * (camera.attitude_deg), the last one being the mount's angles. Where
+// the log's attitude is the camera's own (camera.track.mount, Track::attitude_is_whole), camera.attitude_deg is that of
+// the camera at the start, and only what the log does not know of it counts: (camera.attitude_deg) * (turn) for a log
+// that knows turns since its first sample alone (Track::level_is_known), whatever the mount; (its yaw) * (the log's
+// attitude) for one that knows the level but not north; else nothing of it.
 // World X: geo.heading_deg; else the heading of what carries the camera at frame 0, if the log has it against north;
 // else the course over ground there, if it moves by more than 1 m/s; else north, with a warning.
 // Readout: camera.readout_s, else the log's, else 0. Exposure time: likewise, by camera.exposure_s.
 //
-// A problem at camera.track.file: it cannot be read, has nothing of what the settings ask for, is damaged or does not
-// cover the project's frames (both allowed by camera.track.incomplete: use), or covers none of them.
+// A problem at camera.track.file: it cannot be read, has nothing of what the settings ask for (no attitude, unless
+// camera.track.attitude is none), is damaged or does not
+// cover the project's frames, or knows the attitude in less than half of them by its own standard deviation (all
+// allowed by camera.track.incomplete: use), or covers none of them.
 //   range  the project's frames
 [[nodiscard]] OrProblem<CameraFlight> camera_flight(const Project& project, const FootageShape& footage,
                                                     const FrameRange& range, SceneFiles& files);

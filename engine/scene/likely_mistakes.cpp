@@ -199,12 +199,16 @@ std::string where_out_of_view(const Scene& scene, std::size_t intruder) {
                      std::max(1.0, deg_of_rad(nearest->angle_rad)), nearest->side);
 }
 
-std::vector<Problem> footage_mistakes(const std::filesystem::path& video) {
+std::vector<Problem> footage_mistakes(const std::filesystem::path& video, const std::filesystem::path& log) {
   std::vector<Problem> mistakes;
+  // Attitudes found in the images, and CORI * IORI, are those of the images.
+  if (!log.empty())
+    if (const Result<Track> followed = read_track(log); followed && followed->attitude_is_whole) return mistakes;
   const auto add = [&](const std::string& why) {
     mistakes.push_back({"footage.video", why + ": the images turn differently from the camera, so an intruder that "
                                                "follows a calibration or a log is not locked to them; record without "
-                                               "stabilisation, or find the motion with `sigs ego-motion`"});
+                                               "stabilisation, or find the motion with `sigs ego-motion --into`, or "
+                                               "name the video as camera.track.file if it has CORI and IORI"});
   };
   const std::optional<GoproHeader> header = read_gopro_header(video);
   if (header && header->is_stabilised) {

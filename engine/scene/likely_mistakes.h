@@ -27,6 +27,8 @@ namespace sigs {
 
 // What footage has that an intruder cannot follow, in the field footage.video: the camera's stabilisation has moved the
 // images, as the header or the log in the video says. Reads both; a long recording's log takes a second.
-[[nodiscard]] std::vector<Problem> footage_mistakes(const std::filesystem::path& video);
+//   log  that the camera follows; one with the attitudes of the images makes it no mistake. Empty: none
+[[nodiscard]] std::vector<Problem> footage_mistakes(const std::filesystem::path& video,
+                                                    const std::filesystem::path& log = {});
 
 }  // namespace sigs

@@ -37,6 +37,16 @@ std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& d
   return sd_rad;
 }
 
+int unknown_attitudes(const CameraMotion& motion, const FootageShape& footage, const FrameRange& range) {
+  constexpr double kUnknown_rad = rad_of_deg(90);
+  int unknown = 0;
+  for (int frame = range.first; frame <= range.last && !motion.deviations.empty(); ++frame) {
+    const glm::dvec3 sd_rad = *attitude_sd_at(motion.deviations, time_of_frame_s(footage, frame));
+    unknown += std::max({sd_rad.x, sd_rad.y, sd_rad.z}) > kUnknown_rad ? 1 : 0;
+  }
+  return unknown;
+}
+
 double exposure_at(const std::vector<ExposureTime>& exposures, double time_s) {
   if (exposures.empty()) return 0;
   const auto after = std::upper_bound(exposures.begin(), exposures.end(), time_s,

@@ -39,6 +39,10 @@ struct SceneMoment {
 // Standard deviation of the camera's attitude, linear between two known ones; none where none is known.
 [[nodiscard]] std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& deviations, double time_s);
 
+// In how many frames of a range the camera's attitude is not known: its standard deviation is above 90 degrees. 0 where
+// no deviation is known.
+[[nodiscard]] int unknown_attitudes(const CameraMotion& motion, const FootageShape& footage, const FrameRange& range);
+
 // How long the shutter is open: linear between two known ones, before the first and after the last as these; 0 where
 // none is known.
 [[nodiscard]] double exposure_at(const std::vector<ExposureTime>& exposures, double time_s);

@@ -49,13 +49,15 @@ struct Track {
   std::optional<double> utc_at_zero_s = {};  // UTC of time 0, seconds since 1970 without leap seconds
   bool heading_is_north = true;              // false: yaw 0 is an arbitrary heading, as that of a camera alone
   bool level_is_known = true;                // false: the camera's attitude is against that of its first sample
+  bool attitude_is_whole = false;            // ned_from_camera is the camera's own, with nothing mounted on it
 
   Channel<GeodeticPosition> position = {};
   bool height_above_ellipsoid = false;            // false: above the sea, above the start or not known; see warnings
   Channel<glm::dvec3> local_position_ned_m = {};  // from an origin of the log's own
   Channel<glm::dvec3> velocity_ned_mps = {};
   Channel<glm::dquat> ned_from_airframe = {};       // attitude of the aircraft
-  Channel<glm::dquat> ned_from_camera = {};         // attitude of the gimbal or camera
+  Channel<glm::dquat> ned_from_camera = {};         // attitude of the gimbal or camera; of images that the camera
+                                                    // stabilised that of the images
   Channel<glm::dvec3> camera_attitude_sd_rad = {};  // standard deviation of ned_from_camera: small turns about the
                                                     // camera's X, Y and Z
   Channel<glm::dquat> start_from_camera = {};       // camera against its own attitude at the start (GPMF CORI)

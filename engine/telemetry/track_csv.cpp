@@ -68,6 +68,7 @@ std::string settings_of(const Track& track) {
   say("utc_at_zero_s", exact_text(track.utc_at_zero_s));
   say("heading_is_north", yes(track.heading_is_north));
   say("level_is_known", yes(track.level_is_known));
+  if (track.attitude_is_whole) say("attitude_is_whole", "true");
   say("height_above_ellipsoid", yes(track.height_above_ellipsoid));
   say("readout_s", exact_text(track.readout_s));
   if (track.damaged) say("damaged", "true");
@@ -206,6 +207,7 @@ class Reader {
     track_.utc_at_zero_s = number_of(settings.text("utc_at_zero_s"));
     track_.heading_is_north = settings.text("heading_is_north") != "false";
     track_.level_is_known = settings.text("level_is_known") != "false";
+    track_.attitude_is_whole = settings.text("attitude_is_whole") == "true";
     track_.height_above_ellipsoid = settings.text("height_above_ellipsoid") == "true";
     track_.readout_s = number_of(settings.text("readout_s"));
     track_.damaged = settings.text("damaged") == "true";

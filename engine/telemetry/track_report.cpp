@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 
 #include "base/text.h"
 #include "telemetry/csv_columns.h"
@@ -110,6 +112,7 @@ std::string heading_of(const Track& track) {
     text += fmt::format("rolling shutter: {} s from the first row to the last\n", short_number_text(*track.readout_s));
   if (!track.heading_is_north) text += "yaw 0: an arbitrary heading, not north\n";
   if (!track.level_is_known) text += "roll and pitch: against the first sample, which counts as level\n";
+  if (track.attitude_is_whole) text += "camera's attitude: its own, with no mount's angles to be added\n";
   if (!track.position.empty())
     text += fmt::format("heights: {}\n", track.height_above_ellipsoid ? "above the ellipsoid"
                                                                       : "above the sea, the start, or not known");
@@ -172,6 +175,29 @@ std::string track_report_text(const Track& track, int most_gaps) {
     text += odd_times_of(report, most_gaps);
   }
   return text;
+}
+
+std::string contents_text(const Track& track) {
+  static const std::map<std::string_view, std::string_view> kWords = {
+      {"position", "position"},
+      {"local_position_ned_m", "local position"},
+      {"velocity_ned_mps", "velocity"},
+      {"ned_from_airframe", "attitude of the airframe"},
+      {"ned_from_camera", "attitude of the camera"},
+      {"start_from_camera", "turns of the camera"},
+      {"camera_from_image", "turns of the stabilisation"},
+      {"camera_rate_radps", "angular rates of the camera"},
+      {"airframe_rate_radps", "angular rates of the airframe"},
+      {"camera_force_mps2", "forces"},
+      {"airframe_force_mps2", "forces of the airframe"},
+      {"camera_gravity", "direction of gravity"},
+      {"exposure_s", "exposure time"}};
+  std::vector<std::string> there;
+  for_each_channel(track, [&](std::string_view name, const auto& channel) {
+    if (const auto word = kWords.find(name); word != kWords.end() && !channel.empty())
+      there.push_back(fmt::format("{} ({})", word->second, channel.source));
+  });
+  return listed(there);
 }
 
 }  // namespace sigs

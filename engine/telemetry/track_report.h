@@ -50,4 +50,7 @@ inline constexpr double kGapFactor = 2.5;
 //   most_gaps  number of gaps and jumps of a channel that are listed; of the others the number is said
 [[nodiscard]] std::string track_report_text(const Track& track, int most_gaps = 5);
 
+// What a track has, on one line: "position (GPMF GPS5), angular rates of the camera (GPMF GYRO)".
+[[nodiscard]] std::string contents_text(const Track& track);
+
 }  // namespace sigs

@@ -7,7 +7,9 @@
 #include <string>
 
 #include "base/input_file.h"
+#include "base/staged_outputs.h"
 #include "cli/program.h"
+#include "project/json.h"
 #include "support/test_data.h"
 #include "video/video_writer.h"
 
@@ -53,4 +55,52 @@ TEST_CASE("attitudes are written as CSV, a row for each frame, and drawn as a PN
   CHECK(run_sigs(call + " --out " + (folder / "b.csv").string() + " --plot " + (folder / "b.svg").string()).status ==
         64);
   CHECK_FALSE(std::filesystem::exists(folder / "b.csv"));
+}
+
+TEST_CASE("a project is made to follow its footage's motion, with the file beside it and no mount's angles") {
+  const TemporaryFolder folder;
+  write_moving_noise(folder / "clip.mkv");
+  const std::string project = (folder / "p.json").string();
+  const std::string lens = (source_dir() / "assets/calibrations/sample.xml").string();
+  REQUIRE(write_text(project,
+                     R"({"sigs": 1, "name": "p", "footage": {"video": "clip.mkv", "calibration": ")" + lens +
+                         R"("}, "camera": {"attitude_deg": {"roll": 1, "pitch": -18.7, "yaw": 4}}, "intruders": []})",
+                     true));
+  CHECK(run_sigs("ego-motion --into " + project + " --calibration " + lens).status == 64);
+  const Run run = run_sigs("ego-motion --into " + project);
+  REQUIRE_MESSAGE(run.status == 0, run.err);
+  const Result<ReadProject> followed = read_project(project);
+  REQUIRE(followed);
+  const CameraSettings& camera = followed->project.camera;
+  CHECK(camera.track.file == "p.attitude.csv");
+  CHECK(camera.track.mount == TrackMountChoice::none);
+  CHECK(camera.pitch_deg == -18.7);  // no horizon is in sight: it stays that of the start
+  CHECK(camera.yaw_deg == 4);
+  const Run again = run_sigs("ego-motion --into " + project);
+  CHECK(again.status == 73);  // the file is there
+  CHECK(run_sigs("ego-motion --into " + project + " --force").status == 0);
+}
+
+TEST_CASE("footage that shows nothing of its motion fails and leaves no file, unless that is allowed") {
+  const TemporaryFolder folder;
+  Result<VideoWriter> writer =
+      VideoWriter::open(folder / "sky.mkv", {.size_px = {160, 120}, .layout = PixelLayout::gray});
+  REQUIRE(writer);
+  Frame frame = blank_frame(PixelLayout::gray, {160, 120}, {});
+  for (int n = 0; n < 12; ++n) {
+    frame.planes[0] = cv::Scalar(180 + n);
+    frame.time_s = n / 25.0;
+    REQUIRE(writer->write(frame, n));
+  }
+  REQUIRE(writer->finish());
+  const std::string csv = (folder / "a.csv").string();
+  const std::string call = "ego-motion " + (folder / "sky.mkv").string() + " --calibration " +
+                           (source_dir() / "assets/calibrations/sample.xml").string() + " --out " + csv;
+  const Run run = run_sigs(call);
+  CHECK(run.status == 65);
+  CHECK(run.err.find("11 of 12 frames") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(csv));
+  const Run allowed = run_sigs(call + " --max-unknown 100");
+  CHECK(allowed.status == 0);
+  CHECK(allowed.err.find("warning: " + (folder / "sky.mkv").string() + ": how the camera turned") == 0);
 }

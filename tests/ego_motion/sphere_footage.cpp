@@ -26,6 +26,9 @@ cv::Mat grey_world(int seed) {
     cv::GaussianBlur(noise, noise, {}, sigma_px);
     world += noise * (20 / std::sqrt(noise.dot(noise) / static_cast<double>(noise.total())));
   }
+  if (seed >= 0) return world;
+  cv::Mat sky = world.rowRange(0, world.rows / 2);  // a tenth of the contrast, and bright
+  sky = (sky - 128) * 0.1 + 200;
   return world;
 }
 

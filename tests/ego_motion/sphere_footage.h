@@ -13,7 +13,7 @@ namespace sigs::test {
 // 25 frames a second of a world at infinity, which is random grey on a sphere, seen through the lens of a camera that
 // turns. Frame times are n / 25; the codec loses nothing.
 //   world_from_camera  of each frame
-//   seeds              of the world that each frame shows
+//   seeds              of the world that each frame shows; below 0: with a bright, plain sky above the horizon
 [[nodiscard]] std::filesystem::path sphere_footage(const std::filesystem::path& folder, const Camera& camera,
                                                    std::span<const glm::dquat> world_from_camera,
                                                    std::span<const int> seeds);

@@ -59,8 +59,15 @@ void add_airframe(Track& track, const Attitude& at_start, double yaw_rate_radps)
   }
 }
 
+// Of a log without attitude, a project has to say that it needs none.
+Project accepting(Project project, const Track& track) {
+  if (track.ned_from_airframe.empty() && track.ned_from_camera.empty())
+    project.camera.track.attitude = TrackAttitudeChoice::none;
+  return project;
+}
+
 CameraFlight flown(const Project& project, const Track& track) {
-  const OrProblem<CameraFlight> flight = flight_by_log(project, track, ten_seconds(), {0, 250});
+  const OrProblem<CameraFlight> flight = flight_by_log(accepting(project, track), track, ten_seconds(), {0, 250});
   if (!flight) FAIL(flight.error().field, ": ", flight.error().what);
   return *flight;
 }
@@ -229,8 +236,8 @@ TEST_CASE("turns since the first sample stand right of the attitude at the start
 }
 
 TEST_CASE("a log that does not cover the frames, or is damaged, is refused by name unless the project allows it") {
-  Project project = with_log();
   Track track = eastwards();
+  Project project = accepting(with_log(), track);
   project.camera.track.offset_s = 4;
   CHECK(problem_of(project, track).find("covers 0.000 to 10.000 s") != std::string::npos);
   CHECK(problem_of(project, track, {0, 150}) == "no problem");
@@ -240,7 +247,7 @@ TEST_CASE("a log that does not cover the frames, or is damaged, is refused by na
   project.camera.track.offset_s = 1000;
   CHECK(problem_of(project, track).find("offset_s") != std::string::npos);
 
-  project = with_log();
+  project = accepting(with_log(), track);
   track.damaged = true;
   CHECK(problem_of(project, track).find("damaged") != std::string::npos);
   project.camera.track.incomplete = IncompleteTrackChoice::use;
@@ -276,6 +283,72 @@ TEST_CASE("the readout is the project's, else the log's") {
   CHECK(flown(project, track).motion.readout_s == 0.0166);
   project.camera.readout_s = 0;
   CHECK(flown(project, track).motion.readout_s == 0);
+}
+
+TEST_CASE("an attitude that is the camera's own is not turned by camera.attitude_deg, which is that of the start") {
+  // As the images of a camera that looks down by 18 degrees give it, with a horizon in sight.
+  Track track{.file = "attitude.csv", .format = "images", .heading_is_north = false, .attitude_is_whole = true};
+  const glm::dquat at_start = rotation_of({0.02, rad_of_deg(-18), 0.3});
+  const glm::dquat later = rotation_of({0.05, rad_of_deg(-10), 0.8});
+  track.ned_from_camera = {.source = "ego-motion", .times_s = {0, 5, 10}, .values = {at_start, later, later}};
+  Project project = with_log();
+  project.camera.roll_deg = 1;
+  project.camera.pitch_deg = -18;
+  project.camera.yaw_deg = 25;
+  const auto pitch_deg = [&](TrackMountChoice mount) {
+    project.camera.track.mount = mount;
+    return deg_of_rad(attitude_of(camera_at(flown(project, track).motion, 0).rotation).pitch_rad);
+  };
+  CHECK(pitch_deg(TrackMountChoice::automatic) == doctest::Approx(-18));
+  CHECK(pitch_deg(TrackMountChoice::none) == doctest::Approx(-18));
+  CHECK(pitch_deg(TrackMountChoice::attitude_deg) == doctest::Approx(-34.5).epsilon(0.05));  // yaw and roll share in it
+  // The heading at the start, which the images do not know, stays where waypoints were placed by it.
+  project.camera.track.mount = TrackMountChoice::automatic;
+  for (const auto& [time_s, rotation] : {std::pair(0.0, at_start), std::pair(5.0, later)})
+    CHECK(angle_of(camera_at(flown(project, track).motion, time_s).rotation,
+                   rotation_of({0, 0, rad_of_deg(25) - 0.3}) * rotation) < 1e-9);
+  // A file that does not say so is turned, as it was before there was such a statement.
+  track.attitude_is_whole = false;
+  CHECK(pitch_deg(TrackMountChoice::automatic) == pitch_deg(TrackMountChoice::attitude_deg));
+  // With a heading against north nothing of camera.attitude_deg is left.
+  track.heading_is_north = true;
+  project.camera.track.mount = TrackMountChoice::none;
+  CHECK(angle_of(camera_at(flown(project, track).motion, 5).rotation, rotation_of({0, 0, -0.3}) * later) < 1e-9);
+}
+
+TEST_CASE("a log without any attitude is refused with what it has, unless none is asked for") {
+  Track track = eastwards();
+  track.camera_rate_radps = {.source = "GPMF GYRO", .times_s = {0, 10}, .values = {{0, 0, 0}, {0, 0, 0}}};
+  const OrProblem<CameraFlight> flight = flight_by_log(with_log(), track, ten_seconds(), {0, 250});
+  REQUIRE_FALSE(flight);
+  CHECK(flight.error().field == "camera.track.file");
+  for (const char* const words : {"position (position)", "angular rates of the camera (GPMF GYRO)", "sigs ego-motion",
+                                  "camera.track.attitude to none"})
+    CHECK_MESSAGE(flight.error().what.find(words) != std::string::npos, words);
+  CHECK(problem_of(accepting(with_log(), track), track) == "no problem");
+}
+
+TEST_CASE("a log that does not know the attitude in most of the frames is refused, one that knows most says so first") {
+  Track track{.file = "attitude.csv", .format = "images", .heading_is_north = false};
+  const glm::dvec3 unknown(3.14159265358979);
+  const auto log_until = [&](int known) {
+    track.ned_from_camera = {.source = "ego-motion"};
+    track.camera_attitude_sd_rad = {.source = "ego-motion"};
+    for (int i = 0; i <= 250; ++i) {
+      track.ned_from_camera.times_s.push_back(i / kFrames_hz);
+      track.ned_from_camera.values.push_back(glm::dquat(1, 0, 0, 0));
+      track.camera_attitude_sd_rad.times_s.push_back(i / kFrames_hz);
+      track.camera_attitude_sd_rad.values.push_back(i < known ? glm::dvec3(0.001) : unknown);
+    }
+    return track;
+  };
+  Project project = with_log();
+  CHECK(problem_of(project, log_until(2)).find("in 249 of the project's 251 frames") != std::string::npos);
+  project.camera.track.incomplete = IncompleteTrackChoice::use;
+  CHECK(flown(project, log_until(2)).warnings.front().what.find("in 249 of") != std::string::npos);
+  project.camera.track.incomplete = IncompleteTrackChoice::refuse;
+  CHECK(flown(project, log_until(200)).warnings.front().what.find("in 51 of") != std::string::npos);
+  CHECK_FALSE(has_warning(flown(project, log_until(251)), "does not know the camera's attitude"));
 }
 
 }  // namespace sigs

@@ -53,6 +53,7 @@ Track full_track() {
   Track track{.format = "PX4 ULog", .device = "a, b \"c\"", .on_footage_time = true, .utc_at_zero_s = 1492457277.29};
   track.heading_is_north = false;
   track.level_is_known = false;
+  track.attitude_is_whole = true;
   track.height_above_ellipsoid = true;
   track.readout_s = 0.0158;
   track.damaged = true;
@@ -93,6 +94,7 @@ TEST_CASE("a track that is written as CSV and read again is the same track") {
   CHECK(read->utc_at_zero_s == track.utc_at_zero_s);
   CHECK_FALSE(read->heading_is_north);
   CHECK_FALSE(read->level_is_known);
+  CHECK(read->attitude_is_whole);
   CHECK(read->height_above_ellipsoid);
   CHECK(read->readout_s == track.readout_s);
   CHECK(read->damaged);

@@ -21,16 +21,10 @@ fs::path attitude_file_beside(const Project& project, int number) {
   return fs::absolute(beside.parent_path() / (beside.stem().string() + ending)).lexically_normal();
 }
 
-// Frames whose turn is not known have no sample, at the ends of the footage either.
 void use_motion(Project& project, const EstimatedMotion& motion) {
-  CameraSettings& camera = project.camera;
-  camera.track = {.file = path_in_project(project, motion.file),
-                  .incomplete = motion.lost_frames > 0 ? IncompleteTrackChoice::use : IncompleteTrackChoice::refuse};
-  camera.attitude_file.clear();
-  camera.yaw_deg = 0;
-  if (!motion.level_sd_rad) return;  // roll and pitch are then those at the start
-  camera.roll_deg = 0;
-  camera.pitch_deg = 0;
+  FoundAttitudes found = motion.found;
+  found.file = path_in_project(project, motion.file);
+  follow_attitudes(project, found);
 }
 
 }  // namespace
@@ -67,9 +61,8 @@ void EgoMotionSession::start(const Document& document) {
   begin(document, {project, new_attitude_file(project)});
 }
 
-void EgoMotionSession::use(const Document& document, const std::shared_ptr<const EstimatedMotion>& found) {
-  std::string text = "Camera motion: " + summary_of(*found) + ".";
-  if (document.project().camera.yaw_deg != 0) text += " Yaw is 0: world X is where the camera looks at frame 0.";
+void EgoMotionSession::use(const Document&, const std::shared_ptr<const EstimatedMotion>& found) {
+  const std::string text = "Camera motion: " + summary_of(*found) + ".";
   edits().change("use estimated camera motion", [found](Project& project) { use_motion(project, *found); });
   edits().ask(ShowMessage{text});
 }

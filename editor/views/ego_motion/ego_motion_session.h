@@ -12,7 +12,7 @@
 namespace sigs::editor {
 
 // The camera's motion is estimated from the footage and put into the project: camera.track names the file,
-// camera.attitude_deg is 0, as the file has the camera's whole attitude.
+// camera.attitude_deg is that of the camera at frame 0, and the file has its whole attitude (follow_attitudes()).
 class EgoMotionSession : public EstimateSession<EgoMotionRequest, EstimatedMotion> {
  public:
   // work: tests give one that reads no video.

@@ -168,6 +168,8 @@ void ProblemList::find_warnings() {
   }
   const auto add = [&](const Problem& warning) { warnings_.emplace(warning.field, warning); };
   for (const Problem& warning : warnings_of_files(*scene_)) add(warning);
+  if (horizons_)
+    if (const auto level = level_contradiction(*horizons_, *scene_->project, scene_->draft.scene)) add(*level);
   for (const Problem& warning : scene_->draft.scene.issues) add(warning);
   const std::vector<IntruderSettings>& intruders = scene_->project->intruders;
   never_visible_.resize(intruders.size());
@@ -181,8 +183,9 @@ void ProblemList::find_warnings() {
 
 void ProblemList::refresh(const ViewContext& context) {
   const bool is_same_scene = context.shown.scene == scene_;
-  const bool has_same_surveys = context.shown.surveys == surveys_;
+  const bool has_same_surveys = context.shown.surveys == surveys_ && context.horizons == horizons_;
   scene_ = context.shown.scene;
+  horizons_ = context.horizons;
   surveys_ = context.shown.surveys;
   if (!is_same_scene || !has_same_surveys) find_warnings();
   if (is_same_scene) return;

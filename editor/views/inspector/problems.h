@@ -30,8 +30,8 @@ class ProblemList {
   // Number of problems, warnings not counted, in a block.
   [[nodiscard]] int count_in(const std::string& block) const;
 
-  // "2 problems", "3 warnings" and "4 guessed settings", to be opened as lists; the key of the one that was clicked. The
-  // last is open at first.
+  // "2 problems", "3 warnings" and "4 guessed settings", to be opened as lists; the key of the one that was clicked.
+  // The last is open at first.
   [[nodiscard]] std::optional<std::string> draw(const ViewContext& context) const;
 
  private:
@@ -39,6 +39,7 @@ class ProblemList {
 
   std::shared_ptr<const OpenedScene> scene_;            // what they are of
   std::vector<std::shared_ptr<const Survey>> surveys_;  // likewise
+  std::shared_ptr<const SeenHorizons> horizons_;        // likewise
   ProblemsByField by_field_;
   std::map<std::string, int> counts_;  // by block
   ProblemsByField warnings_;

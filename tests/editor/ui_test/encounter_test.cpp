@@ -224,7 +224,7 @@ TEST_CASE("with a camera that flies by its log, in a curve, the encounter comes 
   EditorDriver& editor = ui_test.editor();
   write_curving_log(ui_test.folder() / "flight.csv");
   Json content = sample_project("head-on");
-  content["camera"]["track"] = {{"file", "flight.csv"}, {"offset_s", 1}};
+  content["camera"]["track"] = {{"file", "flight.csv"}, {"offset_s", 1}, {"attitude", "none"}};
   const fs::path project = put(content, ui_test.folder() / "mine.json");
   editor.start({project.string()});
   editor.wait_for_image();

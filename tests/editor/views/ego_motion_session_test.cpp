@@ -25,7 +25,7 @@ Project with_footage(const std::filesystem::path& folder) {
 }
 
 Result<EstimatedMotion> quick_estimate(const EgoMotionRequest& request, const JobControl&) {
-  return EstimatedMotion{.file = request.file, .frames = 300, .lost_frames = 2};
+  return EstimatedMotion{.file = request.file, .frames = 300, .lost_frames = 2, .found = {.is_complete = false}};
 }
 
 bool ends(EgoMotionSession& session, const Document& document) {
@@ -67,12 +67,17 @@ TEST_CASE("an estimate whose level is known has the camera's whole attitude") {
   EgoMotionSession session(
       edits, [] {},
       [](const EgoMotionRequest& request, const JobControl&) -> Result<EstimatedMotion> {
-        return EstimatedMotion{.file = request.file, .frames = 300, .level_sd_rad = 0.01};
+        return EstimatedMotion{.file = request.file,
+                               .frames = 300,
+                               .level_sd_rad = 0.01,
+                               .found = {.level_at_start = Attitude{.roll_rad = 0.01, .pitch_rad = -0.02}}};
       });
   session.start(document);
   REQUIRE(ends(session, document));
   document.apply(edits.take_edits());
-  CHECK(document.project().camera.pitch_deg == 0.0);
+  // camera.attitude_deg is that of the start, and no mount's angles that would be added to the file's.
+  CHECK(document.project().camera.track.mount == TrackMountChoice::none);
+  CHECK(document.project().camera.pitch_deg == -1.15);
   CHECK(document.project().camera.track.incomplete == IncompleteTrackChoice::refuse);
 }
 
