@@ -11,6 +11,7 @@
 
 #include "base/pose.h"
 #include "base/text.h"
+#include "telemetry/gopro_attitude.h"
 #include "telemetry/gopro_axes.h"
 #include "telemetry/gopro_stream.h"
 #include "telemetry/gopro_values.h"
@@ -40,6 +41,7 @@ class Reading {
     read_camera();
     read_gps();
     read_drone();
+    join_camera_attitude(track_);
     say_unused();
     say_broken();
     return std::move(track_);

@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "base/pose.h"
 #include "gpmf_writer.h"
 
 using namespace sigs;
@@ -195,4 +196,74 @@ TEST_CASE("a scale of zero leaves the samples out") {
   REQUIRE(track);
   CHECK(track->camera_rate_radps.empty());
   CHECK(says(*track, "no number"));
+}
+
+namespace {
+
+// An attitude as CORI and IORI store it: w, then the parts about X left, Z up and Y backwards.
+void add_turn(std::vector<float>& numbers, const glm::dquat& q) {
+  for (const double number : {q.w, -q.y, -q.z, -q.x}) numbers.push_back(static_cast<float>(number));
+}
+
+// Ten samples: the camera turns, its stabilisation turns the image, gravity is measured in the camera's axes.
+struct StabilisedFlight {
+  glm::dquat world_from_start = rotation_of({0.1, -0.3, 0});
+  std::vector<float> cori, iori, grav;
+  std::vector<glm::dquat> world_from_image;
+
+  explicit StabilisedFlight(double wrong_gravity_rad = 0) {
+    for (int i = 0; i < 10; ++i) {
+      const glm::dquat camera = rotation_of({0.02 * i, -0.01 * i, 0.05 * i});
+      const glm::dquat image = rotation_of({-0.015 * i, 0.01 * std::sin(i), 0.02 * std::cos(i)});
+      add_turn(cori, camera);
+      add_turn(iori, image);
+      const glm::dquat tilted = rotation_of({i % 2 == 0 ? wrong_gravity_rad : -wrong_gravity_rad, 0, 0});
+      const glm::dvec3 down = tilted * (glm::conjugate(world_from_start * camera) * glm::dvec3(0, 0, 1));
+      for (const double number : {-down.y, down.z, down.x}) grav.push_back(static_cast<float>(number));
+      world_from_image.push_back(world_from_start * camera * image);
+    }
+  }
+
+  [[nodiscard]] Result<Track> read(bool with_iori, bool with_grav) const {
+    const auto stream = [](const char* key, int columns, const std::vector<float>& numbers) {
+      return gpmf_nest("STRM", gpmf_floats(key, columns, numbers));
+    };
+    return read_payloads({camera_with(stream("CORI", 4, cori) + (with_iori ? stream("IORI", 4, iori) : "") +
+                                      (with_grav ? stream("GRAV", 3, grav) : ""))});
+  }
+};
+
+double angle_between_turns(const glm::dquat& a, const glm::dquat& b) {
+  return 2 * std::acos(std::min(1.0, std::abs(glm::dot(a, b))));
+}
+
+}  // namespace
+
+TEST_CASE("the attitude of stabilised footage is CORI * IORI, level by GRAV, its yaw from the first sample on") {
+  const StabilisedFlight flight;
+  const Result<Track> track = flight.read(true, true);
+  REQUIRE(track);
+  CHECK(track->ned_from_camera.source == "GPMF CORI * IORI");
+  CHECK(track->level_is_known);
+  CHECK(track->attitude_is_whole);
+  CHECK_FALSE(track->heading_is_north);
+  REQUIRE(track->ned_from_camera.values.size() == 10);
+  const double yaw_rad = attitude_of(flight.world_from_image[0]).yaw_rad;
+  for (std::size_t i = 0; i < 10; ++i)  // floats have 24 bits: some 1e-7; the arc cosine takes the root of that
+    CHECK(angle_between_turns(track->ned_from_camera.values[i],
+                              rotation_of({0, 0, -yaw_rad}) * flight.world_from_image[i]) < 1e-3);
+}
+
+TEST_CASE("without GRAV, or where that does not turn with CORI, the attitude is against the first sample") {
+  for (const double wrong_rad : {0.0, 0.2}) {
+    const StabilisedFlight flight(wrong_rad);
+    const Result<Track> track = flight.read(true, wrong_rad > 0);
+    REQUIRE(track);
+    CHECK_FALSE(track->level_is_known);
+    CHECK(says(*track, "does not turn with CORI") == (wrong_rad > 0));
+    for (std::size_t i = 0; i < 10; ++i)
+      CHECK(angle_between_turns(track->ned_from_camera.values[i],
+                                glm::conjugate(flight.world_from_image[0]) * flight.world_from_image[i]) < 1e-3);
+  }
+  CHECK(StabilisedFlight().read(false, true)->ned_from_camera.source == "GPMF CORI");
 }
