@@ -130,11 +130,10 @@ class DataflashReading {
   // Roll and pitch are from the horizon, YawE from north, YawB from the nose; one of the two may be missing.
   void take_mnt(Values v) {
     const double t_s = time_of_message(v);
-    const Channel<glm::dquat>& airframe = att_.channel();
     if (std::isfinite(v[5])) return camera_.add(t_s, ned_from_deg(v[3], v[4], v[5]));
-    if (airframe.empty() || !std::isfinite(v[6]))
+    if (att_.empty() || !std::isfinite(v[6]))
       return camera_.leave_out("its yaw is not from north, and the heading is not known", t_s);
-    const double nose_deg = deg_of_rad(attitude_of(airframe.values.back()).yaw_rad);
+    const double nose_deg = deg_of_rad(attitude_of(att_.values().back()).yaw_rad);
     camera_.add(t_s, ned_from_deg(v[3], v[4], nose_deg + v[6]));
   }
 

@@ -85,12 +85,12 @@ class DjiReading {
   }
 
  private:
-  // One channel, and the stamps of its samples.
+  // One channel, and the dates of its samples.
   template <class T>
   struct Stamped {
     explicit Stamped(std::string source) : samples(std::move(source), "footage") {}
     Samples<T> samples;
-    std::vector<double> local_times_s;
+    std::vector<std::pair<double, double>> dates;  // time and local time of each sample that was added
     bool all_have_dates = true;
   };
 
@@ -104,11 +104,9 @@ class DjiReading {
 
   template <class T>
   static void add(Stamped<T>& stamped, double t_s, const std::optional<double>& local_s, const T& value) {
-    const std::size_t before = stamped.samples.channel().values.size();
     stamped.samples.add(t_s, value);
-    if (stamped.samples.channel().values.size() == before) return;
     stamped.all_have_dates &= local_s.has_value();
-    stamped.local_times_s.push_back(local_s.value_or(0));
+    stamped.dates.emplace_back(t_s, local_s.value_or(0));
   }
 
   void take(std::size_t i, const HeightKind* height) {
@@ -151,7 +149,12 @@ class DjiReading {
   void finish(Channel<T>& channel, Stamped<T>& stamped, Track& track) {
     channel = std::move(stamped.samples).on_axis(0, track.warnings);
     channel.own_times_s.clear();
-    if (stamped.all_have_dates) channel.own_times_s = std::move(stamped.local_times_s);
+    // Of those that were not left out, which stand in the order in which they were added.
+    if (stamped.all_have_dates)
+      for (const auto& [t_s, local_s] : stamped.dates)
+        if (const std::size_t next = channel.own_times_s.size();
+            next < channel.times_s.size() && channel.times_s[next] == t_s)
+          channel.own_times_s.push_back(local_s);
     if (!has_time_lines_ && !channel.empty()) channel.clock = "local date";
   }
 

@@ -89,13 +89,16 @@ struct KlvSamples {
   Samples<glm::dquat> camera;
 };
 
-// On the footage's axis the packets' own time stamps say what UTC time 0 is.
+// On the footage's axis the packets' own time stamps say what UTC time 0 is: the first that goes with the others.
 void add_utc(Track& track, const std::vector<TimedKlvPacket>& packets, bool on_footage_time) {
-  for (const TimedKlvPacket& timed : packets) {
-    if (!timed.packet.unix_s) continue;
-    track.utc_at_zero_s = *timed.packet.unix_s - (on_footage_time ? *timed.footage_s : 0);
-    return;
-  }
+  StampedValues<const TimedKlvPacket*> stamped;
+  const auto leave_out = [](double, const TimedKlvPacket*) {};
+  for (const TimedKlvPacket& timed : packets)
+    if (timed.packet.unix_s) stamped.add(*timed.packet.unix_s, &timed, leave_out);
+  stamped.finish(leave_out);
+  if (stamped.values().empty()) return;
+  const TimedKlvPacket& first = *stamped.values().front();
+  track.utc_at_zero_s = *first.packet.unix_s - (on_footage_time ? *first.footage_s : 0);
 }
 
 void warn_of_packets(std::vector<Warning>& warnings, const KlvPackets& read) {

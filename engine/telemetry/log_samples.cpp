@@ -14,8 +14,53 @@ constexpr double kLeastGap_s = 1;
 constexpr double kGapInIntervals = 5;
 constexpr std::size_t kMaxNamedGaps = 5;
 constexpr double kNoFix_deg = 1e-6;
+constexpr std::size_t kMaxOutliers = 1000;  // one after the other
+constexpr double kJump_intervals = 3;
+constexpr std::size_t kUsual = 64;  // intervals that tell what is usual
+constexpr double kLone_intervals = 1000;
+constexpr std::size_t kMaxLone = 3;
+constexpr std::size_t kMinStamps = 10;
+
+// The median of the last intervals before stamp `end` and of those between the late stamps; 0 where there is none.
+double usual_interval_s(const std::vector<double>& times_s, std::size_t end, const std::vector<double>& late_s) {
+  std::vector<double> intervals_s;
+  for (std::size_t i = end > kUsual ? end - kUsual : 1; i < end; ++i)
+    intervals_s.push_back(times_s[i] - times_s[i - 1]);
+  for (std::size_t i = 1; i < std::min(kUsual, late_s.size()); ++i) intervals_s.push_back(late_s[i] - late_s[i - 1]);
+  return intervals_s.empty() ? 0 : median_of(std::move(intervals_s));
+}
 
 }  // namespace
+
+LateStamps judge_late_stamps(const std::vector<double>& kept_s, const std::vector<double>& late_s) {
+  const double late = late_s.front();
+  const auto first_after = std::upper_bound(kept_s.begin(), kept_s.end(), late);
+  const std::size_t begin = static_cast<std::size_t>(first_after - kept_s.begin());
+  const std::size_t ahead = kept_s.size() - begin;
+  if (ahead >= kMaxOutliers) return LateStamps::leave_out;
+  const double jump_s = kJump_intervals * usual_interval_s(kept_s, begin, late_s);
+  const bool has_before = begin > 0;
+  const bool is_jump = *first_after - late > jump_s && (!has_before || *first_after - kept_s[begin - 1] > jump_s);
+  if (!is_jump) return LateStamps::leave_out;
+  const bool goes_on = has_before && jump_s > 0 && late - kept_s[begin - 1] <= jump_s;
+  const std::size_t needed = goes_on ? ahead : ahead + 1;
+  return late_s.size() >= needed ? LateStamps::replace : LateStamps::wait;
+}
+
+LoneStamps lone_stamps(const std::vector<double>& times_s) {
+  LoneStamps lone;
+  if (times_s.size() < kMinStamps) return lone;
+  const double far_s = kLone_intervals * median_interval_s(times_s);
+  if (!(far_s > 0)) return lone;
+  const std::size_t last = times_s.size() - 1;
+  const auto is_gap = [&](double gap_s, double rest_s) { return gap_s > far_s && gap_s > rest_s; };
+  for (std::size_t n = kMaxLone; n > 0 && lone.at_end == 0; --n)
+    if (is_gap(times_s[last + 1 - n] - times_s[last - n], times_s[last - n] - times_s[0])) lone.at_end = n;
+  const std::size_t end = last - lone.at_end;
+  for (std::size_t n = kMaxLone; n > 0 && lone.at_begin == 0; --n)
+    if (is_gap(times_s[n] - times_s[n - 1], times_s[end] - times_s[n])) lone.at_begin = n;
+  return lone;
+}
 
 bool has_samples(const Track& track) {
   return !track.position.empty() || !track.local_position_ned_m.empty() || !track.velocity_ned_mps.empty() ||

@@ -62,7 +62,95 @@ void warn_of_gaps(const std::vector<double>& times_s, const std::string& source,
 // The median of the intervals; 0 for fewer than two times.
 [[nodiscard]] double median_interval_s(const std::vector<double>& times_s);
 
-// A channel that is being filled, with stamps of the log's own clock; into_track() puts the zero of the axis.
+// What becomes of stamps that came late: after stamps that are later than they are.
+enum class LateStamps { wait, leave_out, replace };
+
+// Which stamps are wrong: those that came late, or those before them. The ones before are wrong if they are a jump
+// ahead, farther than three usual intervals from the stamps on both sides, and no more of them than came late (fewer,
+// unless the late ones go on within three intervals where the jump began). A thousand or more are no outliers: the
+// clock was set. `wait` where more late stamps would tell.
+//   kept_s  not falling, the last of them after late_s.front();  late_s  not falling, at least one
+[[nodiscard]] LateStamps judge_late_stamps(const std::vector<double>& kept_s, const std::vector<double>& late_s);
+
+// Up to three stamps at the begin and at the end of a log that lie farther off than all others together are long, and
+// than a thousand usual intervals. Of fewer than ten stamps none.
+struct LoneStamps {
+  std::size_t at_begin = 0;
+  std::size_t at_end = 0;
+};
+[[nodiscard]] LoneStamps lone_stamps(const std::vector<double>& times_s);
+
+// Values with their stamps in the order of a log, of which outliers are left out: a stamp far ahead of its neighbours,
+// rather than all that follow it and are before it, and a stamp that is behind them.
+template <class T>
+class StampedValues {
+ public:
+  // Adds a value; the stamp is finite. left_out(stamp, value) is called for each that is wrong, once that shows.
+  template <class LeftOut>
+  void add(double time_s, T value, const LeftOut& left_out) {
+    if (times_s_.empty() || time_s >= times_s_.back()) {
+      give_up_late(left_out);
+      times_s_.push_back(time_s);
+      values_.push_back(std::move(value));
+      return;
+    }
+    if (!late_s_.empty() && time_s < late_s_.back()) return left_out(time_s, value);
+    late_s_.push_back(time_s);
+    late_.push_back(std::move(value));
+    const LateStamps verdict = judge_late_stamps(times_s_, late_s_);
+    if (verdict == LateStamps::leave_out) give_up_late(left_out);
+    if (verdict == LateStamps::replace) replace_by_late(left_out);
+  }
+
+  // To be called once, after the last value.
+  template <class LeftOut>
+  void finish(const LeftOut& left_out) {
+    give_up_late(left_out);
+    const LoneStamps lone = lone_stamps(times_s_);
+    for (std::size_t i = 0; i < lone.at_end; ++i) drop_last(left_out);
+    for (std::size_t i = 0; i < lone.at_begin; ++i) left_out(times_s_[i], values_[i]);
+    times_s_.erase(times_s_.begin(), times_s_.begin() + static_cast<std::ptrdiff_t>(lone.at_begin));
+    values_.erase(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(lone.at_begin));
+  }
+
+  [[nodiscard]] std::vector<double>& times_s() { return times_s_; }
+  [[nodiscard]] std::vector<T>& values() { return values_; }
+  [[nodiscard]] const std::vector<double>& times_s() const { return times_s_; }
+  [[nodiscard]] const std::vector<T>& values() const { return values_; }
+
+ private:
+  template <class LeftOut>
+  void give_up_late(const LeftOut& left_out) {
+    for (std::size_t i = 0; i < late_s_.size(); ++i) left_out(late_s_[i], late_[i]);
+    late_s_.clear();
+    late_.clear();
+  }
+
+  template <class LeftOut>
+  void drop_last(const LeftOut& left_out) {
+    left_out(times_s_.back(), values_.back());
+    times_s_.pop_back();
+    values_.pop_back();
+  }
+
+  template <class LeftOut>
+  void replace_by_late(const LeftOut& left_out) {
+    while (!times_s_.empty() && times_s_.back() > late_s_.front()) drop_last(left_out);
+    for (std::size_t i = 0; i < late_s_.size(); ++i) {
+      times_s_.push_back(late_s_[i]);
+      values_.push_back(std::move(late_[i]));
+    }
+    late_s_.clear();
+    late_.clear();
+  }
+
+  std::vector<double> times_s_;
+  std::vector<T> values_;
+  std::vector<double> late_s_;  // before the last of times_s_
+  std::vector<T> late_;
+};
+
+// A channel that is being filled, with stamps of the log's own clock; on_axis() puts the zero of the axis.
 template <class T>
 class Samples {
  public:
@@ -71,24 +159,26 @@ class Samples {
     channel_.clock = std::move(clock);
   }
 
-  // Adds a sample, unless its value or time is not finite or the time is before that of the last sample.
+  // Adds a sample, unless its value or time is not finite. Those whose time does not go with the others' are left out
+  // (StampedValues).
   void add(double own_time_s, const T& value) {
     if (!all_finite(own_time_s) || !all_finite(value)) return leave_out("not a finite number", own_time_s);
-    if (!channel_.own_times_s.empty() && own_time_s < channel_.own_times_s.back())
-      return leave_out("their time is before that of the sample before them", own_time_s);
-    channel_.own_times_s.push_back(own_time_s);
-    channel_.values.push_back(value);
+    stamped_.add(own_time_s, value, out_of_order());
   }
 
   void leave_out(const std::string& reason, double own_time_s) { left_out_.count(reason, own_time_s); }
 
-  [[nodiscard]] bool empty() const { return channel_.values.empty(); }
-  [[nodiscard]] const Channel<T>& channel() const { return channel_; }
-  [[nodiscard]] double first_s() const { return channel_.own_times_s.front(); }
+  // Of those so far; none of the values has a later time than the last.
+  [[nodiscard]] bool empty() const { return stamped_.values().empty(); }
+  [[nodiscard]] const std::vector<double>& own_times_s() const { return stamped_.times_s(); }
+  [[nodiscard]] const std::vector<T>& values() const { return stamped_.values(); }
 
   // The channel with its times from `zero_s` of the log's clock on; what was left out and the gaps go to the warnings.
   // A channel without values is empty, without a source.
   [[nodiscard]] Channel<T> on_axis(double zero_s, std::vector<Warning>& warnings) && {
+    stamped_.finish(out_of_order());
+    channel_.own_times_s = std::move(stamped_.times_s());
+    channel_.values = std::move(stamped_.values());
     left_out_.report(channel_.source, zero_s, warnings);
     if (channel_.empty()) return {};
     channel_.times_s.reserve(channel_.own_times_s.size());
@@ -98,7 +188,13 @@ class Samples {
   }
 
  private:
+  [[nodiscard]] auto out_of_order() {
+    return
+        [this](double own_time_s, const T&) { leave_out("their time does not go with those around it", own_time_s); };
+  }
+
   Channel<T> channel_;
+  StampedValues<T> stamped_;
   LeftOutByReason left_out_;
 };
 

@@ -15,6 +15,7 @@
 #include "base/input_file.h"
 #include "base/text.h"
 #include "telemetry/csv_columns.h"
+#include "telemetry/log_samples.h"
 #include "telemetry/track_channels.h"
 
 namespace sigs {
@@ -188,10 +189,16 @@ class Reader {
       ++line_;
       if (const std::string_view there = trimmed(line); !there.empty() && there.front() != '#') add_row(line);
     }
+    add_samples();
     return finished();
   }
 
  private:
+  struct Row {
+    std::string_view text;
+    int line = 0;
+  };
+
   void warn(std::string what, int line = 0) {
     if (track_.warnings.size() == kMaxWarnings + said_before_)
       what = "there are more such lines", line = 0;
@@ -277,7 +284,7 @@ class Reader {
     if (column >= static_cast<int>(fields.size()) || fields[static_cast<std::size_t>(column)].empty()) return kNone;
     const std::string_view field = fields[static_cast<std::size_t>(column)];
     const std::optional<double> number = number_of(field);
-    if (!number) warn("\"" + std::string(field.substr(0, 40)) + "\" is no number; left out", line_);
+    if (!number) warn(fmt::format("\"{}\" is no number; left out", field.substr(0, 40)), line_);
     return number.value_or(kNone);
   }
 
@@ -285,9 +292,24 @@ class Reader {
     const std::vector<std::string_view> fields = csv_fields(line);
     const double time_s = cell(fields, time_column_) * row_s();
     if (!std::isfinite(time_s)) return warn("has no time; left out", line_);
-    if (time_s < last_s_) return warn("its time is before that of the row above; left out", line_);
-    last_s_ = time_s;
-    for (Sink& sink : sinks_) add_sample(sink, fields, time_s);
+    rows_.add(time_s, {line, line_}, [this](double, const Row& row) { leave_out(row); });
+  }
+
+  void leave_out(const Row& row) {
+    if (rows_left_out_++ == 0 || row.line < first_left_out_) first_left_out_ = row.line;
+  }
+
+  // Of the rows whose times go together.
+  void add_samples() {
+    rows_.finish([this](double, const Row& row) { leave_out(row); });
+    if (rows_left_out_ > 0)
+      warn("its time is before or after its neighbours'; " + count_text(rows_left_out_, "such row") + " left out",
+           first_left_out_);
+    for (std::size_t i = 0; i < rows_.values().size(); ++i) {
+      line_ = rows_.values()[i].line;
+      const std::vector<std::string_view> fields = csv_fields(rows_.values()[i].text);
+      for (Sink& sink : sinks_) add_sample(sink, fields, rows_.times_s()[i]);
+    }
   }
 
   void add_sample(Sink& sink, const std::vector<std::string_view>& fields, double time_s) {
@@ -329,8 +351,9 @@ class Reader {
   int line_ = 0;
   int time_column_ = -1;
   double row_s_ = 0;  // time of one frame; 0: the rows have times
-  double last_s_ = -std::numeric_limits<double>::infinity();
-  std::size_t said_before_ = 0;  // warnings that the file itself has
+  StampedValues<Row> rows_;
+  int rows_left_out_ = 0, first_left_out_ = 0;  // number, and line of the first
+  std::size_t said_before_ = 0;                 // warnings that the file itself has
 };
 
 }  // namespace

@@ -36,9 +36,9 @@ namespace sigs {
 // alt, alt_m, altitude, altitude_m, height; roll, pitch, yaw, heading, heading_deg (degrees); vn, ve, vd.
 //
 // Lines that begin with # before the columns are settings, `# key: value`, of which other programs see comments:
-// format, device, on_footage_time (true, false), utc_at_zero_s, heading_is_north, level_is_known, height_above_ellipsoid, readout_s,
-// damaged, frame_rate, warning (any number of them), source NAME and clock NAME of a channel. Unknown ones are
-// comments.
+// format, device, on_footage_time (true, false), utc_at_zero_s, heading_is_north, level_is_known, attitude_is_whole,
+// height_above_ellipsoid, readout_s, damaged, frame_rate, warning (any number of them), source NAME and clock NAME of a
+// channel. Unknown ones are comments.
 
 // The track as such a file. read_track() gives the same track back: numbers lose no digit, attitudes some 1e-15 by the
 // conversion to degrees (1e-8 straight up and down). Samples of one channel at the same time stand in rows of their
@@ -49,9 +49,9 @@ namespace sigs {
 // columns.
 [[nodiscard]] bool is_track_csv(std::string_view head);
 
-// Reads it. Cells that are no numbers, rows whose time goes back, and columns that are not known are left out with a
-// warning. A channel without all of its columns is left out with a warning; height_m may be missing, it is 0 then.
-// Errors as those of read_track().
+// Reads it. Cells that are no numbers, rows whose time does not go with those around them (StampedValues), and
+// columns that are not known are left out with a warning. A channel without all of its columns is left out with a
+// warning; height_m may be missing, it is 0 then. Errors as those of read_track().
 [[nodiscard]] Result<Track> read_track_csv(const std::filesystem::path& file, const ReadTrackOptions& options);
 
 // The same from text; `file` is for the messages.

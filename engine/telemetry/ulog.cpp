@@ -256,11 +256,11 @@ const std::map<std::string, UlogReading::Topic, std::less<>>& UlogReading::topic
 
 // The airframe's attitude at or before a time, or its first one; none where the log has none.
 std::optional<glm::dquat> UlogReading::airframe_at(double t_s) const {
-  const Channel<glm::dquat>& channel = attitude_.channel();
-  if (channel.empty()) return {};
-  const auto after = std::upper_bound(channel.own_times_s.begin(), channel.own_times_s.end(), t_s);
-  const std::ptrdiff_t index = std::max<std::ptrdiff_t>(after - channel.own_times_s.begin() - 1, 0);
-  return channel.values[static_cast<std::size_t>(index)];
+  if (attitude_.empty()) return {};
+  const std::vector<double>& times_s = attitude_.own_times_s();
+  const auto after = std::upper_bound(times_s.begin(), times_s.end(), t_s);
+  const std::ptrdiff_t index = std::max<std::ptrdiff_t>(after - times_s.begin() - 1, 0);
+  return attitude_.values()[static_cast<std::size_t>(index)];
 }
 
 void UlogReading::make_camera() {

@@ -50,8 +50,9 @@ using U32 = std::uint32_t;
 using I32 = std::int32_t;
 using U64 = std::uint64_t;
 
-// A flight with the formats of ArduCopter 4: all messages that are read, ten of each, from 5 s after boot on.
-DataflashWriter flight() {
+// A flight with the formats of ArduCopter 4: all messages that are read, `count` of each, from 5 s after boot on. All
+// messages of one moment are stamped with a jump.
+DataflashWriter flight(int count = 10, int jump_at = -1, U64 jump_us = 0) {
   DataflashWriter log;
   log.format(10, 3 + 8 + 64, "MSG", "QZ", "TimeUS,Message");
   log.format(11, 3 + 8 + 1 + 32, "FMTU", "QBNN", "TimeUS,FmtType,UnitIds,MultIds");
@@ -63,8 +64,8 @@ DataflashWriter flight() {
   log.format(17, 3 + 8 + 8 + 4, "POS", "QLLf", "TimeUS,Lat,Lng,Alt");
   log.format(18, 3 + 8 + 1 + 36, "MNT", "QBfffffffff", "TimeUS,I,DRoll,Roll,DPitch,Pitch,DYawB,YawB,DYawE,YawE,Dist");
   log.bytes += DataflashWriter::head(10) + std::string(8, '\0') + DataflashWriter::padded("ArduCopter V4.5.7", 64);
-  for (int i = 0; i < 10; ++i) {
-    const U64 us = 5'000'000 + static_cast<U64>(i) * 100'000;
+  for (int i = 0; i < count; ++i) {
+    const U64 us = 5'000'000 + static_cast<U64>(i) * 100'000 + (i == jump_at ? jump_us : 0);
     log.message(13, us, I16{0}, static_cast<I16>(100 * i), I16{0}, I16{-1250}, U16{0}, U16{27000});
     log.message(14, us, U8{0}, U8{3}, U32{302'400'500} + static_cast<U32>(100 * i), U16{2200}, U8{12}, I16{80},
                 I32{473'000'000 + i}, I32{-85'000'000}, I32{45'678}, 10.0F, 90.0F, -2.0F, 0.0F, U8{1});
@@ -191,4 +192,18 @@ TEST_CASE("read_track knows a dataflash log by its first message, and a broken o
   CHECK(track->format == "ArduPilot dataflash");
   CHECK(!dataflash_of(DataflashWriter().bytes));  // definitions only
   CHECK(survives(bytes, dataflash_of, 300, 1000, bytes.size()));
+}
+
+TEST_CASE("a message stamped far ahead is left out alone, wherever it stands, and counted in one line") {
+  for (const int jump_at : {1, 7, 18, 19}) {
+    CAPTURE(jump_at);
+    const Result<Track> track = dataflash_of(flight(20, jump_at, 999'999'000'000).bytes);
+    REQUIRE(track);
+    CHECK(track->ned_from_airframe.values.size() == 19);
+    CHECK(track->ned_from_airframe.times_s.back() == doctest::Approx(jump_at == 19 ? 1.8 : 1.9));
+    CHECK(track->position.values.size() == 19);
+    CHECK(warnings_with(*track, "no samples for") == 0);
+    CHECK(warnings_with(*track, "1 sample left out") == 7);  // one for each channel
+    CHECK(is_in_order(*track));
+  }
 }

@@ -221,3 +221,22 @@ TEST_CASE("with presentation times the track is on the footage's axis, and the s
   // 0x0005500000000000 microseconds at 0.5 s of the footage.
   CHECK(*track->utc_at_zero_s == doctest::Approx(0x0005500000000000 * 1e-6 - 0.5).epsilon(1e-14));
 }
+
+TEST_CASE("a packet whose stamp is far off is left out alone, the first too") {
+  const std::string items =
+      klv_item(5, std::string(2, '\0')) + klv_item(6, std::string(2, '\0')) + klv_item(7, std::string(2, '\0'));
+  for (const std::size_t wrong : {std::size_t{0}, std::size_t{4}, std::size_t{19}}) {
+    CAPTURE(wrong);
+    std::vector<TimedKlvPacket> packets;
+    for (std::size_t i = 0; i < 20; ++i) {
+      packets.push_back({.packet = klv_packets(klv_packet_of(klv_stamp('\x00') + items)).packets.at(0)});
+      packets.back().packet.unix_s = 1.6e9 + 0.04 * static_cast<double>(i) + (i == wrong ? 1e6 : 0);
+    }
+    const Result<Track> track = klv_track(packets, "made");
+    REQUIRE(track);
+    CHECK(track->ned_from_airframe.values.size() == 19);
+    CHECK(*track->utc_at_zero_s == doctest::Approx(wrong == 0 ? 1.6e9 + 0.04 : 1.6e9).epsilon(1e-15));
+    CHECK(track->ned_from_airframe.times_s.front() == doctest::Approx(0));
+    CHECK(warnings_with(*track, "1 sample left out") == 1);
+  }
+}

@@ -2,9 +2,12 @@
 #include "telemetry/track_csv.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <map>
 #include <random>
 #include <string>
 
@@ -169,4 +172,61 @@ TEST_CASE("a file of CSV is recognised by its content, whatever its name") {
   const Result<Track> other = read_track(folder / "flight.txt");
   REQUIRE(!other);
   CHECK(other.error().kind == ErrorKind::bad_data);
+}
+
+namespace {
+
+// Rows of 20 Hz with their number as speed, the times of some of them replaced.
+Result<Track> track_with_times(const std::map<int, double>& replaced, int rows = 200) {
+  std::string text = "time_s,vn_mps,ve_mps,vd_mps\n";
+  for (int i = 0; i < rows; ++i)
+    text += fmt::format("{},{},0,0\n", replaced.contains(i) ? replaced.at(i) : 0.05 * i, i);
+  return track_of_csv(text, "log.csv");
+}
+
+std::size_t warnings_about(const Track& track, const std::string& words) {
+  return static_cast<std::size_t>(std::count_if(track.warnings.begin(), track.warnings.end(), [&](const Warning& w) {
+    return w.text().find(words) != std::string::npos;
+  }));
+}
+
+}  // namespace
+
+TEST_CASE("rows whose times are far from their neighbours' are left out alone and counted in one line") {
+  struct Case {
+    std::map<int, double> replaced;
+    int first_line;
+  };
+  for (const Case& one : {Case{{{50, 999999}}, 52}, Case{{{0, 999999}}, 2}, Case{{{199, 999999}}, 201},
+                          Case{{{198, 999999}}, 200}, Case{{{0, -1e9}}, 2}, Case{{{50, -7}}, 52},
+                          Case{{{50, 999999}, {51, 999999.05}, {52, 1e6}, {120, 3}, {150, 1e7}}, 52}}) {
+    CAPTURE(one.first_line);
+    CAPTURE(one.replaced.begin()->second);
+    const Result<Track> track = track_with_times(one.replaced);
+    REQUIRE(track);
+    const Channel<glm::dvec3>& speeds = track->velocity_ned_mps;
+    CHECK(speeds.values.size() == 200 - one.replaced.size());
+    for (std::size_t i = 0; i < speeds.values.size(); ++i)
+      CHECK(speeds.times_s[i] == doctest::Approx(0.05 * speeds.values[i].x));
+    CHECK(track->warnings.size() == 1);
+    CHECK(warns(*track, fmt::format("line {}: ", one.first_line)));
+    CHECK(warns(*track, one.replaced.size() == 1 ? "1 such row left out" : "5 such rows left out"));
+  }
+}
+
+TEST_CASE("a pause, and a clock that is set, are no outliers") {
+  // After a pause two samples more; it is longer than all before it, but not than a thousand intervals.
+  const Result<Track> paused = track_with_times({{18, 3}, {19, 3.05}}, 20);
+  CHECK(paused->velocity_ned_mps.values.size() == 20);
+  // From row 100 on the clock is an hour ahead.
+  std::map<int, double> ahead;
+  for (int i = 100; i < 200; ++i) ahead[i] = 3600 + 0.05 * i;
+  CHECK(track_with_times(ahead)->velocity_ned_mps.values.size() == 200);
+  // From row 100 on it begins again: what it has gone through stays, what follows is left out in one line.
+  std::map<int, double> again;
+  for (int i = 100; i < 190; ++i) again[i] = 0.05 * (i - 100);
+  const Result<Track> track = track_with_times(again, 190);
+  CHECK(track->velocity_ned_mps.values.size() == 100);
+  CHECK(track->velocity_ned_mps.times_s.back() == doctest::Approx(0.05 * 99));
+  CHECK(warnings_about(*track, "90 such rows left out") == 1);
 }

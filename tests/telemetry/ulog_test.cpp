@@ -199,3 +199,20 @@ TEST_CASE("a broken PX4 log is read up to and behind the damage, or refused") {
   unknown[16 + 3 + 8] |= 2;  // an incompatible flag
   CHECK(!read(unknown));
 }
+
+TEST_CASE("stamps of a PX4 log that jump ahead and come back cost those samples alone") {
+  UlogWriter log;
+  log.topic(1, "vehicle_angular_velocity", "uint64_t timestamp;float[3] xyz;");
+  const auto add = [&](std::uint64_t us) {
+    log.message('D', UlogWriter::number<std::uint16_t>(1) + UlogWriter::number(us) + UlogWriter::number(0.1F) +
+                         UlogWriter::number(0.2F) + UlogWriter::number(0.3F));
+  };
+  // Five samples in a row, then a single one that is behind.
+  for (std::uint64_t i = 0; i < 200; ++i)
+    add(2'000'000 + 4'000 * i + (i >= 50 && i < 55 ? 3'600'000'000 : 0) - (i == 120 ? 900'000 : 0));
+  const Result<Track> track = ulog_track(log.bytes, "made");
+  REQUIRE(track);
+  CHECK(track->airframe_rate_radps.values.size() == 194);
+  CHECK(warnings_with(*track, "6 samples left out") == 1);
+  CHECK(is_in_order(*track));
+}
