@@ -209,14 +209,14 @@ void FeatureTracker::reduce(const cv::Mat& luma) {
     luma.copyTo(reduced_);
     return;
   }
-  const cv::Mat* from = &luma;
+  cv::Mat from = luma;
   std::size_t step = 0;
-  while (from->cols / 2 >= allowed_.cols && from->rows / 2 >= allowed_.rows) {
+  while (from.cols / 2 >= allowed_.cols && from.rows / 2 >= allowed_.rows) {
     if (halved_.size() <= step) halved_.emplace_back();
-    cv::resize(*from, halved_[step], {from->cols / 2, from->rows / 2}, 0, 0, cv::INTER_AREA);
-    from = &halved_[step++];
+    cv::resize(from, halved_[step], {from.cols / 2, from.rows / 2}, 0, 0, cv::INTER_AREA);
+    from = halved_[step++];
   }
-  cv::resize(*from, reduced_, allowed_.size(), 0, 0, cv::INTER_LINEAR);
+  cv::resize(from, reduced_, allowed_.size(), 0, 0, cv::INTER_LINEAR);
 }
 
 const std::vector<Feature>& FeatureTracker::next(const cv::Mat& luma) {

@@ -11,6 +11,9 @@
 
 #include "appearance/appearance.h"
 #include "appearance/project_hints.h"
+#include "base/pose.h"
+#include "base/text.h"
+#include "ego_motion/ego_motion.h"
 
 namespace sigs {
 
@@ -107,6 +110,71 @@ Result<std::vector<FirstProjectNote>> match_appearance(FrameSource& footage, con
   const std::vector<FirstProjectNote> light = light_notes(seen->surroundings);
   notes.insert(notes.begin(), light.begin(), light.end());
   return notes;
+}
+
+namespace {
+
+constexpr double kLongestMotion_s = 90;
+constexpr double kMaxLostShare = 0.05;
+constexpr double kMaxSd_rad = rad_of_deg(1);
+constexpr double kStill_px = 0.5;
+
+// Why the turns are of no use; "": they are.
+std::string why_no_motion(const EgoMotion& motion, const Scene& scene) {
+  std::size_t lost = 0, used = 0;
+  double largest_rad = 0, sd_rad = 0;
+  const auto begin = static_cast<std::size_t>(scene.first_frame);
+  for (std::size_t n = begin; n <= static_cast<std::size_t>(scene.last_frame) && n < motion.frames.size(); ++n) {
+    const EgoFrame& frame = motion.frames[n];
+    ++used;
+    lost += frame.is_lost && n > begin ? 1 : 0;
+    const glm::dquat turn = glm::conjugate(motion.frames[begin].world_from_camera) * frame.world_from_camera;
+    largest_rad = std::max(largest_rad, 2 * std::acos(std::min(1.0, std::abs(turn.w))));
+    if (!frame.is_lost) sd_rad = std::max({sd_rad, frame.sd_rad.x, frame.sd_rad.y, frame.sd_rad.z});
+  }
+  if (static_cast<double>(lost) > kMaxLostShare * static_cast<double>(used))
+    return fmt::format("the images do not show how the camera turns in {} of {} frames", lost, used);
+  // Beyond a lost frame nothing is known against frame 0; the course in the frames before and after is.
+  if (lost == 0 && sd_rad >= kUnknownRotation_rad)
+    return "the images before the frames used lose the camera's turns";
+  if (lost == 0 && sd_rad > kMaxSd_rad)
+    return fmt::format("the images show the camera's turns to {:.1f} degrees only", deg_of_rad(sd_rad));
+  const double still_px = largest_rad * scene.camera.lens.pixels_per_radian({1, 0, 0});
+  if (still_px < kStill_px) return fmt::format("the camera stands still: it turns by {:.1f} px at most", still_px);
+  return "";
+}
+
+}  // namespace
+
+Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool horizon_is_seen,
+                                 const MatchControl& control) {
+  FirstMotion found{.track = {}, .note = {.field = "camera.track.file", .is_guess = true}};
+  const auto none = [&](const std::string& why) {
+    found.note.text = "none: " + why + "; the camera keeps one attitude";
+    return found;
+  };
+  if (footage.info().frame_count() < 2) return none("a single image shows no motion");
+  if (footage.info().times_s.back() > kLongestMotion_s)
+    return none(fmt::format("the turns of footage longer than {:.0f} s are left to `sigs ego-motion`", kLongestMotion_s));
+  const EgoMotionControl following{.progress =
+                                       [&](int done, int total) {
+                                         if (control.progress) control.progress(double(done) / std::max(1, total));
+                                       },
+                                   .cancel = control.cancel};
+  const Result<EgoMotion> motion =
+      estimate_ego_motion(footage, scene.camera, {}, nullptr, {.use_horizon = horizon_is_seen}, following);
+  if (!motion && motion.error().kind == ErrorKind::interrupted) return fail(motion.error());
+  if (!motion) return none(motion.error().text());
+  if (const std::string why = why_no_motion(*motion, scene); !why.empty()) return none(why);
+  found.track = track_of(*motion, footage.info().path);
+  found.note.is_guess = false;
+  found.note.text = motion->level_sd_rad
+                        ? fmt::format("the camera's attitude at each frame, by the images and the horizon in them, level "
+                                      "to {:.1f} degrees",
+                                      deg_of_rad(*motion->level_sd_rad))
+                        : "the camera's turns at each frame, by the images; camera.attitude_deg is its attitude at the "
+                          "start";
+  return found;
 }
 
 }  // namespace sigs

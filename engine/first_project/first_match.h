@@ -3,11 +3,13 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "base/result.h"
 #include "first_project/first_project.h"
 #include "scene/scene.h"
+#include "telemetry/track.h"
 #include "video/frame_source.h"
 
 namespace sigs {
@@ -26,5 +28,18 @@ struct MatchControl {
 // Errors: those of FrameSource::read(), interrupted.
 [[nodiscard]] Result<std::vector<FirstProjectNote>> match_appearance(FrameSource& footage, const Scene& scene,
                                                                      Project& project, const MatchControl& control);
+
+// The camera's turns as the images show them (ego_motion).
+struct FirstMotion {
+  std::optional<Track> track;  // attitudes on the footage's time axis; none: the camera's attitude stays as it is
+  FirstProjectNote note;       // what was found, or why there is none
+};
+
+// Finds them where they help. None where the camera stands still (no more than half a pixel), where more than a
+// twentieth of the frames used are lost, where nothing tells the turns within a degree, and for footage longer than 90 s.
+//   horizon_is_seen  false: an edge that may look like one does not count
+// Error: interrupted.
+[[nodiscard]] Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool horizon_is_seen,
+                                               const MatchControl& control);
 
 }  // namespace sigs

@@ -26,6 +26,7 @@
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"
+#include "telemetry/track_csv.h"
 #include "video/frame_source.h"
 #include "video/image_sequence.h"
 
@@ -38,7 +39,8 @@ namespace {
 constexpr double kLongestSpan_s = 60;  // an encounter lasts about that long
 
 // How far the making is when a step begins, by its run time of a clip of 10 s.
-constexpr int kLogStep_percent = 5, kLookStep_percent = 10, kMatchStep_percent = 25, kIntruderStep_percent = 95;
+constexpr int kLogStep_percent = 5, kLookStep_percent = 10, kMotionStep_percent = 20, kMatchStep_percent = 60,
+              kIntruderStep_percent = 95;
 
 // A path as the project names it: relative to its folder, so that both can be moved together.
 std::string relative_to(const fs::path& file, const fs::path& project_file) {
@@ -191,7 +193,7 @@ class Planning {
     return {};
   }
 
-  // The scene as far as it is known. The log fits: set_track() has tried it.
+  // The scene as far as it is known. The log fits: set_track() has tried it; so do the turns in the images.
   Scene scene() {
     Scene scene = bare_scene(project(), footage_);
     scene.camera = *camera_;
@@ -199,7 +201,8 @@ class Planning {
     scene.last_frame = range_.last;
     if (project().camera.track.file.empty()) {
       take_camera_flight(scene, steady_flight(project()));
-    } else if (OrProblem<CameraFlight> flight = flight_by_log(project(), *log_.track, footage_, range_)) {
+    } else if (OrProblem<CameraFlight> flight =
+                   flight_by_log(project(), seen_turns_ ? *seen_turns_ : *log_.track, footage_, range_)) {
       take_camera_flight(scene, *std::move(flight));
     }
     return scene;
@@ -209,7 +212,10 @@ class Planning {
     step(kLookStep_percent, "looking at the footage");
     const Result<FirstLook> look = first_look(source, scene(), control_.cancel);
     if (!look) return fail(look.error());
-    if (look->roll_rad) {
+    if (const Result<void> done = follow_images(source, *look); !done) return done;
+    if (seen_turns_ && seen_turns_->level_is_known) {
+      // The file has the whole attitude.
+    } else if (look->roll_rad) {
       const auto rounded_deg = [](double rad) { return std::round(10 * deg_of_rad(rad)) / 10; };
       project().camera.roll_deg = rounded_deg(*look->roll_rad);
       project().camera.pitch_deg = rounded_deg(*look->pitch_rad);
@@ -225,6 +231,27 @@ class Planning {
             .is_guess = true});
     }
     return match(source, *look);
+  }
+
+  // Lets the camera turn as the images show it, where no log tells it.
+  Result<void> follow_images(FrameSource& source, const FirstLook& look) {
+    if (options_.plain || !project().camera.track.file.empty()) return {};
+    constexpr const char* kStep = "finding the camera's motion";
+    step(kMotionStep_percent, kStep);
+    const auto tell = [&](double share) {
+      step(kMotionStep_percent + static_cast<int>(share * (kMatchStep_percent - kMotionStep_percent)), kStep);
+    };
+    Result<FirstMotion> motion = first_motion(source, scene(), look.roll_rad.has_value(),
+                                              {.progress = tell, .cancel = control_.cancel});
+    if (!motion) return fail(motion.error());
+    if (motion->track) {
+      const fs::path file = beside(".attitude.csv");
+      project().camera.track.file = file.filename().string();
+      first_.files.push_back({.path = file, .content = track_csv_text(*motion->track), .copy_of = {}});
+      seen_turns_ = std::move(motion->track);
+    }
+    note(motion->note);
+    return {};
   }
 
   Result<void> match(FrameSource& source, const FirstLook& look) {
@@ -294,6 +321,7 @@ class Planning {
   FrameRange range_;
   FirstLog log_;
   std::optional<Camera> camera_;
+  std::optional<Track> seen_turns_;  // of the camera, by the images
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace sigs {
 // What is not given is taken from the footage where the file tells it (field of view, flight log), else guessed, and
 // every guess is listed. The camera is a calibration beside the project; one intruder flies in view during most of the
 // frames used, 20 to 60 px wide at its closest. It looks as the footage's camera shows things: light, blur, noise, haze
-// and compression are those that `sigs appearance` finds in it.
+// and compression are those that `sigs appearance` finds in it. Without a log the camera turns as the images show it.
 
 struct FirstProjectOptions {
   std::filesystem::path video;
@@ -31,7 +31,7 @@ struct FirstProjectOptions {
       out;           // the project file; empty: NAME/NAME.json in the current folder, of images NAME-project/NAME.json
   std::string name;  // empty: the project file's or else the video's name without extension, of images their folder's
   bool overwrite = false;  // whether files of these names are replaced
-  bool plain = false;      // appearance stays at the defaults; else it is matched to the footage
+  bool plain = false;      // appearance and motion stay at the defaults; else they are those of the footage
 };
 
 struct FirstProjectControl {
@@ -77,9 +77,10 @@ struct FirstProject {
   std::vector<Warning> warnings;        // of the files that were read
 };
 
-// Plans the project; nothing is written. Reads the video's index, its log and, of the frames used, at most 7, and 48
-// more where it is matched to them. Errors: usage (options that contradict each other), cannot_read, bad_data (a
-// calibration for another shape of images, which names both; a model without a size), interrupted.
+// Plans the project; nothing is written. Reads the video's index and its log, at most 7 frames of a plain project, else
+// all up to 90 s.
+// Errors: usage (options that contradict each other), cannot_read, bad_data (a calibration for another shape of
+// images, which names both; a model without a size), interrupted.
 [[nodiscard]] Result<FirstProject> planned_first_project(const FirstProjectOptions& options,
                                                          const FirstProjectControl& control = {});
 

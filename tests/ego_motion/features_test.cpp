@@ -84,6 +84,27 @@ TEST_CASE("features stay on what they show while it grows to one and a half time
   CHECK(turned < 0.25);
 }
 
+TEST_CASE("features are followed in images of 4K, which are halved more than once") {
+  cv::Mat texture, image;
+  cv::resize(ground_texture(), texture, {}, 3, 3, cv::INTER_CUBIC);
+  const cv::Size size_px(3840, 2160);
+  FeatureTracker tracker(size_px, {}, {});
+  std::map<int, cv::Point2f> first;
+  int followed = 0;
+  for (int n = 0; n < 4; ++n) {
+    texture(cv::Rect(cv::Point(100 - 8 * n, 60), size_px)).convertTo(image, CV_8U);
+    for (const Feature& feature : tracker.next(image)) {
+      if (n == 0) first[feature.id] = feature.pixel_px;
+      const auto start = first.find(feature.id);
+      if (n < 3 || start == first.end()) continue;
+      ++followed;
+      // A tenth of a pixel of the image reduced to 640 px.
+      CHECK(feature.pixel_px.x - start->second.x == doctest::Approx(24).epsilon(0.025));
+    }
+  }
+  CHECK(followed > 100);
+}
+
 TEST_CASE(
     "the gradient of a displacement that is linear over the image is found, though one feature in ten is a pixel "
     "astray") {

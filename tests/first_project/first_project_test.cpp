@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "base/paths.h"
+#include "base/pose.h"
 #include "first_project/first_model.h"
 #include "first_project/first_project.h"
 #include "project/json.h"
@@ -17,6 +19,7 @@
 #include "support/files.h"
 #include "support/process.h"
 #include "support/test_data.h"
+#include "telemetry/read_track.h"
 
 using namespace sigs;
 
@@ -85,6 +88,24 @@ fs::path noisy_images(const test::TemporaryFolder& folder, double sd) {
   return images;
 }
 
+// Images of far, rough ground that has moved to the right by so many pixels in each.
+fs::path moved_images(const test::TemporaryFolder& folder, const std::string& name, const std::vector<double>& moves_px) {
+  const fs::path images = folder / name;
+  fs::create_directory(images);
+  cv::RNG random(5);
+  cv::Mat1f ground(260, 400);
+  random.fill(ground, cv::RNG::NORMAL, 128, 400);
+  cv::GaussianBlur(ground, ground, {}, 2.5);
+  for (std::size_t n = 0; n < moves_px.size(); ++n) {
+    cv::Mat image;
+    const cv::Matx23d move(1, 0, moves_px[n] - 40, 0, 1, -10);
+    cv::warpAffine(ground, image, move, {320, 240}, cv::INTER_CUBIC);
+    image.convertTo(image, CV_8U);
+    cv::imwrite((images / fmt::format("{:03}.png", n)).string(), image);
+  }
+  return images;
+}
+
 }  // namespace
 
 TEST_CASE("a clip becomes a project that opens without a problem and has its intruder in view") {
@@ -96,18 +117,19 @@ TEST_CASE("a clip becomes a project that opens without a problem and has its int
   CHECK(test::text_of(folder / "a/first.notes.txt").find("guessed") != std::string::npos);
   CHECK(test::text_of(folder / "a/first.calibration.xml").find("Not measured") != std::string::npos);
   // Nothing is replaced without being asked for, and then everything is.
-  CHECK(make_first_project({.video = sample_video(), .out = folder / "a/first.json"}).error().kind ==
+  CHECK(make_first_project({.video = sample_video(), .out = folder / "a/first.json", .plain = true}).error().kind ==
         ErrorKind::cannot_create);
-  CHECK(make_first_project({.video = sample_video(), .out = folder / "a/first.json", .overwrite = true}));
+  CHECK(make_first_project(
+      {.video = sample_video(), .out = folder / "a/first.json", .overwrite = true, .plain = true}));
   // A second project shares the model.
-  CHECK(make_first_project({.video = sample_video(), .out = folder / "a/second.json"}));
+  CHECK(make_first_project({.video = sample_video(), .out = folder / "a/second.json", .plain = true}));
 }
 
 TEST_CASE("a folder with the video and its project can be moved") {
   const test::TemporaryFolder folder;
   fs::create_directories(folder / "here");
   fs::copy_file(sample_video(), folder / "here/clip.mp4");
-  made_and_opened({.video = folder / "here/clip.mp4", .out = folder / "here/clip/clip.json"});
+  made_and_opened({.video = folder / "here/clip.mp4", .out = folder / "here/clip/clip.json", .plain = true});
   fs::rename(folder / "here", folder / "there");
   const Result<ReadProject> read = read_project(folder / "there/clip/clip.json");
   REQUIRE(read);
@@ -119,7 +141,7 @@ TEST_CASE("the horizontal field of view is as asked for: a pinhole, from 120 deg
   for (const double fov_deg : {5.0, 40.0, 100.0, 150.0, 200.0}) {
     CAPTURE(fov_deg);
     const FirstProject made = made_and_opened(
-        {.video = sample_video(), .horizontal_fov_deg = fov_deg, .out = folder / "p.json", .overwrite = true});
+        {.video = sample_video(), .horizontal_fov_deg = fov_deg, .out = folder / "p.json", .overwrite = true, .plain = true});
     const Result<Camera> camera = read_calibration(folder / "p.calibration.xml", cv::Size(1280, 960));
     REQUIRE(camera);
     const double half_rad = fov_deg * 3.14159265358979 / 360;
@@ -134,7 +156,7 @@ TEST_CASE("a calibration is referred to, checked against the footage, and exclud
   const test::TemporaryFolder folder;
   const fs::path calibration = test::source_dir() / "assets/calibrations/sample.xml";
   const FirstProject made =
-      made_and_opened({.video = sample_video(), .calibration = calibration, .out = folder / "p.json"});
+      made_and_opened({.video = sample_video(), .calibration = calibration, .out = folder / "p.json", .plain = true});
   CHECK(canonical_path(resolved(made.project, made.project.footage.calibration)) == canonical_path(calibration));
   CHECK_FALSE(fs::exists(folder / "p.calibration.xml"));
   const fs::path wide = made_clip(folder, "s=640x360:d=0.2:r=25", "");
@@ -193,7 +215,8 @@ TEST_CASE("the axes and unit of a user's model are found") {
     const FirstProject made = made_and_opened({.video = sample_video(),
                                                .model = models / name / (std::string(name) + ".obj"),
                                                .out = folder / "p.json",
-                                               .overwrite = true});
+                                               .overwrite = true,
+                                               .plain = true});
     CHECK(made.project.intruders.front().model.forward == "-x");
     CHECK(made.project.intruders.front().model.up == "+y");
     CHECK(made.project.intruders.front().model.scale == 1);
@@ -275,7 +298,7 @@ TEST_CASE("making a first project tells its progress, and ends soon where it is 
     CHECK(done <= total);
     if (steps.empty() || steps.back() != step) steps.push_back(step);
   };
-  const FirstProjectOptions options{.video = sample_video(), .out = folder / "p.json"};
+  const FirstProjectOptions options{.video = made_clip(folder, "s=320x240:r=25:d=1", ""), .out = folder / "p.json"};
   REQUIRE(planned_first_project(options, {.progress = follow}));
   CHECK(before == 100);
   REQUIRE(steps.size() > 4);
@@ -343,4 +366,39 @@ TEST_CASE("a model keeps the folders of its textures in the copy; one that reach
   REQUIRE_FALSE(outside);
   CHECK(outside.error().text().find("a.png") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "out2"));
+}
+
+TEST_CASE("the camera of a first project turns as the images show it; one that stands still or is lost is left alone") {
+  const test::TemporaryFolder folder;
+  const double fov_deg = 40, focal_px = 160 / std::tan(rad_of_deg(fov_deg) / 2);
+  std::vector<double> shaken, still;
+  for (int n = 0; n < 50; ++n) {
+    shaken.push_back(5 * std::sin(0.7 * n) + 0.2 * n);
+    still.push_back(0.1 * std::sin(0.7 * n));
+  }
+  FirstProjectOptions options{.frame_rate_hz = 25, .horizontal_fov_deg = fov_deg, .out = folder / "p.json",
+                              .overwrite = true};
+  options.video = moved_images(folder, "shaken", shaken);
+  const FirstProject turned = made_and_opened(options);
+  CHECK(turned.project.camera.track.file == "p.attitude.csv");
+  CHECK_FALSE(note_on(turned, "camera.track.file").is_guess);
+  const Result<Track> track = read_track(folder / "p.attitude.csv", {});
+  REQUIRE(track);
+  REQUIRE(track->ned_from_camera.values.size() == shaken.size());
+  for (std::size_t n = 0; n < shaken.size(); ++n) {
+    // What moves to the right shows a camera that turns to the left. A third of a pixel is left to the features.
+    const double yaw_rad = attitude_of(track->ned_from_camera.values[n]).yaw_rad;
+    CHECK(focal_px * std::tan(yaw_rad) == doctest::Approx(shaken.front() - shaken[n]).epsilon(0.33).scale(1));
+  }
+  options.video = moved_images(folder, "still", still);
+  const FirstProject kept = made_and_opened(options);
+  CHECK(kept.project.camera.track.file.empty());
+  CHECK(note_on(kept, "camera.track.file").text.find("stands still") != std::string::npos);
+  options.video = noisy_images(folder, 8);  // nothing that could be followed
+  const FirstProject lost = made_and_opened(options);
+  CHECK(lost.project.camera.track.file.empty());
+  CHECK(note_on(lost, "camera.track.file").is_guess);
+  options.video = folder / "shaken";
+  options.plain = true;
+  CHECK(made_and_opened(options).project.camera.track.file.empty());
 }
