@@ -2,8 +2,9 @@
 # What datasets cover: time of planning 1,000 random encounters, and the coverage of 50 videos made against their labels.
 #   bench/dataset_coverage.sh [BUILD] [FRAMES]
 # FRAMES of each of the 50 videos, default 8. Prints the seconds of two plans (straight encounters; flights drawn from an
-# encounter model, where ../shared/data has one), and how the predicted coverage, the one that sigs counts and a count of
-# the labels by awk agree. Ends with 1 where the last two differ.
+# encounter model, where ../shared/data has one), the balance of random encounters and of flights by place and size, and
+# how the predicted coverage, the one that sigs counts and a count of the labels by awk agree. Ends with 1 where the last
+# two differ.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 sigs=$PWD/${1:-build/release}/sigs
@@ -44,6 +45,30 @@ else
   drawn='"approaching"'
 fi
 
+# Balance: shares of the cells of the image and of the sizes, of random encounters and of flights by place and size.
+shares_of() { # TITLE JSON
+  awk -v title="$1" '
+    /^  "(intruders|distractors)"/ { counts = $1 ~ /intruders/ }
+    /"in_view":/ && counts { total = $2 + 0 }
+    /^    "[a-z_]*": \[/ { gsub(/[^a-z_]/, "", $1); quantity = $1 }
+    /"count":/ && counts {
+      share = 100 * $2 / total
+      if (quantity == "image_position") { if (least == "" || share < least) least = share; if (share > most) most = share }
+      if (quantity == "size_px" && share > size) size = share
+    }
+    END { printf "%s: cells of the image %.1f to %.1f %%, largest bin of size %.1f %%\n", title, least, most, size }' "$2"
+}
+placed='{"kind": "image_position", "x_percent": {"uniform": [0, 100]}, "y_percent": {"uniform": [0, 100]},
+  "size_px": {"log_uniform": [4, 256]}, "direction_deg": {"choice": [0, 180]}, "relative_speed_mps": {"uniform": [50, 120]}}'
+for what in encounters placed; do
+  flights=
+  [ "$what" = placed ] && flights=", \"flights\": [$placed]"
+  echo "{$(recipe_head 3) \"videos\": [{\"videos\": 600, \"frames\": 10$flights}]}" >"$lot/$what.json"
+  "$sigs" dataset "$lot/$what.json" --dry-run --json "$lot/$what.coverage" >/dev/null 2>&1
+done
+shares_of "600 random encounters" "$lot/encounters.coverage"
+shares_of "600 by place and size" "$lot/placed.coverage"
+
 cat >"$lot/fifty.json" <<EOF
 {$(recipe_head 8) "videos": [{"videos": 50, "frames": $frames, "first_frame": {"uniform": [0, 90]},
   "appearance": {"haze.visibility_m": {"uniform": [3000, 30000]}},
@@ -72,16 +97,20 @@ cat "$lot"/out/*/*.xml | awk '
   function bin(number, limits,   n, parts, i) {
     n = split(limits, parts, " "); for (i = 1; i <= n; i++) if (number + 0 < parts[i] + 0) return i - 1; return n
   }
+  function third(at, length_px,   n) { n = int(3 * (at + 0.5) / length_px); return at < 0 ? 0 : n > 2 ? 2 : n }
   function bearing(y, x) { return atan2(y, x) * 180 / 3.14159265358979323846 }
+  /<footage / { width = value("width"); height = value("height") }
   /<intruder / { seen = 0; group = value("role") == "distractor" ? "distractors" : "intruders"; side = value("horizon") }
   /<position / { x = value("x_m"); y = value("y_m") }
   /<distance / { range = value("m") }
   /<box / { seen = 1 }
-  /<silhouette / { size = value("width") + 0 > value("height") + 0 ? value("width") : value("height") }
+  /<silhouette / { size = value("width") + 0 > value("height") + 0 ? value("width") : value("height")
+    column = third(value("x") + value("width") / 2, width); line = third(value("y") + value("height") / 2, height) }
   /<\/intruder>/ && seen {
     count[group " range_m " bin(range, "50 100 200 500 1000 2000 5000")]++
     count[group " size_px " bin(size, "4 8 16 32 64 128 256")]++
     count[group " bearing_deg " bin(bearing(y, x), "-60 -45 -30 -15 0 15 30 45 60")]++
+    count[group " image_position " (3 * line + column)]++
     count[group " horizon " (side == "above" ? 0 : side == "on" ? 1 : side == "below" ? 2 : 3)]++
   }
   END { for (key in count) print key, count[key] }' | sort >"$lot/awk"
@@ -97,5 +126,5 @@ awk '
     for (key in counted) all[key]; for (key in predicted) all[key]
     for (key in all) { d = predicted[key] - counted[key]; split(key, part, " "); off[part[2]] += d < 0 ? -d : d }
     printf "predicted against counted, sum of the differences of all bins, of %d in view:", total
-    printf " range %d, size %d, bearing %d, horizon %d\n", off["range_m"], off["size_px"], off["bearing_deg"], off["horizon"]
+    printf " range %d, size %d, bearing %d, image position %d, horizon %d\n", off["range_m"], off["size_px"], off["bearing_deg"], off["image_position"], off["horizon"]
   }' "$lot/counted" "$lot/predicted"

@@ -34,6 +34,11 @@ double bearing_deg_of(const glm::dvec3& in_camera_m) {
   return deg_of_rad(std::atan2(in_camera_m.y, in_camera_m.x));
 }
 
+// A body without a box of its silhouette counts in the centre.
+int cell_of_box(const std::optional<Box>& box, cv::Size image_px) {
+  return box ? cell_of(box->x + box->width / 2, box->y + box->height / 2, image_px) : 4;
+}
+
 // What of one scene can be seen in a frame.
 void add_sights(const Project& project, const Scene& scene, const VisibilityEstimator& estimator, int frame,
                 Coverage& coverage) {
@@ -51,7 +56,8 @@ void add_sights(const Project& project, const Scene& scene, const VisibilityEsti
                   .bearing_deg = bearing_deg_of(placed.camera_from_body.translation_m),
                   .horizon = scene.horizon_is_known ? horizon_side_of(intruder.model->outermost_m,
                                                                       placed.camera_from_body, moment.up_in_camera)
-                                                    : HorizonSide::unknown});
+                                                    : HorizonSide::unknown,
+                  .cell = cell_of_box(estimates[i].silhouette, scene.camera.size_px)});
   }
 }
 
@@ -72,14 +78,17 @@ HorizonSide horizon_called(std::string_view name) {
 }
 
 // The sight that an element `intruder` tells of. Error without a place: a number is missing.
-Result<Sight> sight_of(pugi::xml_node intruder, const std::map<std::string, std::string>& categories) {
+Result<Sight> sight_of(pugi::xml_node intruder, cv::Size image_px,
+                       const std::map<std::string, std::string>& categories) {
   const pugi::xml_node position = intruder.child("position");
   const pugi::xml_node silhouette = intruder.child("silhouette");
   Sight sight{.is_distractor = std::string_view(intruder.attribute("role").value()) == "distractor",
               .range_m = attribute_of(intruder.child("distance"), "m"),
               .size_px = std::max(attribute_of(silhouette, "width"), attribute_of(silhouette, "height")),
               .bearing_deg = bearing_deg_of({attribute_of(position, "x_m"), attribute_of(position, "y_m"), 0}),
-              .horizon = horizon_called(intruder.attribute("horizon").value())};
+              .horizon = horizon_called(intruder.attribute("horizon").value()),
+              .cell = cell_of(attribute_of(silhouette, "x") + attribute_of(silhouette, "width") / 2,
+                              attribute_of(silhouette, "y") + attribute_of(silhouette, "height") / 2, image_px)};
   const auto category = categories.find(intruder.attribute("id").value());
   sight.category = category == categories.end() ? "?" : category->second;
   if (std::isfinite(sight.range_m) && std::isfinite(sight.size_px) && std::isfinite(sight.bearing_deg)) return sight;
@@ -113,12 +122,14 @@ Result<void> count_video(const std::filesystem::path& folder, const std::string&
   const pugi::xml_node root = document.child("sigs");
   if (!parsed || !root) return fail(file.string(), "is no SIGS annotation file");
   const std::map<std::string, std::string> categories = categories_in(folder / name / (name + ".json"));
+  const pugi::xml_node footage = root.child("footage");
+  const cv::Size image_px(footage.attribute("width").as_int(1), footage.attribute("height").as_int(1));
   ++coverage.videos;
   for (const pugi::xml_node frame : root.children("frame")) {
     ++coverage.frames;
     for (const pugi::xml_node intruder : frame.children("intruder")) {
       if (!intruder.child("box")) continue;
-      const Result<Sight> sight = sight_of(intruder, categories);
+      const Result<Sight> sight = sight_of(intruder, image_px, categories);
       if (!sight)
         return fail(file.string(),
                     fmt::format("frame {}: {}", line_text(frame.attribute("index").value()), sight.error().what));
@@ -150,11 +161,20 @@ Result<std::vector<std::string>> names_in_index(const std::filesystem::path& fil
 
 }  // namespace
 
+int cell_of(double x_px, double y_px, cv::Size image_px) {
+  const auto third = [](double at_px, int length_px) {
+    const double thirds = 3 * (at_px + 0.5) / std::max(1, length_px);
+    return std::isfinite(thirds) ? static_cast<int>(std::clamp(std::floor(thirds), 0.0, 2.0)) : 1;
+  };
+  return 3 * third(y_px, image_px.height) + third(x_px, image_px.width);
+}
+
 void CoverageCounts::add(const Sight& sight) {
   ++sights;
   count_in(range, kRangeLimits_m, sight.range_m);
   count_in(size, kSizeLimits_px, sight.size_px);
   count_in(bearing, kBearingLimits_deg, sight.bearing_deg);
+  ++cell.at(static_cast<std::size_t>(sight.cell));
   ++horizon.at(static_cast<std::size_t>(sight.horizon));
 }
 

@@ -28,7 +28,13 @@ struct Sight {
   double size_px = 0;      // longer side of the box of its whole silhouette
   double bearing_deg = 0;  // of the reference point, to the right of the optical axis, in the camera's axes; -180..180
   HorizonSide horizon = HorizonSide::unknown;
+  int cell = 4;  // of kCellNames: third of the image's width and height with the middle of the silhouette's box
 };
+
+// The thirds of the image, row by row. A box whose middle lies outside the image counts in the nearest.
+inline constexpr std::array kCellNames{"top left",     "top centre",  "top right",     "middle left", "centre",
+                                       "middle right", "bottom left", "bottom centre", "bottom right"};
+[[nodiscard]] int cell_of(double x_px, double y_px, cv::Size image_px);
 
 // Limits between the bins of a quantity. Bin 0 is below the first limit, bin i from limit i - 1 (included) to limit i.
 inline constexpr std::array kRangeLimits_m{50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0};
@@ -41,6 +47,7 @@ struct CoverageCounts {
   std::vector<long long> range = std::vector<long long>(kRangeLimits_m.size() + 1);
   std::vector<long long> size = std::vector<long long>(kSizeLimits_px.size() + 1);
   std::vector<long long> bearing = std::vector<long long>(kBearingLimits_deg.size() + 1);
+  std::vector<long long> cell = std::vector<long long>(kCellNames.size());
   std::array<long long, 4> horizon{};  // by HorizonSide: below, on, above, unknown
 
   void add(const Sight& sight);
@@ -71,7 +78,7 @@ struct Coverage {
 [[nodiscard]] Result<Coverage> counted_coverage(const std::filesystem::path& folder,
                                                 const std::atomic<bool>* cancel = nullptr);
 
-// As a table for people, as JSON for programs, and as a plot (BGR, 8 bits): four histograms of intruders and
+// As a table for people, as JSON for programs, and as a plot (BGR, 8 bits): five histograms of intruders and
 // distractors.
 //   title  "predicted", "counted from the labels"
 [[nodiscard]] std::string coverage_text(const Coverage& coverage, const std::string& title);

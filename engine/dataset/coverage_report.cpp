@@ -41,6 +41,11 @@ CoverageSection binned(const std::string& title, std::span<const double> limits,
 std::vector<CoverageSection> sections_of(const Coverage& coverage) {
   const CoverageCounts& intruders = coverage.intruders;
   const CoverageCounts& distractors = coverage.distractors;
+  const CoverageSection cells{.title = "image_position",
+                              .bins = {kCellNames.begin(), kCellNames.end()},
+                              .limits = {},
+                              .intruders = intruders.cell,
+                              .distractors = distractors.cell};
   CoverageSection horizon{.title = "horizon", .bins = {}, .limits = {}, .intruders = {}, .distractors = {}};
   for (const HorizonSide side : {HorizonSide::above, HorizonSide::on, HorizonSide::below, HorizonSide::unknown}) {
     horizon.bins.emplace_back(name_of(side));
@@ -49,7 +54,7 @@ std::vector<CoverageSection> sections_of(const Coverage& coverage) {
   }
   return {binned("range_m", kRangeLimits_m, intruders.range, distractors.range),
           binned("size_px", kSizeLimits_px, intruders.size, distractors.size),
-          binned("bearing_deg", kBearingLimits_deg, intruders.bearing, distractors.bearing), horizon};
+          binned("bearing_deg", kBearingLimits_deg, intruders.bearing, distractors.bearing), cells, horizon};
 }
 
 std::string share_text(long long part, long long whole) {
@@ -66,7 +71,7 @@ const cv::Scalar kIntruderBars(200, 120, 40);
 const cv::Scalar kDistractorBars(40, 120, 230);
 
 // One histogram, its frame's upper edge at top_px.
-void draw_section(cv::Mat& image, const CoverageSection& section, int top_px) {
+void draw_section(cv::Mat& image, const CoverageSection& section, bool has_distractors, int top_px) {
   const cv::Point low(kCoverageLeft_px, top_px);
   const cv::Point high(kCoverageWidth_px - 30, top_px + kCoveragePanel_px - kCoverageBottom_px - 30);
   long long most = 1;
@@ -86,8 +91,10 @@ void draw_section(cv::Mat& image, const CoverageSection& section, int top_px) {
   for (std::size_t i = 0; i < section.bins.size(); ++i) {
     const int middle = columns[i].at_px;
     const int bar = static_cast<int>(width * 0.35);
+    // The only bar of a column is in line with its label; two stand on both sides of it.
+    const int intruders_end = has_distractors ? middle - 1 : middle + bar;
     if (section.intruders[i] > 0)
-      cv::rectangle(image, {middle - bar, row(double(section.intruders[i]))}, {middle - 1, high.y}, kIntruderBars,
+      cv::rectangle(image, {middle - bar, row(double(section.intruders[i]))}, {intruders_end, high.y}, kIntruderBars,
                     cv::FILLED);
     if (section.distractors[i] > 0)
       cv::rectangle(image, {middle + 1, row(double(section.distractors[i]))}, {middle + bar, high.y}, kDistractorBars,
@@ -101,7 +108,7 @@ Json counts_json(const CoverageSection& section, const std::vector<long long>& c
   for (std::size_t i = 0; i < counts.size(); ++i) {
     Json bin = Json::object();
     if (section.limits.empty()) {
-      bin["side"] = section.bins[i];
+      bin[section.title == "horizon" ? "side" : "cell"] = section.bins[i];
     } else {
       bin["from"] = i == 0 ? Json(nullptr) : Json(section.limits[i - 1]);
       bin["to"] = i == section.limits.size() ? Json(nullptr) : Json(section.limits[i]);
@@ -124,7 +131,7 @@ std::string coverage_text(const Coverage& coverage, const std::string& title) {
     text += fmt::format("; without {} whose files cannot be opened", count_text(coverage.unopened, "video"));
   text += "\n";
   for (const CoverageSection& section : sections_of(coverage)) {
-    text += fmt::format("{:<12}{:>14}{:>10}", section.title, "", "intruders");
+    text += fmt::format("{:<14}{:>12}{:>10}", section.title, "", "intruders");
     text += has_distractors ? fmt::format("{:>22}\n", "distractors") : "\n";
     for (std::size_t i = 0; i < section.bins.size(); ++i) {
       text += fmt::format("{:<12}{:>14}{:>10}{:>9}", "", section.bins[i], section.intruders[i],
@@ -166,7 +173,8 @@ cv::Mat coverage_plot(const Coverage& coverage, const std::string& title) {
                         coverage.intruders.sights, coverage.distractors.sights),
             {kCoverageLeft_px, 20}, kCoverageInk);
   for (std::size_t i = 0; i < sections.size(); ++i)
-    draw_section(image, sections[i], kCoverageTop_px + 10 + static_cast<int>(i) * kCoveragePanel_px);
+    draw_section(image, sections[i], coverage.distractors.sights > 0,
+                 kCoverageTop_px + 10 + static_cast<int>(i) * kCoveragePanel_px);
   return image;
 }
 

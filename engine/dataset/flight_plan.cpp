@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/ensure.h"
 #include "base/pose.h"
@@ -110,8 +111,87 @@ void add_derived(const Encounter& encounter, std::map<std::string, double>& deri
   derived["range_m"] = first_range_m(encounter);
 }
 
+// Directions at a place of the image, unit vectors in world axes: of its ray, and right and up in the image there.
+struct ImageAxes {
+  glm::dvec3 ray, right, up;
+};
+
+Possible<ImageAxes> axes_at(const Values& values, const FlightContext& context) {
+  const glm::dvec2 place_percent(values.at("x_percent"), values.at("y_percent"));
+  const glm::dvec2 size_px(context.lens.size_px.width, context.lens.size_px.height);
+  const std::optional<glm::dvec3> ray = near_ray(context.lens.lens, place_percent / 100.0 * size_px - 0.5);
+  if (!ray)
+    return tl::unexpected(
+        fmt::format("x_percent, y_percent: at {}, {} the lens has no ray within 75 degrees of its axis",
+                    short_number_text(place_percent.x), short_number_text(place_percent.y)));
+  const glm::dquat world_from_camera = rotation_of(mount_attitude(context.camera));
+  const glm::dvec3 right = glm::normalize(glm::dvec3(0, 1, 0) - ray->y * *ray);
+  return ImageAxes{world_from_camera * *ray, world_from_camera * right, world_from_camera * glm::cross(right, *ray)};
+}
+
+// The motion that is distance_m away on the place's ray at that time.
+Possible<RelativeMotion> motion_at_distance(const Values& values, const FlightContext& context, double since_first_s,
+                                            double distance_m) {
+  const Possible<ImageAxes> axes = axes_at(values, context);
+  if (!axes) return tl::unexpected(axes.error());
+  const CosSin direction = cos_sin_of_deg(values.at("direction_deg"));
+  const CosSin approach = cos_sin_of_deg(values.at("approach_angle_deg"));
+  const glm::dvec3 across = direction.cos * axes->right + direction.sin * axes->up;
+  const glm::dvec3 velocity_mps = values.at("relative_speed_mps") * (approach.cos * across - approach.sin * axes->ray);
+  const glm::dvec3 there_m = distance_m * axes->ray;
+  const double length_s = ends_of(context).length_s;
+  return motion_over_time(
+      {rounded(there_m - since_first_s * velocity_mps), rounded(there_m + (length_s - since_first_s) * velocity_mps)},
+      length_s);
+}
+
+std::vector<WaypointSettings> waypoints_of(const RelativeMotion& motion, const FlightContext& context) {
+  const FlightEnds ends = ends_of(context);
+  std::vector<WaypointSettings> waypoints;
+  for (const auto& [frame, since_s] : {std::pair{ends.frames.first, 0.0}, std::pair{ends.frames.last, ends.length_s}})
+    waypoints.push_back(
+        {.frame = frame, .position_m = camera_position_m(context, ends.first_s + since_s) + motion.at(since_s)});
+  return waypoints;
+}
+
+// The distance at which the intruder is as large as asked: a silhouette's size is nearly inverse to the distance, so
+// that few rounds lead to a distance that, rounded to 2^-10 m, stays: every machine finds the same.
+Possible<RelativeMotion> positioned_motion(const Values& values, const FlightContext& context,
+                                           std::map<std::string, double>& derived) {
+  constexpr int kRounds = 8;
+  constexpr double kMaxError = 0.01;  // of the size
+  const std::optional<int> frame = frame_of_position(values, context);
+  if (!frame)
+    return tl::unexpected(fmt::format("time_s: {} s is after the video's last frame, at {} s",
+                                      short_number_text(values.at("time_s")),
+                                      short_number_text(ends_of(context).length_s)));
+  const double since_first_s = time_of_frame_s(context.footage, *frame) - ends_of(context).first_s;
+  double distance_m = 100;
+  double error = 1;
+  Possible<RelativeMotion> motion = tl::unexpected(std::string());
+  for (int round = 0; round <= kRounds; ++round) {
+    motion = motion_at_distance(values, context, since_first_s, distance_m);
+    if (!motion) return motion;
+    const std::optional<double> size_px =
+        context.size_px_on ? context.size_px_on(waypoints_of(*motion, context), *frame) : std::nullopt;
+    if (!size_px || !(*size_px > 0))
+      return tl::unexpected(std::string("size_px: the intruder's model has no image there"));
+    error = *size_px / values.at("size_px") - 1;
+    if (round == kRounds) break;
+    const double next_m = std::clamp(std::round(distance_m * (1 + error) * 1024) / 1024, 0.02, kMaxCoordinate_m / 10);
+    if (std::exchange(distance_m, next_m) == next_m) break;  // so would all further rounds be
+  }
+  if (std::abs(error) > kMaxError)
+    return tl::unexpected(fmt::format("size_px: the intruder cannot be {} px large there; it comes to {} px",
+                                      short_number_text(values.at("size_px")),
+                                      short_number_text(values.at("size_px") * (1 + error))));
+  derived["distance_m"] = distance_m;
+  return motion;
+}
+
 // What determines the intruder's speed.
 std::string ways_out(FlightKind kind, const Values& values) {
+  if (kind == FlightKind::image_position) return "relative_speed_mps, direction_deg or approach_angle_deg";
   if (kind == FlightKind::encounter)
     return values.contains("closing_speed_mps") ? "closing_speed_mps or bearing_deg"
                                                 : "range_m, time_of_closest_approach_s or bearing_deg";
@@ -121,11 +201,13 @@ std::string ways_out(FlightKind kind, const Values& values) {
 
 // The quantities on which the height depends.
 const char* heights_of(FlightKind kind) {
+  if (kind == FlightKind::image_position) return "y_percent, size_px";
   return kind == FlightKind::encounter ? "elevation_deg, miss_angle_deg" : "from_y_percent, to_y_percent";
 }
 
 Possible<RelativeMotion> motion_of(FlightKind kind, const Values& values, const FlightContext& context,
                                    std::map<std::string, double>& derived) {
+  if (kind == FlightKind::image_position) return positioned_motion(values, context, derived);
   if (kind != FlightKind::encounter) return template_motion(kind, values, context);
   const Possible<Encounter> encounter = encounter_of(values, ends_of(context));
   if (!encounter) return tl::unexpected(encounter.error());
@@ -139,6 +221,19 @@ FlightEnds ends_of(const FlightContext& context) {
   const FrameRange frames{context.frames.first, std::max(context.frames.last, context.frames.first + 1)};
   const double first_s = time_of_frame_s(context.footage, frames.first);
   return {frames, first_s, time_of_frame_s(context.footage, frames.last) - first_s};
+}
+
+std::optional<int> frame_of_position(const Values& values, const FlightContext& context) {
+  const FrameRange& frames = context.frames;
+  const std::optional<double> time_s = value_of(values, "time_s");
+  if (!time_s) return frames.first + (frames.last - frames.first) / 2;
+  const double first_s = time_of_frame_s(context.footage, frames.first);
+  int nearest = frames.first;
+  const auto off_s = [&](int frame) { return std::abs(time_of_frame_s(context.footage, frame) - first_s - *time_s); };
+  for (int frame = frames.first; frame <= frames.last; ++frame)
+    if (off_s(frame) < off_s(nearest)) nearest = frame;
+  const double frame_s = ends_of(context).length_s / std::max(1, ends_of(context).frames.last - frames.first);
+  return off_s(nearest) <= frame_s ? std::optional(nearest) : std::nullopt;
 }
 
 glm::dvec3 camera_position_m(const FlightContext& context, double time_s) {
@@ -177,12 +272,10 @@ Possible<PlannedFlight> planned_flight(FlightKind kind, const Values& values, co
   const double speed_mps = glm::length(motion->velocity_mps + camera_velocity_mps(context));
   if (const Possible<void> checked = check_speed(speed_mps, context, ways_out(kind, values)); !checked)
     return tl::unexpected(checked.error());
-  for (const auto& [frame, since_s] : {std::pair{ends.frames.first, 0.0}, std::pair{ends.frames.last, ends.length_s}}) {
-    flight.waypoints.push_back(
-        {.frame = frame, .position_m = camera_position_m(context, ends.first_s + since_s) + motion->at(since_s)});
-    const Possible<void> checked = check_waypoint(flight.waypoints.back(), heights_of(kind));
-    if (!checked) return tl::unexpected(checked.error());
-  }
+  flight.waypoints = waypoints_of(*motion, context);
+  for (const WaypointSettings& waypoint : flight.waypoints)
+    if (const Possible<void> checked = check_waypoint(waypoint, heights_of(kind)); !checked)
+      return tl::unexpected(checked.error());
   flight.derived["speed_mps"] = speed_mps;
   flight.derived["nearest_m"] = min_range_m(*motion, ends.length_s);
   return flight;

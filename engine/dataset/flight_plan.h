@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ struct FlightContext {
   // Of the kinds encounter_model and recorded alone: what they are taken from, and 64 random bits to sample it with.
   const FlightSource* source = nullptr;
   std::uint64_t random_bits = 0;
+  // Of the kind image_position alone: the size in pixels that the intruder has in a frame of the footage on a flight;
+  // none where it has no image or its files cannot be opened.
+  std::function<std::optional<double>(const std::vector<WaypointSettings>& waypoints, int frame)> size_px_on;
 };
 
 struct PlannedFlight {
@@ -58,6 +62,10 @@ struct FlightEnds {
 // The reason why a waypoint cannot be, or nothing: it is underground or farther than 1e8 m from the world's origin.
 //   height  the quantities on which its height depends
 [[nodiscard]] tl::expected<void, std::string> check_waypoint(const WaypointSettings& waypoint, const char* height);
+
+// The frame in which a flight of the kind image_position has its place and size; none: time_s is after the last frame.
+[[nodiscard]] std::optional<int> frame_of_position(const std::map<std::string, double>& values,
+                                                   const FlightContext& context);
 
 // The waypoints of a flight. values: one for each quantity of the kind that is given or has a default. Where there is
 // no such flight: the reason in one line, which names the quantity. Reasons are an encounter that cannot be, a value

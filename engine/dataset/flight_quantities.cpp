@@ -14,9 +14,9 @@ constexpr double kMaxTime_s = 1e6;
 constexpr double kMaxRecordedTime_s = 1e7;
 constexpr double kMaxPlace_percent = 1000;
 
-constexpr std::array<FlightKind, 7> kKinds{FlightKind::left_right,  FlightKind::right_left, FlightKind::approaching,
-                                           FlightKind::moving_away, FlightKind::encounter,  FlightKind::encounter_model,
-                                           FlightKind::recorded};
+constexpr std::array<FlightKind, 8> kKinds{
+    FlightKind::left_right, FlightKind::right_left,      FlightKind::approaching, FlightKind::moving_away,
+    FlightKind::encounter,  FlightKind::encounter_model, FlightKind::recorded,    FlightKind::image_position};
 
 constexpr FlightQuantity place(std::string_view name, double standard, std::string_view help) {
   return {name, -kMaxPlace_percent, kMaxPlace_percent, standard, false, help};
@@ -101,12 +101,26 @@ constexpr std::array kRecorded{
                    "time in the recording, from its first point, of the closest approach; none: sampled evenly"},
     FlightQuantity{"smoothing_s", 0, 120, 2.0, false,
                    "the path is the mean over so many seconds; noise and steps of the recorded heights need more"}};
+constexpr std::array kImagePosition{
+    FlightQuantity{"x_percent", 0, 100, 50.0, false,
+                   "where its reference point is at the time, from the image's left edge (0) to the right (100)"},
+    FlightQuantity{"y_percent", 0, 100, 50.0, false, "the same from the upper edge (0) to the lower (100)"},
+    FlightQuantity{"size_px", 1, 1e5, std::nullopt, true, "longer side of its whole silhouette's box at that time"},
+    FlightQuantity{"time_s", 0, kMaxTime_s, std::nullopt, false,
+                   "the time, after the video's first frame, taken at the nearest frame; none: the middle frame's"},
+    FlightQuantity{"relative_speed_mps", 0, kMaxSpeed_mps, 30.0, false,
+                   "speed of the relative motion: the intruder's velocity less the camera's"},
+    FlightQuantity{"direction_deg", -360, 360, 0.0, false,
+                   "where it moves in the image at that time: 0 right, 90 up, 180 left, -90 down"},
+    FlightQuantity{"approach_angle_deg", -90, 90, 0.0, false,
+                   "of the relative motion: 0 it is nearest at that time, 90 it comes straight to the camera, -90 it "
+                   "leaves straight"}};
 
 }  // namespace
 
 std::string_view name_of(FlightKind kind) {
-  constexpr std::array<std::string_view, 7> kNames{"left_right", "right_left",      "approaching", "moving_away",
-                                                   "encounter",  "encounter_model", "recorded"};
+  constexpr std::array<std::string_view, 8> kNames{"left_right", "right_left",      "approaching", "moving_away",
+                                                   "encounter",  "encounter_model", "recorded",    "image_position"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 
@@ -135,6 +149,8 @@ std::span<const FlightQuantity> quantities_of(FlightKind kind) {
       return kEncounterModel;
     case FlightKind::recorded:
       return kRecorded;
+    case FlightKind::image_position:
+      return kImagePosition;
   }
   return {};
 }

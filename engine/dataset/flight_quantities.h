@@ -9,8 +9,18 @@
 namespace sigs {
 
 // The kind of a flight: one of the four of the paper's Table 1, which are given by places in the image; an encounter
-// (encounter.h); or a flight drawn from an encounter model or recorded, placed as an encounter (track_flight.h).
-enum class FlightKind { left_right, right_left, approaching, moving_away, encounter, encounter_model, recorded };
+// (encounter.h); a flight drawn from an encounter model or recorded, placed as an encounter (track_flight.h); or a
+// straight flight by its place in the image and its size in pixels at one time.
+enum class FlightKind {
+  left_right,
+  right_left,
+  approaching,
+  moving_away,
+  encounter,
+  encounter_model,
+  recorded,
+  image_position
+};
 
 // Names as recipes write them: "left_right".
 [[nodiscard]] std::string_view name_of(FlightKind kind);

@@ -165,6 +165,12 @@ std::optional<Visibility> VideoVisibility::visibility_of(const Project& project,
   return estimated_visibilities(*scene, frames).front();
 }
 
+std::optional<VisibilityEstimate> VideoVisibility::last_intruder_at(const Project& project, int frame) {
+  const std::optional<Scene> scene = scene_of(project);
+  if (!scene) return std::nullopt;
+  return VisibilityEstimator(*scene).at(static_cast<int>(scene->intruders.size()) - 1, frame);
+}
+
 std::optional<FootageShape> VideoVisibility::shape_of_footage(const FootageSettings& footage) {
   const std::string key = footage_key(footage);
   if (const auto known = shapes_.find(key); known != shapes_.end()) return known->second;

@@ -43,6 +43,9 @@ class VideoVisibility {
   // names cannot be opened.
   [[nodiscard]] std::optional<Visibility> visibility_of(const Project& project, int frames);
 
+  // What is known of the project's last intruder in a frame of the footage. None as above.
+  [[nodiscard]] std::optional<VisibilityEstimate> last_intruder_at(const Project& project, int frame);
+
   // The opened project, with models that have bounds and outermost points alone (scene/model.h): enough for estimates.
   // None where the files that it names cannot be opened.
   [[nodiscard]] std::optional<Scene> scene_of(const Project& project);

@@ -106,7 +106,7 @@ class Planner {
 
 tl::expected<PlannedVideo, std::string> Planner::one_sample(const VideoSpec& spec, const OpenedBackground& background,
                                                             int again) {
-  tl::expected<PlannedVideo, std::string> video = sampled_video(recipe_, spec, background, again);
+  tl::expected<PlannedVideo, std::string> video = sampled_video(recipe_, spec, background, again, estimator_);
   if (!video || !recipe_.groups[spec.group].resamples) return video;
   const std::optional<Visibility> view = estimator_.visibility_of(video->project, kVisibilityFrames);
   if (view && view->visible == 0)

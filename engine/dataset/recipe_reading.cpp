@@ -143,6 +143,14 @@ Read uniform_of(const Json& json) {
   return Quantity{.kind = Quantity::Kind::uniform, .low = *low, .high = *high};
 }
 
+tl::expected<Quantity, std::string> log_uniform_of(const Json& json) {
+  tl::expected<Quantity, std::string> quantity = uniform_of(json);
+  if (!quantity) return quantity;
+  if (!(quantity->low > 0)) return tl::unexpected("\"log_uniform\" needs limits above 0, found " + shown(json));
+  quantity->kind = Quantity::Kind::log_uniform;
+  return quantity;
+}
+
 Read choice_of(const Json& json) {
   Quantity quantity{.kind = Quantity::Kind::choice};
   if (json.is_array())
@@ -187,11 +195,14 @@ tl::expected<Quantity, std::string> quantity_of(const Json& json) {
     const std::string& kind = json.begin().key();
     const Json& rest = json.begin().value();
     if (kind == "uniform") return uniform_of(rest);
+    if (kind == "log_uniform") return log_uniform_of(rest);
     if (kind == "normal") return normal_of(rest);
     if (kind == "choice") return choice_of(rest);
   }
-  return tl::unexpected("expected a number up to 1e12, {\"uniform\": [low, high]}, {\"normal\": {...}} or " +
-                        std::string("{\"choice\": [...]}, found ") + shown(json));
+  return tl::unexpected(
+      "expected a number up to 1e12, {\"uniform\": [low, high]}, {\"log_uniform\": [low, high]}, {\"normal\": {...}} "
+      "or " +
+      std::string("{\"choice\": [...]}, found ") + shown(json));
 }
 
 }  // namespace sigs

@@ -51,6 +51,18 @@ double truncated_normal(double low, double high, double share) {
   return inverse_probability(below + (probability_below(to) - below) * share, from, to);
 }
 
+// base^share for a share in [0, 1), by square roots and products, which every machine rounds alike.
+double power_of(double base, double share) {
+  double power = 1;
+  for (double root = std::sqrt(base); share > 0; root = std::sqrt(root)) {
+    share *= 2;
+    if (share < 1) continue;
+    power *= root;
+    share -= 1;
+  }
+  return power;
+}
+
 double sampled_normal(const Quantity& quantity, double share) {
   if (quantity.deviation == 0) return std::clamp(quantity.mean, quantity.low, quantity.high);
   const double z = truncated_normal((quantity.low - quantity.mean) / quantity.deviation,
@@ -75,6 +87,8 @@ double sampled(const Quantity& quantity, const SampleKey& key) {
       return quantity.value;
     case Quantity::Kind::uniform:
       return quantity.low + (quantity.high - quantity.low) * random_share(key);
+    case Quantity::Kind::log_uniform:
+      return std::min(quantity.low * power_of(quantity.high / quantity.low, random_share(key)), quantity.high);
     case Quantity::Kind::normal:
       return sampled_normal(quantity, random_share(key));
     case Quantity::Kind::choice: {
@@ -91,6 +105,7 @@ Span span_of(const Quantity& quantity) {
     case Quantity::Kind::fixed:
       return {quantity.value, quantity.value};
     case Quantity::Kind::uniform:
+    case Quantity::Kind::log_uniform:
     case Quantity::Kind::normal:
       return {quantity.low, quantity.high};
     case Quantity::Kind::choice: {

@@ -10,10 +10,10 @@ namespace sigs {
 
 // A number that is fixed, or sampled for each video. docs/dataset.md shows how recipes write it.
 struct Quantity {
-  enum class Kind { fixed, uniform, normal, choice };
+  enum class Kind { fixed, uniform, log_uniform, normal, choice };
   Kind kind = Kind::fixed;
   double value = 0;                // fixed
-  double low = 0, high = 0;        // uniform: [low, high); normal: bounds of truncation, may be infinite
+  double low = 0, high = 0;        // uniform, log_uniform: [low, high); normal: bounds of truncation, may be infinite
   double mean = 0, deviation = 0;  // normal, before it is truncated to its bounds
   std::vector<double> choices;     // choice: with equal probability
 

@@ -137,35 +137,55 @@ std::string unused_name(const Project& project, const std::string& name) {
   return same == 0 ? name : fmt::format("{} {}", name, same + 1);
 }
 
+// Where the intruder that was placed in the image is hidden there: the reason.
+tl::expected<void, std::string> check_is_seen(const Project& project, int frame, VideoVisibility& estimator) {
+  const std::optional<VisibilityEstimate> seen = estimator.last_intruder_at(project, frame);
+  if (!seen || seen->visibility_state == VisibilityState::in_view ||
+      seen->visibility_state == VisibilityState::partly_occluded)
+    return {};
+  return tl::unexpected(std::string(seen->visibility_state == VisibilityState::occluded
+                                        ? "x_percent, y_percent: the own body hides all of the intruder there"
+                                        : "x_percent, y_percent: the intruder is beside the image then"));
+}
+
 // Adds a body to the project, or says why it cannot fly so.
 tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& recipe, FlightContext context,
-                                          const Sampler& sampler, PlannedVideo& video) {
+                                          const Sampler& sampler, VideoVisibility& estimator, PlannedVideo& video) {
   std::map<std::string, double> values = values_of(flyer.flight, sampler, flyer.prefix);
-  context.speed_limits_mps = flyer.aircraft.speed_limits_mps;
-  context.source = &flyer.flight.source;
-  context.random_bits = sampler.bits(flyer.prefix + "flight_source");
-  tl::expected<PlannedFlight, std::string> planned = planned_flight(flyer.flight.kind, values, context);
-  if (!planned) return tl::unexpected(planned.error());
-  values.merge(planned->derived);
-  for (const auto& [name, value] : values) video.sampled[flyer.prefix + name] = value;
   IntruderSettings intruder = recipe.base.intruders.front();
   intruder.name = unused_name(video.project, flyer.aircraft.name);
   intruder.category = flyer.aircraft.category;
   intruder.role = flyer.aircraft.is_distractor ? RoleChoice::distractor : RoleChoice::intruder;
   intruder.model = flyer.aircraft.model;
   sample_model(flyer, sampler, video, intruder.model);
+  context.speed_limits_mps = flyer.aircraft.speed_limits_mps;
+  context.source = &flyer.flight.source;
+  context.random_bits = sampler.bits(flyer.prefix + "flight_source");
+  context.size_px_on = [&](const std::vector<WaypointSettings>& waypoints, int frame) -> std::optional<double> {
+    Project alone = video.project;
+    alone.intruders = {intruder};
+    alone.intruders.front().trajectory.waypoints = waypoints;
+    const std::optional<VisibilityEstimate> seen = estimator.last_intruder_at(alone, frame);
+    return seen ? std::optional(seen->size_px) : std::nullopt;
+  };
+  tl::expected<PlannedFlight, std::string> planned = planned_flight(flyer.flight.kind, values, context);
+  if (!planned) return tl::unexpected(planned.error());
+  const std::optional<int> frame =
+      flyer.flight.kind == FlightKind::image_position ? frame_of_position(values, context) : std::nullopt;
+  values.merge(planned->derived);
+  for (const auto& [name, value] : values) video.sampled[flyer.prefix + name] = value;
   if (planned->waypoints.size() > 2) {  // a drawn or recorded flight passes its waypoints
     intruder.trajectory.spline = SplineChoice::interpolating;
     intruder.trajectory.timing = TimingChoice::frames;
   }
   intruder.trajectory.waypoints = std::move(planned->waypoints);
   video.project.intruders.push_back(std::move(intruder));
-  return {};
+  return frame ? check_is_seen(video.project, *frame, estimator) : tl::expected<void, std::string>{};
 }
 
 // What else flies. Keys of random numbers are those of the names in `drawn`, "other3.bearing_deg".
 tl::expected<void, std::string> add_others(const Recipe& recipe, const VideoGroup& group, const FlightContext& context,
-                                           const Sampler& sampler, PlannedVideo& video) {
+                                           const Sampler& sampler, VideoVisibility& estimator, PlannedVideo& video) {
   int number = 0;
   for (std::size_t i = 0; i < group.others.size(); ++i) {
     const OthersPlan& others = group.others[i];
@@ -177,7 +197,7 @@ tl::expected<void, std::string> add_others(const Recipe& recipe, const VideoGrou
       const Flyer flyer{.aircraft = recipe.aircraft[index_of(recipe.aircraft, name)],
                         .flight = others.flights[sampler.pick(others.flights.size(), prefix + "flight")],
                         .prefix = prefix};
-      if (const auto added = add_flyer(flyer, recipe, context, sampler, video); !added)
+      if (const auto added = add_flyer(flyer, recipe, context, sampler, estimator, video); !added)
         return tl::unexpected(fmt::format("others[{}].{}", i, added.error()));
     }
   }
@@ -212,7 +232,8 @@ VideoSpec sampled_spec(const Recipe& recipe, VideoSpec spec, int again) {
 }
 
 tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, const VideoSpec& spec,
-                                                      const OpenedBackground& background, int again) {
+                                                      const OpenedBackground& background, int again,
+                                                      VideoVisibility& estimator) {
   const VideoGroup& group = recipe.groups[spec.group];
   const Sampler sampler(recipe.seed, spec.name, again);
   const tl::expected<FrameRange, std::string> frames = frames_of(group, sampler, background.frames);
@@ -225,8 +246,8 @@ tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, cons
                               .footage = background.footage,
                               .frames = *frames};
   const Flyer first{.aircraft = recipe.aircraft[spec.aircraft], .flight = group.flights[spec.flight]};
-  tl::expected<void, std::string> step = add_flyer(first, recipe, context, sampler, video);
-  if (step) step = add_others(recipe, group, context, sampler, video);
+  tl::expected<void, std::string> step = add_flyer(first, recipe, context, sampler, estimator, video);
+  if (step) step = add_others(recipe, group, context, sampler, estimator, video);
   if (!step) return tl::unexpected(step.error());
   if (group.first_frame.kind != Quantity::Kind::fixed)
     video.sampled["first_frame"] = frames->first - background.frames.first;

@@ -35,8 +35,9 @@ struct VideoSpec {
 [[nodiscard]] VideoSpec sampled_spec(const Recipe& recipe, VideoSpec spec, int again);
 
 // The video with all its quantities sampled, or the reason why there is no such video: one line that begins with the
-// name of the quantity.
+// name of the quantity. estimator: measures the silhouettes of intruders that are placed by their size.
 [[nodiscard]] tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, const VideoSpec& spec,
-                                                                    const OpenedBackground& background, int again);
+                                                                    const OpenedBackground& background, int again,
+                                                                    VideoVisibility& estimator);
 
 }  // namespace sigs

@@ -8,6 +8,8 @@
 #include <regex>
 
 #include "base/staged_outputs.h"
+#include "dataset/footage_cache.h"
+#include "dataset/recipe_folder.h"
 #include "dataset/tiny_plan.h"
 #include "support/files.h"
 #include "support/test_data.h"
@@ -65,7 +67,51 @@ TEST_CASE("what a made dataset covers is what its labels say line by line, and w
   CHECK(predicted->frames == 24);
   CHECK(predicted->intruders.range == counted->intruders.range);
   CHECK(predicted->intruders.bearing == counted->intruders.bearing);
+  CHECK(predicted->intruders.cell == counted->intruders.cell);
+  CHECK(sum_of_counts(counted->intruders.cell) == boxes);
   CHECK(predicted->intruders.horizon == counted->intruders.horizon);
+}
+
+TEST_CASE("intruders placed by image position and size fill all nine cells and all sizes alike, as planned") {
+  nlohmann::ordered_json recipe = RecipeFolder::recipe();
+  recipe["videos"] = nlohmann::ordered_json::array();
+  recipe["videos"].push_back({{"videos", 180},
+                              {"frames", 1},
+                              {"flights",
+                               {{{"kind", "image_position"},
+                                 {"x_percent", {{"uniform", {0, 100}}}},
+                                 {"y_percent", {{"uniform", {0, 100}}}},
+                                 {"size_px", {{"log_uniform", {8, 128}}}},
+                                 {"direction_deg", {{"uniform", {0, 360}}}}}}}});
+  recipe["backgrounds"][0]["camera"]["position_m"] = {0, 0, -3000};
+  const Plan plan = RecipeFolder().plan(recipe);
+  REQUIRE(plan.videos.size() == 180);
+  std::vector<const PlannedVideo*> videos;
+  for (const PlannedVideo& video : plan.videos) videos.push_back(&video);
+  const Result<Coverage> coverage = predicted_coverage(videos);
+  REQUIRE(coverage);
+  CHECK(coverage->intruders.sights == 180);
+  for (const long long count : coverage->intruders.cell) CHECK(std::abs(double(count) - 20) < 17);  // four deviations
+  for (std::size_t bin = 2; bin < 6; ++bin)  // 8 to 16, ... 64 to 128
+    CHECK(std::abs(double(coverage->intruders.size[bin]) - 45) < 24);
+  // Each by the scene, as an export renders it.
+  VideoVisibility opener;
+  for (const PlannedVideo& video : plan.videos) {
+    const std::optional<VisibilityEstimate> seen =
+        opener.last_intruder_at(video.project, *video.project.footage.last_frame);
+    REQUIRE(seen);
+    CHECK(seen->size_px == doctest::Approx(video.sampled.at("size_px")).epsilon(0.01));
+  }
+}
+
+TEST_CASE("the cell of a box is the third of the image with its middle; outside, the nearest") {
+  const cv::Size image(300, 90);
+  CHECK(kCellNames[static_cast<std::size_t>(cell_of(150, 45, image))] == std::string("centre"));
+  CHECK(cell_of(99, 0, image) == 0);
+  CHECK(cell_of(100, 29, image) == 1);
+  CHECK(cell_of(1000, -20, image) == 2);
+  CHECK(cell_of(-9, 30, image) == 3);
+  CHECK(cell_of(299, 89, image) == 8);
 }
 
 TEST_CASE("a video whose model cannot be read is left out of the prediction, and the table says so") {

@@ -40,7 +40,7 @@ Plan plan_of_example(std::size_t n) {
   std::filesystem::create_symlink(assets / "footage/sample_own_body.png", folder / "own_body.png");
   std::filesystem::create_symlink(assets / "models/airliner/airliner.obj", folder / "airliner.obj");
   const std::vector<std::string> examples = blocks(page("dataset.md"), "json");
-  REQUIRE(examples.size() == 2);
+  REQUIRE(examples.size() == 3);
   const Result<ReadRecipe> read = parse_recipe(examples.at(n), folder / "recipe.json");
   REQUIRE_MESSAGE(read, read.error().text());
   CHECK(read->warnings.empty());
@@ -54,7 +54,7 @@ Plan plan_of_example(std::size_t n) {
 
 TEST_CASE("the dataset's page has the quantities of the flights as the program has them") {
   for (const FlightKind kind : {FlightKind::left_right, FlightKind::approaching, FlightKind::encounter,
-                                FlightKind::encounter_model, FlightKind::recorded}) {
+                                FlightKind::encounter_model, FlightKind::recorded, FlightKind::image_position}) {
     CAPTURE(name_of(kind));
     CHECK(table_rows(page("dataset.md"), "| " + std::string(name_of(kind)) + " | range | default | meaning |") ==
           rows_in_code(kind));
@@ -74,6 +74,10 @@ TEST_CASE("the flights that the dataset's page calls alike differ only as it sta
 
 TEST_CASE("the recipe on the dataset's page makes its videos") {
   CHECK(plan_of_example(0).videos.size() == 48);
+}
+
+TEST_CASE("the recipe of balanced places and sizes on the dataset's page makes all its videos") {
+  CHECK(plan_of_example(2).videos.size() == 60);
 }
 
 TEST_CASE("the recipe of random encounters on the dataset's page makes all its videos") {

@@ -143,6 +143,8 @@ TEST_CASE("invalid quantities are errors with their key") {
   const nlohmann::ordered_json half_normal{{"normal", {{"mean", 5}}}};
   const nlohmann::ordered_json far_off{{"normal", {{"mean", 0}, {"deviation", 1}, {"low", 9}}}};
   const nlohmann::ordered_json misspelt{{"normal", {{"mean", 5}, {"deviation", 2}, {"lo", 1}}}};
+  CHECK(quantity_with({{"log_uniform", {1, 2}}}) == Quantity{.kind = Quantity::Kind::log_uniform, .low = 1, .high = 2});
+  CHECK(quantity_error({{"log_uniform", {0, 2}}}).find("above 0") != std::string::npos);
   CHECK(quantity_error({{"uniform", {2, 1}}}) ==
         key + "expected {\"uniform\": [low, high]} with low <= high, found [2,1]");
   CHECK(quantity_error({{"choice", nlohmann::ordered_json::array()}}) ==
@@ -211,7 +213,7 @@ TEST_CASE("errors of a recipe are reported with their key") {
        "videos[0].flights: expected a list of at least one flight"},
       {"/videos/0/flights/0", "loop",
        "videos[0].flights[0].kind: is \"loop\"; there are left_right, right_left, approaching, moving_away, encounter, "
-       "encounter_model, recorded"},
+       "encounter_model, recorded, image_position"},
       {"/videos/0/flights/0", far,
        "videos[0].flights[0].miss_distance_m: is missing: distance at the closest point of approach"},
       {"/videos/0/flights/0", timeless, "videos[0].flights[0].closing_speed_mps: is missing; give it or range_m"},

@@ -145,6 +145,19 @@ TEST_CASE("every seed, also 0, gives its own sequence") {
   CHECK(bits.size() == 5 * 4 * 4);
 }
 
+TEST_CASE("log-uniform samples put as many values between 4 and 8 as between 64 and 128") {
+  const Quantity quantity{.kind = Quantity::Kind::log_uniform, .low = 4, .high = 128};
+  std::vector<int> octaves(5);
+  for (int i = 0; i < 5000; ++i) {
+    const std::string video = std::to_string(i);
+    const double value = sampled(quantity, {7, video, "size_px"});
+    // The C library's power gives the same number by another method; both round some fifty products.
+    CHECK(value == doctest::Approx(4 * std::pow(32, random_share({7, video, "size_px"}))).epsilon(1e-13));
+    ++octaves.at(static_cast<std::size_t>(std::log2(value / 4)));
+  }
+  for (const int count : octaves) CHECK(std::abs(count - 1000) < 150);  // five standard deviations of 28
+}
+
 TEST_CASE("a fixed quantity is its value, whatever the seed") {
   const Quantity fixed{.value = 12.5};
   CHECK(sampled(fixed, {0, "a", "q"}) == 12.5);

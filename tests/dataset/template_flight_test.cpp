@@ -129,6 +129,64 @@ TEST_CASE("on a constant bearing an approaching intruder keeps its place in the 
   });
 }
 
+TEST_CASE(
+    "an intruder is at the place in the image, and as large, as asked at the stated frame, with any lens and camera") {
+  for_all_stages([](FlightContext context) {
+    // A ball of 12 m, whose size is its angle times the image's scale there: another map than that of the search.
+    const auto size_px = [&](const glm::dvec3& from_camera_m) {
+      return 12 / glm::length(from_camera_m) * context.lens.lens.pixels_per_radian(in_camera(context, from_camera_m));
+    };
+    const auto from_camera_m = [&](const std::vector<WaypointSettings>& waypoints, int frame) {
+      const PlannedFlight flight{.waypoints = waypoints};
+      return relative_position_m(context, trajectory_of(context, flight), time_of_frame_s(context.footage, frame));
+    };
+    context.size_px_on = [&](const std::vector<WaypointSettings>& waypoints, int frame) {
+      return std::optional(size_px(from_camera_m(waypoints, frame)));
+    };
+    for (const double approach_deg : {0.0, 90.0}) {
+      const PlannedFlight flight = planned(FlightKind::image_position,
+                                           {{"x_percent", 40},
+                                            {"y_percent", 45},
+                                            {"size_px", 20},
+                                            {"time_s", 1},
+                                            {"direction_deg", 90},
+                                            {"relative_speed_mps", 2},
+                                            {"approach_angle_deg", approach_deg}},
+                                           context);
+      const std::vector<ViewedFrame> frames = viewed_frames(context, flight);
+      const ViewedFrame& there = frames.at(25);  // 25 frames a second
+      CHECK(glm::distance(there.place_percent, {40, 45}) < rounding_percent(context, there.from_camera_m));
+      CHECK(size_px(there.from_camera_m) == doctest::Approx(20).epsilon(0.005));
+      for (const ViewedFrame& frame : frames)
+        if (approach_deg == 0)
+          CHECK(glm::length(frame.from_camera_m) > glm::length(there.from_camera_m) - 0.01);
+        else
+          CHECK(glm::distance(frame.place_percent, {40, 45}) < 2 * rounding_percent(context, frame.from_camera_m));
+      if (approach_deg > 0) CHECK(glm::length(frames.front().from_camera_m) > glm::length(there.from_camera_m) + 1);
+      if (approach_deg == 0) {
+        CHECK(frames.at(26).place_percent.y < there.place_percent.y);
+        CHECK(frames.at(26).place_percent.x == doctest::Approx(there.place_percent.x).epsilon(0.001));
+      }
+    }
+  });
+}
+
+TEST_CASE("a place without a ray, a time after the video and a size that no distance gives are refused by name") {
+  const FootageShape footage = footage_of(80);
+  const NamedLens lens = example_lenses().front();
+  FlightContext context{.camera = {.speed_mps = 22}, .lens = lens.camera, .footage = footage, .frames = {0, 50}};
+  double pixels = 0;
+  context.size_px_on = [&](const std::vector<WaypointSettings>&, int) { return std::optional(pixels); };
+  const auto why = [&](const std::map<std::string, double>& given) {
+    return planned_flight(FlightKind::image_position, values_with(FlightKind::image_position, given), context).error();
+  };
+  CHECK(why({{"size_px", 20}}).starts_with("size_px: the intruder's model has no image"));
+  pixels = 7;
+  CHECK(why({{"size_px", 20}}).starts_with("size_px: the intruder cannot be 20 px large there; it comes to 7 px"));
+  CHECK(why({{"size_px", 20}, {"time_s", 5}}).starts_with("time_s: 5 s is after the video's last frame, at 2 s"));
+  CHECK(why({{"size_px", 20}, {"x_percent", 101}}).starts_with("x_percent: is 101"));
+}
+
 TEST_CASE("with the standard quantities an intruder is in the image in every frame") {
   for_all_stages([](const FlightContext& context) {
     for (const FlightKind kind :
