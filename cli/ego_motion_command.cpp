@@ -43,6 +43,7 @@ struct EgoMotionOptions {
   fs::path calibration;
   fs::path mask;       // empty: none
   fs::path telemetry;  // likewise
+  SequenceTiming timing;
   fs::path csv;
   fs::path plot;  // empty: none
   fs::path into;  // the project to follow the attitudes; empty: none
@@ -75,7 +76,8 @@ Result<void> check_names(const EgoMotionOptions& options) {
   if (!options.plot.empty() && canonical_name(options.csv) == canonical_name(options.plot))
     return fail("--plot " + options.plot.string(), "is where --out goes", ErrorKind::usage);
   std::vector<fs::path> inputs;
-  for (const fs::path& one : {options.video, options.calibration, options.mask, options.telemetry, options.into})
+  for (const fs::path& one :
+       {options.video, options.calibration, options.mask, options.telemetry, options.timing.times_file, options.into})
     if (!one.empty()) inputs.push_back(one);
   for (const auto& [option, path] : {std::pair("--out ", options.csv), std::pair("--plot ", options.plot)}) {
     if (path.empty()) continue;
@@ -98,7 +100,8 @@ struct Estimated {
 };
 
 Result<Estimated> estimated(const EgoMotionOptions& options, const EgoMotionControl& control) {
-  Result<FrameSource> footage = FrameSource::open(options.video, &interrupt_flag());
+  Result<FrameSource> footage =
+      FrameSource::open(options.video, &interrupt_flag(), Quantisers::leave_out, options.timing);
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
   const Result<Camera> camera = read_calibration(options.calibration, footage->info().size_px);
@@ -228,6 +231,10 @@ Command add_ego_motion_command(CLI::App& program) {
   add_input("--calibration", options->calibration, "the camera's calibration");
   add_input("--mask", options->mask, "the own body's mask: 8-bit grey, white where the own body is");
   add_input("--telemetry", options->telemetry, "a log with the camera's rates, or the video that has it");
+  command->add_option("--frame-rate", options->timing.frame_rate_hz, "frames a second of images, which do not state it")
+      ->option_text("HZ")
+      ->check(from_to(0.001, 1e6));
+  add_input("--timestamps", options->timing.times_file, "of images: a file with the time of each");
   command->add_option("--readout-ms", options->readout_ms, "rolling shutter, first row to last; milliseconds")
       ->option_text("MS")
       ->check(from_to(0, 1000));

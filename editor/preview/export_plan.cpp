@@ -31,29 +31,6 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// As docs/command-line.md says: auto is mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for raw; png, tiff
-// and jpeg give a folder of images.
-std::string ending_of(const ExportSettings& output) {
-  if (writes_images(output.codec)) return "";
-  switch (output.container) {
-    case ContainerChoice::mkv:
-      return ".mkv";
-    case ContainerChoice::mp4:
-      return ".mp4";
-    case ContainerChoice::avi:
-      return ".avi";
-    case ContainerChoice::nut:
-      return ".nut";
-    case ContainerChoice::y4m:
-      return ".y4m";
-    case ContainerChoice::automatic:
-      break;
-  }
-  if (max_crf(video_codec_of(output.codec)) > 0) return ".mp4";
-  if (output.codec == CodecChoice::raw) return ".nut";
-  return output.codec == CodecChoice::mjpeg ? ".avi" : ".mkv";
-}
-
 }  // namespace
 
 fs::path usual_export_folder(const Project& project) {
@@ -62,9 +39,11 @@ fs::path usual_export_folder(const Project& project) {
   return home != nullptr && *home != '\0' ? fs::path(home) / "out" : fs::absolute("out");
 }
 
-std::vector<fs::path> outputs_of(const Project& project, const fs::path& folder) {
+std::vector<fs::path> outputs_of(const Project& project, const VideoInfo& footage, const fs::path& folder) {
   const ExportSettings& output = project.output;
-  std::vector<fs::path> paths{folder / (project.name + ending_of(output))};
+  std::string video = project.name;
+  if (!writes_images(output.codec)) video += std::string(".") + extension_of(container_of(output, footage));
+  std::vector<fs::path> paths{folder / video};
   if (output.masks == MasksChoice::video) paths.push_back(folder / (project.name + ".masks.mkv"));
   if (output.masks == MasksChoice::png) paths.push_back(folder / (project.name + ".masks"));
   for (const std::string& label : output.labels)
@@ -74,8 +53,8 @@ std::vector<fs::path> outputs_of(const Project& project, const fs::path& folder)
   return paths;
 }
 
-std::vector<fs::path> outputs_there(const Project& project, const fs::path& folder) {
-  std::vector<fs::path> paths = outputs_of(project, folder);
+std::vector<fs::path> outputs_there(const Project& project, const VideoInfo& footage, const fs::path& folder) {
+  std::vector<fs::path> paths = outputs_of(project, footage, folder);
   std::erase_if(paths, [](const fs::path& path) {
     std::error_code code;
     return !fs::exists(path, code);

@@ -13,12 +13,12 @@ namespace sigs::editor {
 // Where an export goes unless the person says otherwise: "out" beside the project file, else in the home folder.
 [[nodiscard]] std::filesystem::path usual_export_folder(const Project& project);
 
-// What an export will be called: videos and annotations, or folders of numbered images.
-[[nodiscard]] std::vector<std::filesystem::path> outputs_of(const Project& project,
+// What an export will be called: videos and annotations, or folders of numbered images. footage: the project's.
+[[nodiscard]] std::vector<std::filesystem::path> outputs_of(const Project& project, const VideoInfo& footage,
                                                             const std::filesystem::path& folder);
 
 // Those that are there: they would be overwritten.
-[[nodiscard]] std::vector<std::filesystem::path> outputs_there(const Project& project,
+[[nodiscard]] std::vector<std::filesystem::path> outputs_there(const Project& project, const VideoInfo& footage,
                                                                const std::filesystem::path& folder);
 
 // What `--set` needs to make one project of the other: "export.video.codec=h264". None where that cannot be said in a

@@ -190,7 +190,9 @@ void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
   context.ui_probe.note_item("export/go");
   if (!clicked) return;
   ExportRequest request = request_of(context);
-  const std::vector<fs::path> there = outputs_there(request.project, request.folder);
+  const bool is_open = context.shown.scene && context.shown.scene->footage->video;
+  const VideoInfo footage = is_open ? *context.shown.scene->footage->video : VideoInfo{};
+  const std::vector<fs::path> there = outputs_there(request.project, footage, request.folder);
   // What was agreed to be replaced is what was shown.
   if (!there.empty() && there != there_) {
     there_ = there;

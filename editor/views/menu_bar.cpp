@@ -115,23 +115,18 @@ class RightSide {
 
   void show_export(const ExportState& state) {
     if (!state.is_running()) return;
-    const std::string text = short_progress_text(state);
-    const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(20);
-    if (!take(width)) return;
-    const ImVec2 place = ImGui::GetCursorScreenPos();
-    const float height = ImGui::GetFrameHeight();
-    if (ImGui::InvisibleButton("export progress", {width, height})) context_.edits.ask(ShowExport{});
-    context_.ui_probe.note_item("menu/export progress");
-    tooltip_for_item("Show the export");
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float inset = scaled(3);
-    const ImVec2 low{place.x, place.y + inset};
     const double share = state.total > 0 ? double(state.done) / state.total : 0;
-    list.AddRectFilled(low, {low.x + width, place.y + height - inset}, IM_COL32(255, 255, 255, 22), scaled(4));
-    list.AddRectFilled(low, {low.x + static_cast<float>(width * share), place.y + height - inset}, color::kAccentSoft,
-                       scaled(4));
-    list.AddText({place.x + scaled(10), place.y + (height - ImGui::GetTextLineHeight()) / 2}, color::kText,
-                 text.c_str());
+    if (show_progress("export progress", short_progress_text(state), share, "Show the export"))
+      context_.edits.ask(ShowExport{});
+  }
+
+  // Of an estimate in the background, wherever its panel is.
+  template <class State>
+  void show_estimate(const char* id, const std::string& what, const State* state) {
+    if (state == nullptr || !state->is_running()) return;
+    const double share = state->total > 0 ? double(state->done) / state->total : 0;
+    const std::string text = state->is_stopping ? what + ", stopping" : fmt::format("{} {:.0f} %", what, 100 * share);
+    (void)show_progress(id, text, share, "Goes on in the background; the menu Edit stops it");
   }
 
   void show_problems(const std::vector<Problem>& problems) {
@@ -171,6 +166,26 @@ class RightSide {
   }
 
  private:
+  // A bar behind a text; true when it is clicked.
+  bool show_progress(const char* id, const std::string& text, double share, const char* tooltip) {
+    const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(20);
+    if (!take(width)) return false;
+    const ImVec2 place = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetFrameHeight();
+    const bool is_clicked = ImGui::InvisibleButton(id, {width, height});
+    context_.ui_probe.note_item(std::string("menu/") + id);
+    tooltip_for_item(tooltip);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float inset = scaled(3);
+    const ImVec2 low{place.x, place.y + inset};
+    list.AddRectFilled(low, {low.x + width, place.y + height - inset}, IM_COL32(255, 255, 255, 22), scaled(4));
+    list.AddRectFilled(low, {low.x + static_cast<float>(width * share), place.y + height - inset}, color::kAccentSoft,
+                       scaled(4));
+    list.AddText({place.x + scaled(10), place.y + (height - ImGui::GetTextLineHeight()) / 2}, color::kText,
+                 text.c_str());
+    return is_clicked;
+  }
+
   bool take(float width) {
     if (right_ - width < left_) return false;
     right_ -= width;
@@ -205,6 +220,8 @@ void draw_menu_bar(const ViewContext& context, const MenuBarContent& content, Se
   draw_help_menu(context);
   RightSide right(context);
   right.show_export(content.exporting);
+  right.show_estimate("camera motion progress", "Camera motion", context.ego_motion);
+  right.show_estimate("matching progress", "Matching the footage", context.appearance);
   if (content.has_project) {
     if (context.shown.scene) right.show_problems(context.shown.scene->draft.problems);
     right.show_name();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "base/pose.h"
 
-#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sigs {
 
@@ -16,10 +16,14 @@ glm::dquat rotation_of(const Attitude& attitude) {
 Attitude attitude_of(const glm::dquat& rotation) {
   const glm::dmat3 m = glm::mat3_cast(rotation);  // m[column][row]
   const glm::dvec3 nose = m[0];
-  const double pitch_rad = std::asin(std::clamp(-nose.z, -1.0, 1.0));
   const double level = std::hypot(nose.x, nose.y);
-  if (level < 1e-9) return {0, pitch_rad, std::atan2(-m[1].x, m[1].y)};
-  return {std::atan2(m[1].z, m[2].z), pitch_rad, std::atan2(nose.y, nose.x)};
+  const double pitch_rad = std::atan2(-nose.z, level);
+  if (level < 1e-12) return {0, pitch_rad, std::atan2(-m[1].x, m[1].y)};
+  // The roll is what yaw and pitch leave, so that near the vertical, where rounding turns the yaw, the product of the
+  // three stays the rotation.
+  const double yaw_rad = std::atan2(nose.y, nose.x);
+  const glm::dquat rest = glm::conjugate(rotation_of({0, pitch_rad, yaw_rad})) * rotation;
+  return {std::remainder(2 * std::atan2(rest.x, rest.w), 2 * std::numbers::pi), pitch_rad, yaw_rad};
 }
 
 }  // namespace sigs

@@ -56,35 +56,6 @@ Result<void> check_label_folder(const fs::path& folder, const LabelFormat& forma
 
 namespace {
 
-Container container_of(const ExportSettings& output) {
-  switch (output.container) {
-    case ContainerChoice::mkv:
-      return Container::mkv;
-    case ContainerChoice::mp4:
-      return Container::mp4;
-    case ContainerChoice::avi:
-      return Container::avi;
-    case ContainerChoice::nut:
-      return Container::nut;
-    case ContainerChoice::y4m:
-      return Container::y4m;
-    case ContainerChoice::automatic:
-      break;
-  }
-  switch (output.codec) {
-    case CodecChoice::h264:
-    case CodecChoice::hevc:
-    case CodecChoice::av1:
-      return Container::mp4;
-    case CodecChoice::mjpeg:
-      return Container::avi;
-    case CodecChoice::raw:
-      return Container::nut;
-    default:
-      return Container::mkv;
-  }
-}
-
 // The bytes do not depend on it.
 int encoder_threads() {
   return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 8U));
@@ -92,7 +63,7 @@ int encoder_threads() {
 
 VideoFormat video_format(const ExportSettings& output, const VideoInfo& footage, int threads) {
   return {.codec = video_codec_of(output.codec),
-          .container = container_of(output),
+          .container = container_of(output, footage),
           .jpeg_quality = output.jpeg_quality,
           .crf = output.crf,
           .threads = threads,
@@ -228,22 +199,6 @@ Result<void> ExportFiles::write_encounters(const fs::path& path, const Project& 
   encounters_ = *std::move(encounters);
   const Result<fs::path> staged = outputs_.add_file(path);
   return staged ? encounters_->write_json(*staged) : fail(staged.error());
-}
-
-Result<void> check_output(const Project& project, const VideoInfo& footage) {
-  if (project.output.container == ContainerChoice::y4m && footage.layout == PixelLayout::rgb)
-    return fail(project.file.string() + ": export.video.container",
-                "y4m has no place for RGB, which the footage is; use nut", ErrorKind::bad_project);
-  const cv::Size size = footage.size_px;
-  const bool odd = size.width % 2 != 0 || size.height % 2 != 0;
-  const bool shares_chroma = footage.layout != PixelLayout::yuv444 && footage.layout != PixelLayout::rgb;
-  const VideoCodec codec = video_codec_of(project.output.codec);
-  if ((codec == VideoCodec::h264 || codec == VideoCodec::hevc) && odd && shares_chroma)
-    return fail(project.file.string() + ": export.video.codec",
-                fmt::format("{} needs an even width and height, the footage is {}; use ffv1, av1, mjpeg or png",
-                            name_of(codec), image_size_text(size)),
-                ErrorKind::bad_project);
-  return {};
 }
 
 Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,

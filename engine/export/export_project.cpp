@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "export/export_files.h"
 #include "export/frame_pipeline.h"
@@ -105,13 +107,14 @@ void warn_of_missing_images(const ExportSettings& output, const ExportControl& c
                          names)});
 }
 
-void warn_of_even_times(const Project& project, const VideoInfo& footage, const ExportControl& control,
-                        ExportReport& report) {
-  if (project.output.container == ContainerChoice::y4m && footage.variable_frame_rate)
+void warn_of_other_container(const Project& project, const VideoInfo& footage, const ExportControl& control,
+                             ExportReport& report) {
+  const ExportSettings& output = project.output;
+  if (output.codec != CodecChoice::mjpeg || output.container != ContainerChoice::automatic) return;
+  if (container_of(output, footage) == Container::mkv)
     say(control, report,
         {project.file.string() + ": export.video.container",
-         "y4m has no times, and the footage's frames are not evenly spaced: readers see them at the nominal rate; the "
-         "container nut keeps the times"});
+         "mkv is written, not avi, which has no times: the footage's frames are not evenly spaced"});
 }
 
 Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
@@ -128,7 +131,7 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
   ExportReport report;
   report.visibilities.assign(scene.intruders.size(), {.frames = range->last - range->first + 1});
   for (const Warning& warning : opened->warnings) say(control, report, warning);
-  warn_of_even_times(project, video, control, report);
+  warn_of_other_container(project, video, control, report);
   Result<ExportFiles> files = ExportFiles::open(request, video, scene, *range, control.cancel);
   if (!files) return fail(files.error());
   {
@@ -157,6 +160,75 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
   if (!report && report.error().kind == ErrorKind::interrupted && request.video_descriptor >= 0)
     return fail("", "interrupted; the stream ends early", ErrorKind::interrupted);
   return report;
+}
+
+namespace {
+
+// Whether a reader that knows the nominal rate alone shows each frame at its time, to 1 ms: the tick of Matroska, whose
+// times of a constant rate are as uneven as that.
+bool has_even_times(const VideoInfo& footage) {
+  constexpr double kTick_s = 1e-3 + 1e-9;
+  const double interval_s = double(footage.frame_rate_den) / footage.frame_rate_num;
+  for (std::size_t n = 0; n < footage.times_s.size(); ++n)
+    if (std::abs(footage.times_s[n] - static_cast<double>(n) * interval_s) > kTick_s) return false;
+  return true;
+}
+
+}  // namespace
+
+Container container_of(const ExportSettings& output, const VideoInfo& footage) {
+  switch (output.container) {
+    case ContainerChoice::mkv:
+      return Container::mkv;
+    case ContainerChoice::mp4:
+      return Container::mp4;
+    case ContainerChoice::avi:
+      return Container::avi;
+    case ContainerChoice::nut:
+      return Container::nut;
+    case ContainerChoice::y4m:
+      return Container::y4m;
+    case ContainerChoice::automatic:
+      break;
+  }
+  switch (output.codec) {
+    case CodecChoice::h264:
+    case CodecChoice::hevc:
+    case CodecChoice::av1:
+      return Container::mp4;
+    case CodecChoice::mjpeg:
+      return has_even_times(footage) ? Container::avi : Container::mkv;
+    case CodecChoice::raw:
+      return Container::nut;
+    default:
+      return Container::mkv;
+  }
+}
+
+Result<void> check_output(const Project& project, const VideoInfo& footage) {
+  if (project.output.container == ContainerChoice::y4m && footage.layout == PixelLayout::rgb)
+    return fail(project.file.string() + ": export.video.container",
+                "y4m has no place for RGB, which the footage is; use nut", ErrorKind::bad_project);
+  const Container container = container_of(project.output, footage);
+  const bool has_times = container != Container::avi && container != Container::y4m;
+  if (!has_times && !writes_images(project.output.codec) && !has_even_times(footage))
+    return fail(
+        project.file.string() + ": export.video.container",
+        fmt::format("{} has no times, and the footage's frames are not evenly spaced: they would be shown at a "
+                    "constant {} Hz; use {}",
+                    extension_of(container), short_number_text(double(footage.frame_rate_num) / footage.frame_rate_den),
+                    container == Container::avi ? "mkv or mp4" : "nut"),
+        ErrorKind::bad_project);
+  const cv::Size size = footage.size_px;
+  const bool odd = size.width % 2 != 0 || size.height % 2 != 0;
+  const bool shares_chroma = footage.layout != PixelLayout::yuv444 && footage.layout != PixelLayout::rgb;
+  const VideoCodec codec = video_codec_of(project.output.codec);
+  if ((codec == VideoCodec::h264 || codec == VideoCodec::hevc) && odd && shares_chroma)
+    return fail(project.file.string() + ": export.video.codec",
+                fmt::format("{} needs an even width and height, the footage is {}; use ffv1, av1, mjpeg or png",
+                            name_of(codec), image_size_text(size)),
+                ErrorKind::bad_project);
+  return {};
 }
 
 std::string labels_without_images(const ExportSettings& output) {

@@ -13,6 +13,7 @@
 #include "project/project.h"
 #include "scene/visibility.h"
 #include "video/frame_source.h"
+#include "video/video_writer.h"
 
 namespace sigs {
 
@@ -66,7 +67,13 @@ struct ExportControl {
 // Empty: none.
 [[nodiscard]] std::string labels_without_images(const ExportSettings& output);
 
-// Errors in a project's outputs that only the footage can show: h264 of an odd size. Names the field.
+// The container that a project is exported into. auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for
+// raw; mkv in place of avi, which has no times, where a frame lies more than 1 ms beside the nominal rate.
+// Images: of no meaning.
+[[nodiscard]] Container container_of(const ExportSettings& output, const VideoInfo& footage);
+
+// Errors in a project's outputs that only the footage can show: h264 of an odd size, avi or y4m, which have no times,
+// for frames that are not evenly spaced. Names the field.
 [[nodiscard]] Result<void> check_output(const Project& project, const VideoInfo& footage);
 
 }  // namespace sigs

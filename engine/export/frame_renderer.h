@@ -50,6 +50,7 @@ class FrameRenderer {
  private:
   struct OpenedFootage {
     std::filesystem::path path;
+    SequenceTiming timing;
     Quantisers quantisers = Quantisers::leave_out;
     FrameSource source;
   };

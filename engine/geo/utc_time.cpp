@@ -85,6 +85,9 @@ double clock_s(InstantText& text) {
     second = text.digits(2, 0, 60);
     if (text.take('.') || text.take(',')) second += text.fraction();
   }
+  // 24:00:00 is the end of the day (ISO 8601), 23:59:60 a leap second; no time is later.
+  if (hour == 24 && (minute > 0 || second > 0)) return NAN;
+  if (second >= 60 && (hour != 23 || minute != 59)) return NAN;
   return 3600.0 * hour + 60.0 * minute + second;
 }
 

@@ -66,15 +66,29 @@ std::string annotation_of(const FrameTruth& truth, const LabelSequence& sequence
 // Whether an image shows a category, as VOC's lists say it.
 enum class Presence { no = -1, difficult = 0, yes = 1 };
 
-// Each category as part of a file's name; a number is appended where two become the same.
+// The first bytes of a text in UTF-8, at most so many, whole characters alone.
+std::string whole_characters(const std::string& text, std::size_t max_bytes) {
+  std::size_t end = std::min(max_bytes, text.size());
+  const auto is_within_character = [&](std::size_t at) {
+    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
+  };
+  while (end > 0 && is_within_character(end)) --end;
+  return text.substr(0, end);
+}
+
+// Each category as part of a file's name; a free number is appended where two become the same.
 std::vector<std::string> file_names_of(const std::vector<std::string>& categories) {
   constexpr std::size_t kMaxBytes = 200;  // file systems allow 255, and more text follows
   std::vector<std::string> names;
+  const auto is_taken = [&names](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
   for (const std::string& category : categories) {
-    std::string name = category.substr(0, kMaxBytes);
-    std::replace(name.begin(), name.end(), '/', '_');
-    const bool is_taken = std::find(names.begin(), names.end(), name) != names.end();
-    names.push_back(is_taken ? fmt::format("{}_{}", name, names.size()) : name);
+    std::string plain = whole_characters(category, kMaxBytes);
+    std::replace(plain.begin(), plain.end(), '/', '_');
+    std::string name = plain;
+    for (std::size_t number = names.size(); is_taken(name); ++number) name = fmt::format("{}_{}", plain, number);
+    names.push_back(name);
   }
   return names;
 }

@@ -225,7 +225,8 @@ void add_output(FieldList list, ExportSettings& output) {
            "ffv1: lossless; h264: small; hevc, av1: smaller, slower; mjpeg; png, tiff, jpeg: numbered images; raw: "
            "uncompressed");
   list.add("video.container", choice_of(output.container, {"auto", "mkv", "mp4", "avi", "nut", "y4m"}), "",
-           "auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for raw");
+           "auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg (mkv where the footage's frames are not "
+           "evenly spaced), nut for raw");
   list.number("video.crf", &output.crf, "", 0, 63,
               "quality: 0 lossless, 18 visually so, worst is 51 of h264 and hevc, 63 of av1");
   list.number("video.quality", &output.jpeg_quality, "", 1, 100, "quality of jpeg: 1 worst, 100 best");
@@ -350,7 +351,7 @@ Result<void> set_field(Project& project, const std::string& assignment) {
   });
   if (is_group) return fail(where, "is a group of settings; set one of its members by its key", ErrorKind::usage);
   if (field == fields.end()) return fail(where, "no such setting" + suggestion(keys_of(fields), key), ErrorKind::usage);
-  const bool takes_text = std::holds_alternative<std::string*>(field->value) && !(field->is_path && text == "null");
+  const bool takes_text = std::holds_alternative<std::string*>(field->value) && text != "null";
   const std::string wrong = put_json(takes_text ? Json(text) : json_or_text(text), *field);
   if (!wrong.empty()) return fail(where, wrong, ErrorKind::usage);
   place_waypoints(project);

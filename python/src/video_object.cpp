@@ -16,7 +16,8 @@ namespace sigs::python {
 
 namespace py = pybind11;
 
-VideoObject::VideoObject(std::filesystem::path path) : path_(std::move(path)) {
+VideoObject::VideoObject(std::filesystem::path path, SequenceTiming timing)
+    : path_(std::move(path)), timing_(std::move(timing)) {
   info_ = opened()->source->info();
 }
 
@@ -28,8 +29,9 @@ VideoObject::~VideoObject() {
 std::shared_ptr<VideoObject::Opened> VideoObject::opened() {
   if (opened_.get() == nullptr || opened_.get()->thread.was_cancelled()) {
     const auto made = std::make_shared<Opened>();
-    made->source.emplace(
-        made->thread.wait_for([&](const std::atomic<bool>* cancel) { return FrameSource::open(path_, cancel); }));
+    made->source.emplace(made->thread.wait_for([&](const std::atomic<bool>* cancel) {
+      return FrameSource::open(path_, cancel, Quantisers::leave_out, timing_);
+    }));
     opened_ = ProcessBound<Opened>(made);
   }
   return opened_.get();
@@ -72,8 +74,18 @@ void add_video_class(py::module_& module) {
       "A video whose frames are read in any order and exact by number: footage, exported video, masks.\n\n"
       "video[n] is frame n as uint8: [rows, columns, 3] in red, green and blue; of gray video, such as masks,\n"
       "[rows, columns] as it is stored. May be used by several threads and after a fork.")
-      .def(py::init([](std::filesystem::path path) { return std::make_shared<VideoObject>(std::move(path)); }),
-           py::arg("path"), "Opens a video and builds the index of its frames.")
+      .def(py::init([](std::filesystem::path path, std::optional<double> frame_rate_hz,
+                       std::optional<std::filesystem::path> timestamps) {
+             if (frame_rate_hz && !(*frame_rate_hz >= 0.001 && *frame_rate_hz <= 1e6))
+               throw py::value_error("frame_rate: is not between 0.001 and 1000000 Hz");
+             return std::make_shared<VideoObject>(
+                 std::move(path),
+                 SequenceTiming{.frame_rate_hz = frame_rate_hz.value_or(0), .times_file = timestamps.value_or("")});
+           }),
+           py::arg("path"), py::kw_only(), py::arg("frame_rate") = py::none(), py::arg("timestamps") = py::none(),
+           "Opens a video, or a folder or pattern of images, and builds the index of its frames.\n\n"
+           "frame_rate (Hz) and timestamps (a file with a time for each image) are for images, as in a project's\n"
+           "footage; without them images are 25 a second.")
       .def("__len__", [](const VideoObject& video) { return video.info().frame_count(); })
       .def(
           "__getitem__", [](VideoObject& video, int n) { return image_of(video.read(n)); }, py::arg("n"))

@@ -16,8 +16,8 @@ namespace sigs::python {
 // A video whose frames are read in any order (FrameSource). Opened again in a forked process.
 class VideoObject {
  public:
-  // Raises the errors of FrameSource::open.
-  explicit VideoObject(std::filesystem::path path);
+  // timing: of images, which do not state their times. Raises the errors of FrameSource::open.
+  explicit VideoObject(std::filesystem::path path, SequenceTiming timing = {});
   ~VideoObject();
   VideoObject(const VideoObject&) = delete;
   VideoObject& operator=(const VideoObject&) = delete;
@@ -35,6 +35,7 @@ class VideoObject {
   [[nodiscard]] std::shared_ptr<Opened> opened();
 
   std::filesystem::path path_;
+  SequenceTiming timing_;
   VideoInfo info_;
   ProcessBound<Opened> opened_;
 };

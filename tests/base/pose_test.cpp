@@ -89,3 +89,25 @@ TEST_CASE("degrees and radians are each other's inverse") {
   CHECK(rad_of_deg(180) == doctest::Approx(std::numbers::pi).epsilon(1e-15));
   CHECK(deg_of_rad(rad_of_deg(57.3)) == doctest::Approx(57.3).epsilon(1e-15));
 }
+
+TEST_CASE("a rotation survives its angles as closely at the vertical as elsewhere") {
+  // Truth: the product of three elementary matrices, written out.
+  const auto matrix = [](double roll, double pitch, double yaw) {
+    const glm::dmat3 about_x{{1, 0, 0}, {0, std::cos(roll), std::sin(roll)}, {0, -std::sin(roll), std::cos(roll)}};
+    const glm::dmat3 about_y{{std::cos(pitch), 0, -std::sin(pitch)}, {0, 1, 0}, {std::sin(pitch), 0, std::cos(pitch)}};
+    const glm::dmat3 about_z{{std::cos(yaw), std::sin(yaw), 0}, {-std::sin(yaw), std::cos(yaw), 0}, {0, 0, 1}};
+    return about_z * about_y * about_x;
+  };
+  double largest = 0;
+  for (const double side : {-1.0, 1.0})
+    for (int power = 0; power <= 17; ++power)
+      for (const double roll : {-2.5, -0.3, 0.0, 1.1, 3.0})
+        for (const double yaw : {-2.9, 0.0, 0.4, 1.9}) {
+          const glm::dmat3 truth = matrix(roll, side * (std::acos(0.0) - std::pow(10.0, -power)), yaw);
+          const glm::dmat3 back = glm::mat3_cast(rotation_of(attitude_of(glm::quat_cast(truth))));
+          for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row)
+              largest = std::max(largest, std::abs(back[column][row] - truth[column][row]));
+        }
+  CHECK(largest < 1e-11);  // the roll is dropped where the nose is less than 1e-12 beside the vertical
+}

@@ -11,6 +11,7 @@
 #include "cli/program.h"
 #include "project/json.h"
 #include "support/test_data.h"
+#include "telemetry/read_track.h"
 #include "video/video_writer.h"
 
 using namespace sigs;
@@ -103,4 +104,31 @@ TEST_CASE("footage that shows nothing of its motion fails and leaves no file, un
   const Run allowed = run_sigs(call + " --max-unknown 100");
   CHECK(allowed.status == 0);
   CHECK(allowed.err.find("warning: " + (folder / "sky.mkv").string() + ": how the camera turned") == 0);
+}
+
+TEST_CASE("attitudes of images are at the times that are stated") {
+  const TemporaryFolder folder;
+  cv::Mat noise(120, 240, CV_8UC1);
+  cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 256);
+  cv::GaussianBlur(noise, noise, {5, 5}, 1.5);
+  std::filesystem::create_directory(folder / "images");
+  std::string times;
+  for (int n = 0; n < 6; ++n) {
+    cv::imwrite((folder / "images" / (std::to_string(n) + ".png")).string(), noise(cv::Rect(2 * n, 0, 160, 120)));
+    times += std::to_string(0.1 * n + 0.01 * n * n) + "\n";
+  }
+  write_file(folder / "times.txt", times);
+  const std::string call = "ego-motion " + (folder / "images").string() + " --calibration " +
+                           (source_dir() / "assets/calibrations/sample.xml").string() + " --force --out " +
+                           (folder / "a.csv").string();
+  const auto last_time_s = [&](const std::string& options) {
+    const Run run = run_sigs(call + options);
+    REQUIRE_MESSAGE(run.status == 0, run.err);
+    const Track track = read_track(folder / "a.csv", {}).value();
+    return track.ned_from_camera.times_s.back();
+  };
+  CHECK(last_time_s("") == doctest::Approx(5 / 25.0));
+  CHECK(last_time_s(" --frame-rate 10") == doctest::Approx(5 / 10.0));
+  CHECK(last_time_s(" --timestamps " + (folder / "times.txt").string()) == doctest::Approx(0.75));  // 0.5 + 0.25
+  CHECK(run_sigs(call + " --frame-rate 0").status == 64);
 }

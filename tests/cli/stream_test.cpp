@@ -175,6 +175,62 @@ ls)");
   }
 }
 
+TEST_CASE("every container keeps the times of frames that are not evenly spaced, or is refused by its name") {
+  if (!has_program("ffmpeg -version")) return;
+  const TinyProject tiny;
+  // Ten frames: five at 25 a second, then five 0.12 s apart.
+  REQUIRE(run_bash(tiny,
+                   "ffmpeg -v error -i clip.mkv -vf \"setpts='if(lt(N,5),N*0.04,0.2+(N-5)*0.12)/TB'\" "
+                   "-vsync vfr -c:v ffv1 uneven.mkv")
+              .status == 0);
+  const auto times_of = [&](const std::string& file) {
+    const Run run = run_bash(
+        tiny, "ffprobe -v error -select_streams v -show_entries frame=pts_time -of csv=p=0 " + file + " | tr -d ,");
+    std::vector<double> times_s;
+    std::istringstream lines(run.out);
+    for (double time_s = 0; lines >> time_s;) times_s.push_back(time_s);
+    return times_s;
+  };
+  const std::vector<double> truth = times_of("uneven.mkv");
+  REQUIRE(truth.size() == 10);
+  REQUIRE(truth.back() == doctest::Approx(0.68));
+  int kept = 0, refused = 0;
+  for (const std::string codec : {"ffv1", "h264", "hevc", "av1", "mjpeg", "raw"})
+    for (const std::string container : {"auto", "mkv", "mp4", "avi", "nut", "y4m"}) {
+      CAPTURE(codec);
+      CAPTURE(container);
+      fs::remove_all(tiny.file("out"));
+      const std::string options = " --out out --masks none --codec " + codec + " --container " + container;
+      if (run_bash(tiny, "$SIGS export p.json" + options).status != 0)
+        continue;  // codec and container do not go together
+      fs::remove_all(tiny.file("out"));
+      const Run run = run_bash(tiny, "$SIGS export p.json --set footage.video=uneven.mkv" + options + " 2>&1");
+      if (run.status != 0) {
+        ++refused;
+        CHECK(run.status == 78);
+        CHECK_MESSAGE(has(run.out, "export.video.container: " + container + " has no times"), run.out);
+        CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 1);
+        CHECK((container == "avi" || container == "y4m"));
+        CHECK_FALSE(fs::exists(tiny.file("out/tiny." + container)));
+        CHECK(run_bash(tiny, "$SIGS check p.json --set footage.video=uneven.mkv --set export.video.codec=" + codec +
+                                 " --set export.video.container=" + container)
+                  .status == 78);
+        continue;
+      }
+      ++kept;
+      fs::path video;
+      for (const fs::directory_entry& entry : fs::directory_iterator(tiny.file("out")))
+        if (entry.path().extension() != ".xml") video = entry.path();
+      const std::vector<double> found = times_of("out/" + video.filename().string());
+      REQUIRE(found.size() == truth.size());
+      for (std::size_t n = 0; n < truth.size(); ++n)
+        CHECK(std::abs(found[n] - found[0] - truth[n]) < 1.1e-3);  // Matroska's tick
+      CHECK(has(run.out, "mkv is written, not avi") == (codec == "mjpeg" && container == "auto"));
+    }
+  CHECK(kept >= 15);    // of each codec auto, mkv, mp4 where it goes
+  CHECK(refused == 4);  // avi of ffv1, h264, mjpeg; y4m
+}
+
 TEST_CASE("a sequence of images gives the frames that the same images in a video give") {
   if (!has_program("ffmpeg -version")) return;
   const TinyProject tiny;

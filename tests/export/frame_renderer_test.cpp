@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +60,38 @@ TEST_CASE("frames rendered one by one in any order are those of the stream") {
     CHECK(same_bytes(one.mask, other.mask));
     CHECK(one.truth.intruders[0].position_m == other.truth.intruders[0].position_m);
   }
+}
+
+TEST_CASE("frames of images have the times that the project states, also after these have changed") {
+  Scenario scenario(kFlightSize, kFlightFrames);
+  prepare_flight(scenario);
+  std::filesystem::create_directory(scenario.path("images"));
+  for (int n = 0; n < kFlightFrames; ++n)
+    cv::imwrite(scenario.path("images/" + std::to_string(n) + ".png").string(),
+                cv::Mat(kFlightSize, CV_8UC3, cv::Scalar(90 + n, 80, 70)));
+  std::ofstream(scenario.path("times.txt")) << "0\n0.05\n0.2\n0.7\n0.8\n1.1\n";
+  Project project = scenario.project;
+  project.footage.video = "images";
+  FrameRenderer renderer;
+  // Frame 3 by hand: 3 / 25, 3 / 10, the fourth line of the file, 3 / 5; the camera flies 20 m/s along X.
+  const auto check_time = [&](double time_s) {
+    const ComposedFrame one = rendered(renderer, project, 3);
+    CHECK(one.image.time_s == doctest::Approx(time_s));
+    CHECK(one.truth.time_s == doctest::Approx(time_s));
+    CHECK(one.truth.camera_position_m.x == doctest::Approx(20 * time_s));
+    const ComposedFrame other = std::move(streamed(project, 1)[3]);
+    CHECK(same_planes(one.image, other.image));
+    CHECK(one.truth.intruders[0].position_m == other.truth.intruders[0].position_m);
+  };
+  check_time(0.12);
+  project.footage.frame_rate_hz = 10;
+  check_time(0.3);
+  project.footage.frame_rate_hz.reset();
+  project.footage.timestamps = "times.txt";
+  check_time(0.7);
+  project.footage.timestamps.clear();
+  project.footage.frame_rate_hz = 5;
+  check_time(0.6);
 }
 
 TEST_CASE("a stream that is closed early ends its threads, and one can be started again") {

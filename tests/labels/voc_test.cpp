@@ -114,6 +114,28 @@ TEST_CASE("voc: an image without a box has an annotation without objects, thresh
   CHECK_FALSE(document.child("annotation").child("object"));
 }
 
+TEST_CASE("voc: each category has lists of its own, named by whole characters") {
+  const TemporaryFolder folder;
+  LabelSequence sequence = label_sequence(100);
+  std::string wide = "x";
+  for (int n = 0; n < 150; ++n) wide += "\xC3\xA4";     // 301 bytes, a cut at 200 would halve a character
+  sequence.categories = {"a_b_2", "a_b", "a/b", wide};  // the third is a_b, too, and a_b_2 is taken
+  write_labels("voc", folder / "a", sequence, frames_of({{}}));
+  int lists = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "a" / "ImageSets" / "Main")) {
+    const std::string name = entry.path().filename().string();
+    lists += name.ends_with("_trainval.txt") ? 1 : 0;
+    int pending = 0;  // bytes of a character that are still to come
+    for (const char c : name) {
+      const auto byte = static_cast<unsigned char>(c);
+      CHECK((pending > 0) == ((byte & 0xC0U) == 0x80U));
+      pending = pending > 0 ? pending - 1 : byte >= 0xC0U ? 1 : 0;
+    }
+    CHECK(pending == 0);
+  }
+  CHECK(lists == 4);
+}
+
 TEST_CASE("voc: lists have all images, and state which show a category") {
   const TemporaryFolder folder;
   IntruderTruth difficult = visible_intruder(0, {1, 1, 4, 4});

@@ -46,6 +46,13 @@ TEST_CASE("numbers and vectors and names and texts are set by their key") {
   CHECK(p.intruders[0].trajectory.waypoints[1].position_m == glm::dvec3(1, 2, 3));
 }
 
+TEST_CASE("null is no name: a text stays or is refused, and quotes make it a word") {
+  Project p;
+  p.name = "flight";
+  (void)set_field(p, "name=null");
+  CHECK(p.name != "null");
+}
+
 TEST_CASE("null clears a path") {
   Project p = with_one_intruder();
   p.footage.own_body_mask = "mask.png";

@@ -2,6 +2,8 @@
 """Frames through Python are the frames that an export writes."""
 
 import gc
+import shutil
+import subprocess
 import unittest
 
 import numpy as np
@@ -55,6 +57,21 @@ class FramesAndExport(support.InFolder):
         self.assertEqual(done[-1], (len(FRAMES), len(FRAMES)))
         for file in report.written:
             self.assertEqual(file.read_bytes(), (self.folder / file.name).read_bytes(), file)
+
+    def test_images_have_the_times_that_are_stated(self):
+        images = self.folder / "images"
+        images.mkdir()
+        command = ["ffmpeg", "-v", "error", "-i", str(self.folder / "crossing.mkv"), "-frames:v", "5", str(images / "%d.png")]
+        if shutil.which("ffmpeg") is None:
+            self.skipTest("ffmpeg is absent")
+        subprocess.run(command, check=True)
+        (self.folder / "times.txt").write_text("0\n0.05\n0.2\n0.7\n0.8\n")
+        np.testing.assert_allclose(sigs.Video(images).times_s, np.arange(5) / 25)
+        np.testing.assert_allclose(sigs.Video(images, frame_rate=10).times_s, np.arange(5) / 10)
+        listed = sigs.Video(images, timestamps=self.folder / "times.txt")
+        np.testing.assert_allclose(listed.times_s, [0, 0.05, 0.2, 0.7, 0.8])
+        with self.assertRaises(ValueError):
+            sigs.Video(images, frame_rate=0)
 
     def test_a_video_gives_the_images_of_the_file_by_number(self):
         video = sigs.Video(self.folder / "crossing.mkv")

@@ -78,6 +78,7 @@ void draw_open_diamond(ImDrawList& draw, const glm::dvec2& at, double radius, Im
 }
 
 struct MarkStyle {
+  double around_px = 0;  // half of the diagonals of a diamond about what is seen there
   bool selected = false;
   bool worked_on = false;  // of the intruder that is
   bool here = false;       // in this frame
@@ -89,7 +90,7 @@ void draw_mark(const ImageCanvas& canvas, const WaypointMark& mark, const MarkSt
   const ImU32 own = intruder_color(mark.intruder);
   const ImU32 fill = style.selected ? color::kAccent : style.worked_on ? color::kWaypoint : faded(own, 0.7);
   if (style.here)
-    draw_open_diamond(canvas.draw, at, radius + scaled(4), fill);
+    draw_open_diamond(canvas.draw, at, std::max<double>(radius + scaled(4), style.around_px), fill);
   else
     draw_diamond(canvas.draw, at, radius, fill, style.worked_on ? IM_COL32(20, 22, 26, 255) : faded(own, 0.9));
 }
@@ -105,6 +106,20 @@ void draw_frame(const ImageCanvas& canvas, const glm::dvec2& at, double frame, c
   const std::array places{glm::dvec2(right, below), glm::dvec2(left, below), glm::dvec2(right, above),
                           glm::dvec2(left, above)};
   draw_label(canvas, labels, places, text, style.selected ? color::kAccent : color::kText, style.selected);
+}
+
+// Of a diamond that leaves the intruder itself in sight, on the screen; 0 where it is not seen, or is so large that no
+// mark covers it.
+double around_intruder_px(const ImageCanvas& canvas, const ViewContext& context, int intruder) {
+  constexpr double kMaxSize_px = 90;
+  if (!context.shown.image) return 0;
+  for (const IntruderTruth& truth : context.shown.image->truth.intruders) {
+    if (!truth.visible_box || project_intruder(context, truth.id) != intruder) continue;
+    const glm::dvec2 size = on_screen(canvas, edges_of(*truth.visible_box)).size();
+    const double half = (size.x + size.y) / 2 + scaled(4);
+    return half <= scaled(kMaxSize_px) ? half : 0;
+  }
+  return 0;
 }
 
 constexpr int kFramesBetweenCorners = 25;  // the path's own corners are not known here where speed is constant
@@ -190,8 +205,11 @@ void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::
     if (thinning.leaves_out(at) && !is_selected) continue;
     context.ui_probe.note(fmt::format("viewport/waypoint/{}/{}", mark.intruder, mark.waypoint),
                           {at - radius, at + radius});
-    const MarkStyle style{
-        .selected = is_selected, .worked_on = current == mark.intruder, .here = std::abs(mark.frame - eye.frame) < 0.5};
+    const bool is_here = std::abs(mark.frame - eye.frame) < 0.5;
+    const MarkStyle style{.around_px = is_here ? around_intruder_px(canvas, context, mark.intruder) : 0,
+                          .selected = is_selected,
+                          .worked_on = current == mark.intruder,
+                          .here = is_here};
     draw_mark(canvas, mark, style);
     // Waypoints crowd where the flight goes straight away: the first of a crowd is named, and what is selected.
     if (!style.worked_on || ++named > kMaxLabels) continue;

@@ -16,6 +16,8 @@ using sigs::test::TinyProject;
 TEST_CASE("the files that an export will write are known in advance, for every choice") {
   const TinyProject tiny(2);
   Project project = read_project(tiny.project()).value().project;
+  VideoInfo footage;
+  footage.times_s = {0, 0.04};
   for (const CodecChoice codec :
        {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::hevc, CodecChoice::av1, CodecChoice::mjpeg, CodecChoice::png,
         CodecChoice::tiff, CodecChoice::jpeg, CodecChoice::raw})
@@ -29,15 +31,15 @@ TEST_CASE("the files that an export will write are known in advance, for every c
         const std::filesystem::path folder = tiny.file("out");
         CAPTURE(static_cast<int>(codec));
         CAPTURE(static_cast<int>(masks));
-        CHECK(outputs_there(project, folder).empty());
+        CHECK(outputs_there(project, footage, folder).empty());
         const Result<ExportReport> report = export_project({.project = project, .folder = folder}, {});
         REQUIRE_MESSAGE(report, report.error().text());
-        std::vector<std::filesystem::path> foretold = outputs_of(project, folder);
+        std::vector<std::filesystem::path> foretold = outputs_of(project, footage, folder);
         std::vector<std::filesystem::path> written = report->written;
         std::sort(foretold.begin(), foretold.end());
         std::sort(written.begin(), written.end());
         CHECK(foretold == written);
-        CHECK(outputs_there(project, folder).size() == written.size());
+        CHECK(outputs_there(project, footage, folder).size() == written.size());
         std::filesystem::remove_all(folder);
       }
 }
