@@ -23,7 +23,8 @@ constexpr std::string_view kTuning[] = {"V_AIRPLANE_001",   "V_AIRPLANE_004",   
 // "V_AIRPLANE_004" and "V_AIRPLANE_001" are "V_AIRPLANE_ 0".
 std::string run_of(std::string_view name) {
   const std::size_t digits = name.rfind('_') + 1;
-  return std::string(name.substr(0, digits)) + " " + std::to_string((std::stoi(std::string(name.substr(digits))) - 1) / 5);
+  return std::string(name.substr(0, digits)) + " " +
+         std::to_string((std::stoi(std::string(name.substr(digits))) - 1) / 5);
 }
 
 bool is_like_tuning(std::string_view name) {

@@ -21,8 +21,8 @@ struct RealClip {
   std::vector<std::optional<Box>> boxes;  // loose, by frame; none: no aircraft
 };
 
-// The clips of aircraft in SIGS_TEST_DATA/track with boxes, by name. The tuning clips are those of the list in clips.cpp;
-// others of the same runs of five numbers, which often show the same sky, are left out.
+// The clips of aircraft in SIGS_TEST_DATA/track with boxes, by name. The tuning clips are those of the list in
+// clips.cpp; others of the same runs of five numbers, which often show the same sky, are left out.
 [[nodiscard]] std::vector<RealClip> real_clips();
 
 // The stills of SIGS_TEST_DATA/stills as clips of one frame each, with boxes drawn by hand: four raw gray images of a

@@ -113,7 +113,8 @@ std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& option
     for (const LookSettings& settings : options.settings) {
       Project set = project;
       apply(settings, clip.name, set);
-      auto target = expected(insertion.target(set, shakes_in(settings, clip.name) ? CameraShake::as_real_target : CameraShake::none));
+      auto target = expected(
+          insertion.target(set, shakes_in(settings, clip.name) ? CameraShake::as_real_target : CameraShake::none));
       if (target) sample.targets.push_back({settings.name, std::move(*target)});
     }
     samples.push_back(std::move(sample));

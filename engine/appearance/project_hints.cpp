@@ -27,7 +27,8 @@ View view_at(const KnownCamera& known, int frame) {
   const Pose<frame::World, frame::Camera> pose = camera_at(known.scene.motion, time_s);
   View view{.camera = known.has_calibration ? &known.scene.camera : nullptr, .own_body = known.own_body};
   if (known.scene.horizon_is_known) view.world_from_camera = pose.rotation;
-  if (known.has_height && pose.translation_m.z < 0) view.height_m = -pose.translation_m.z;  // the ground is the world's plane z = 0
+  if (known.has_height && pose.translation_m.z < 0)
+    view.height_m = -pose.translation_m.z;  // the ground is the world's plane z = 0
   return view;
 }
 
@@ -44,8 +45,8 @@ AppearanceHints hints_by(std::shared_ptr<KnownCamera> known) {
 }  // namespace
 
 AppearanceHints hints_of(const Scene& scene) {
-  return hints_by(std::make_shared<KnownCamera>(
-      KnownCamera{.scene = scene, .has_calibration = true, .has_height = false}));
+  return hints_by(
+      std::make_shared<KnownCamera>(KnownCamera{.scene = scene, .has_calibration = true, .has_height = false}));
 }
 
 Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage,

@@ -18,8 +18,8 @@ namespace sigs {
 [[nodiscard]] Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage,
                                                const std::function<void(const Warning&)>& warn);
 
-// The same by a scene of which no project file is written yet: its camera, its attitude where that is known, and the sun
-// by time and place. The height counts as not known: that of a project which is being made is a guess.
+// The same by a scene of which no project file is written yet: its camera, its attitude where that is known, and the
+// sun by time and place. The height counts as not known: that of a project which is being made is a guess.
 [[nodiscard]] AppearanceHints hints_of(const Scene& scene);
 
 }  // namespace sigs

@@ -26,8 +26,7 @@ struct NoteGroup {
 };
 
 const NoteGroup kGroups[] = {
-    {"appearance.point_spread_px",
-     {"appearance.point_spread_px", "appearance.sharpening", "appearance.sharpening_px"}},
+    {"appearance.point_spread_px", {"appearance.point_spread_px", "appearance.sharpening", "appearance.sharpening_px"}},
     {"appearance.chroma_spread_px", {"appearance.chroma_spread_px"}},
     {"appearance.grain", {"appearance.grain."}},
     {"appearance.black", {"appearance.black"}},
@@ -84,9 +83,10 @@ std::vector<FirstProjectNote> light_notes(const SurroundingsEstimate& seen) {
   light.is_guess = !seen.light.exposure.is_known;
   FirstProjectNote sun{.field = "light.sun.azimuth_deg"};
   sun.is_guess = !seen.sun.azimuth_rad.is_known;
-  sun.text = sun.is_guess ? "behind the camera, as what people point one at is mostly lit: " + seen.sun.azimuth_rad.why +
-                                "; set light.sun.* as the footage's own things are lit"
-                          : "the sun's direction " + how_found(seen.sun.witness);
+  sun.text = sun.is_guess
+                 ? "behind the camera, as what people point one at is mostly lit: " + seen.sun.azimuth_rad.why +
+                       "; set light.sun.* as the footage's own things are lit"
+                 : "the sun's direction " + how_found(seen.sun.witness);
   return {light, sun};
 }
 
@@ -116,13 +116,14 @@ namespace {
 
 constexpr double kLongestMotion_s = 90;
 constexpr double kMaxLostShare = 0.05;
-constexpr double kMaxSd_rad = rad_of_deg(1);
+constexpr double kMaxStep_px = 1;
 constexpr double kStill_px = 0.5;
 
 // Why the turns are of no use; "": they are.
 std::string why_no_motion(const EgoMotion& motion, const Scene& scene) {
   std::size_t lost = 0, used = 0;
-  double largest_rad = 0, sd_rad = 0;
+  double largest_rad = 0, step_rad = 0;
+  bool is_known = true;
   const auto begin = static_cast<std::size_t>(scene.first_frame);
   for (std::size_t n = begin; n <= static_cast<std::size_t>(scene.last_frame) && n < motion.frames.size(); ++n) {
     const EgoFrame& frame = motion.frames[n];
@@ -130,16 +131,17 @@ std::string why_no_motion(const EgoMotion& motion, const Scene& scene) {
     lost += frame.is_lost && n > begin ? 1 : 0;
     const glm::dquat turn = glm::conjugate(motion.frames[begin].world_from_camera) * frame.world_from_camera;
     largest_rad = std::max(largest_rad, 2 * std::acos(std::min(1.0, std::abs(turn.w))));
-    if (!frame.is_lost) sd_rad = std::max({sd_rad, frame.sd_rad.x, frame.sd_rad.y, frame.sd_rad.z});
+    if (!frame.is_lost && frame.sd_rad.x >= kUnknownRotation_rad) is_known = false;
+    if (!frame.is_lost) step_rad = std::max({step_rad, frame.step_sd_rad.y, frame.step_sd_rad.z});
   }
   if (static_cast<double>(lost) > kMaxLostShare * static_cast<double>(used))
     return fmt::format("the images do not show how the camera turns in {} of {} frames", lost, used);
-  // Beyond a lost frame nothing is known against frame 0; the course in the frames before and after is.
-  if (lost == 0 && sd_rad >= kUnknownRotation_rad)
-    return "the images before the frames used lose the camera's turns";
-  if (lost == 0 && sd_rad > kMaxSd_rad)
-    return fmt::format("the images show the camera's turns to {:.1f} degrees only", deg_of_rad(sd_rad));
-  const double still_px = largest_rad * scene.camera.lens.pixels_per_radian({1, 0, 0});
+  if (lost == 0 && !is_known) return "the images do not show how the camera turns before the frames used";
+  const double px_per_rad = scene.camera.lens.pixels_per_radian({1, 0, 0});
+  // What adds up over seconds, as where clouds drift, moves footage and intruder alike.
+  if (step_rad * px_per_rad > kMaxStep_px)
+    return fmt::format("the images show the camera's turns to {:.1f} px only", step_rad * px_per_rad);
+  const double still_px = largest_rad * px_per_rad;
   if (still_px < kStill_px) return fmt::format("the camera stands still: it turns by {:.1f} px at most", still_px);
   return "";
 }
@@ -155,7 +157,8 @@ Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool 
   };
   if (footage.info().frame_count() < 2) return none("a single image shows no motion");
   if (footage.info().times_s.back() > kLongestMotion_s)
-    return none(fmt::format("the turns of footage longer than {:.0f} s are left to `sigs ego-motion`", kLongestMotion_s));
+    return none(
+        fmt::format("the turns of footage longer than {:.0f} s are left to `sigs ego-motion`", kLongestMotion_s));
   const EgoMotionControl following{.progress =
                                        [&](int done, int total) {
                                          if (control.progress) control.progress(double(done) / std::max(1, total));
@@ -169,9 +172,10 @@ Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool 
   found.track = track_of(*motion, footage.info().path);
   found.note.is_guess = false;
   found.note.text = motion->level_sd_rad
-                        ? fmt::format("the camera's attitude at each frame, by the images and the horizon in them, level "
-                                      "to {:.1f} degrees",
-                                      deg_of_rad(*motion->level_sd_rad))
+                        ? fmt::format(
+                              "the camera's attitude at each frame, by the images and the horizon in them, level "
+                              "to {:.1f} degrees",
+                              deg_of_rad(*motion->level_sd_rad))
                         : "the camera's turns at each frame, by the images; camera.attitude_deg is its attitude at the "
                           "start";
   return found;

@@ -36,7 +36,8 @@ struct FirstMotion {
 };
 
 // Finds them where they help. None where the camera stands still (no more than half a pixel), where more than a
-// twentieth of the frames used are lost, where nothing tells the turns within a degree, and for footage longer than 90 s.
+// twentieth of the frames used are lost, where nothing tells the turn of a frame within a pixel, and for footage longer
+// than 90 s.
 //   horizon_is_seen  false: an edge that may look like one does not count
 // Error: interrupted.
 [[nodiscard]] Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool horizon_is_seen,

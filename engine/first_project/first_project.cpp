@@ -241,8 +241,8 @@ class Planning {
     const auto tell = [&](double share) {
       step(kMotionStep_percent + static_cast<int>(share * (kMatchStep_percent - kMotionStep_percent)), kStep);
     };
-    Result<FirstMotion> motion = first_motion(source, scene(), look.roll_rad.has_value(),
-                                              {.progress = tell, .cancel = control_.cancel});
+    Result<FirstMotion> motion =
+        first_motion(source, scene(), look.roll_rad.has_value(), {.progress = tell, .cancel = control_.cancel});
     if (!motion) return fail(motion.error());
     if (motion->track) {
       const fs::path file = beside(".attitude.csv");

@@ -89,7 +89,8 @@ fs::path noisy_images(const test::TemporaryFolder& folder, double sd) {
 }
 
 // Images of far, rough ground that has moved to the right by so many pixels in each.
-fs::path moved_images(const test::TemporaryFolder& folder, const std::string& name, const std::vector<double>& moves_px) {
+fs::path moved_images(const test::TemporaryFolder& folder, const std::string& name,
+                      const std::vector<double>& moves_px) {
   const fs::path images = folder / name;
   fs::create_directory(images);
   cv::RNG random(5);
@@ -119,8 +120,8 @@ TEST_CASE("a clip becomes a project that opens without a problem and has its int
   // Nothing is replaced without being asked for, and then everything is.
   CHECK(make_first_project({.video = sample_video(), .out = folder / "a/first.json", .plain = true}).error().kind ==
         ErrorKind::cannot_create);
-  CHECK(make_first_project(
-      {.video = sample_video(), .out = folder / "a/first.json", .overwrite = true, .plain = true}));
+  CHECK(
+      make_first_project({.video = sample_video(), .out = folder / "a/first.json", .overwrite = true, .plain = true}));
   // A second project shares the model.
   CHECK(make_first_project({.video = sample_video(), .out = folder / "a/second.json", .plain = true}));
 }
@@ -140,8 +141,11 @@ TEST_CASE("the horizontal field of view is as asked for: a pinhole, from 120 deg
   const test::TemporaryFolder folder;
   for (const double fov_deg : {5.0, 40.0, 100.0, 150.0, 200.0}) {
     CAPTURE(fov_deg);
-    const FirstProject made = made_and_opened(
-        {.video = sample_video(), .horizontal_fov_deg = fov_deg, .out = folder / "p.json", .overwrite = true, .plain = true});
+    const FirstProject made = made_and_opened({.video = sample_video(),
+                                               .horizontal_fov_deg = fov_deg,
+                                               .out = folder / "p.json",
+                                               .overwrite = true,
+                                               .plain = true});
     const Result<Camera> camera = read_calibration(folder / "p.calibration.xml", cv::Size(1280, 960));
     REQUIRE(camera);
     const double half_rad = fov_deg * 3.14159265358979 / 360;
@@ -376,8 +380,8 @@ TEST_CASE("the camera of a first project turns as the images show it; one that s
     shaken.push_back(5 * std::sin(0.7 * n) + 0.2 * n);
     still.push_back(0.1 * std::sin(0.7 * n));
   }
-  FirstProjectOptions options{.frame_rate_hz = 25, .horizontal_fov_deg = fov_deg, .out = folder / "p.json",
-                              .overwrite = true};
+  FirstProjectOptions options{
+      .frame_rate_hz = 25, .horizontal_fov_deg = fov_deg, .out = folder / "p.json", .overwrite = true};
   options.video = moved_images(folder, "shaken", shaken);
   const FirstProject turned = made_and_opened(options);
   CHECK(turned.project.camera.track.file == "p.attitude.csv");
