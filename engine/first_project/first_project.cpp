@@ -31,6 +31,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double kLowCamera_m = 10;    // what is lower stands on the ground
 constexpr double kLongestSpan_s = 60;  // an encounter lasts about that long
 
 // How far the making is when a step begins, by its run time of a clip of 10 s.
@@ -182,25 +183,19 @@ class Planning {
     return scene;
   }
 
+  // Whether the log has the camera's path.
+  [[nodiscard]] bool has_path() const {
+    const auto& track = first_.project.camera.track;
+    return !track.file.empty() && track.position != TrackPositionChoice::none;
+  }
+
   Result<void> look(FrameSource& source) {
     step(kLookStep_percent, "looking at the footage");
     const Result<FirstLook> look = first_look(source, scene(), control_.cancel);
     if (!look) return fail(look.error());
-    if (look->roll_rad) {
-      const auto rounded_deg = [](double rad) { return std::round(10 * deg_of_rad(rad)) / 10; };
-      project().camera.roll_deg = rounded_deg(*look->roll_rad);
-      project().camera.pitch_deg = rounded_deg(*look->pitch_rad);
-      note(
-          {.field = "camera.attitude_deg",
-           .text = fmt::format("roll {}, pitch {}: by the horizon in a few frames; `sigs ego-motion` finds each "
-                               "frame's attitude",
-                               number_text(*project().camera.roll_deg, 1), number_text(*project().camera.pitch_deg, 1)),
-           .is_guess = true});
-    } else if (!scene().horizon_is_known) {
-      note({.field = "camera.attitude_deg",
-            .text = "not known: no horizon was found in the footage; the camera counts as level",
-            .is_guess = true});
-    }
+    if (!scene().horizon_is_known)
+      for (FirstProjectNote& one : set_attitude(*look, has_path(), project())) note(std::move(one));
+    looks_up_ = project().camera.position_m.z > -kLowCamera_m;
     return match(source, *look);
   }
 
@@ -234,7 +229,8 @@ class Planning {
     project().intruders = {std::move(intruder)};
     project().camera.position_m.z -= flight.raise_m;
     note({.field = "camera.position_m",
-          .text = fmt::format("{} m above the ground", number_text(-project().camera.position_m.z, 0)),
+          .text = fmt::format("{} m above the ground{}", number_text(-project().camera.position_m.z, 0),
+                              looks_up_ ? ": a camera that looks up is taken to stand there" : ""),
           .is_guess = true});
     first_.notes.insert(first_.notes.end(), model->notes.begin(), model->notes.end());
     note(flight.note);
@@ -275,6 +271,7 @@ class Planning {
   FrameRange range_;
   FirstLog log_;
   std::optional<Camera> camera_;
+  bool looks_up_ = false;  // from the ground
 };
 
 }  // namespace
