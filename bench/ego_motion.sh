@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # Accuracy and speed of the estimation of attitude: flights with exact truth, by case, and error against run time.
-#   bench/ego_motion.sh [quick|draw] [BUILD]     default: build/release; some twenty minutes on two processors, of which
+#   bench/ego_motion.sh [quick|draw|horizons] [BUILD]     default: build/release; some twenty minutes on two processors, of which
 #                                                most goes into drawing the flights, once
 #   quick     few small frames: only shows that it runs
 #   draw      measures nothing: tables of the last run
+#   horizons  instead: in how many frames of real clips the horizon is found, by rows read by eye (ego_motion/horizons.csv)
 # Flights and tables (CSV) are left in BUILD/ego-motion.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mode=whole
-case "${1:-}" in quick | draw) mode=$1 && shift ;; esac
+case "${1:-}" in quick | draw | horizons) mode=$1 && shift ;; esac
 build=${1:-build/release}
+[ "$mode" != horizons ] || exec "$build/bench_ego_motion" horizons bench/ego_motion/horizons.csv
 folder=$build/ego-motion
 effort=()
 [ "$mode" = quick ] && folder=$build/ego-motion-quick && effort=(quick)

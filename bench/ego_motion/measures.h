@@ -43,4 +43,7 @@ struct Measured {
 void measure_cases(const accuracy::Call& call);
 void measure_sweep(const accuracy::Call& call);
 
+// Prints how the horizons of real clips are found: horizons.cpp.
+void measure_horizons(const std::filesystem::path& truth);
+
 }  // namespace sigs::bench

@@ -14,7 +14,7 @@
 #include "ego_motion/features.h"
 #include "ego_motion/focal_scale.h"
 #include "ego_motion/gyro_fusion.h"
-#include "ego_motion/horizon.h"
+#include "horizon/horizon.h"
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
 #include "ego_motion/turns.h"

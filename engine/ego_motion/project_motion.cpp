@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "ego_motion/horizon.h"
 #include "ego_motion/turns.h"
+#include "horizon/horizon.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"

@@ -74,6 +74,10 @@ glm::dvec3 aim(const Scene& scene, double middle_s) {
     return scene.camera.lens.ray({(size.width - 1) / 2.0, share * (size.height - 1)});
   };
   constexpr double kUsualShare = 0.36;  // of the image's height, from above
+  constexpr double kUpwardShare = 0.45;  // of a camera that looks up at what flies
+  constexpr double kUpward_rad = rad_of_deg(5);
+  if (scene.horizon_is_known && elevation_of(attitude * glm::dvec3(1, 0, 0)) > kUpward_rad)
+    return ray_at(kUpwardShare).value_or(glm::dvec3(1, 0, 0));
   const std::optional<glm::dvec3> usual = ray_at(kUsualShare);
   std::optional<glm::dvec3> best;
   const std::optional<glm::dvec3> top = ray_at(0.1), bottom = ray_at(0.9);
@@ -112,7 +116,9 @@ CameraView view_of(const Scene& scene) {
     turned_rad += std::remainder(azimuth_rad - before_rad, 2 * std::numbers::pi);
     before_rad = azimuth_rad;
   }
-  if (std::abs(turned_rad) > kTurning_rad) view.turn_radps = turned_rad / (2 * view.half_s);
+  constexpr double kSteep_rad = rad_of_deg(60);  // from here on an azimuth says little of what is in view
+  if (std::abs(turned_rad) > kTurning_rad && std::abs(view.elevation_rad) < kSteep_rad)
+    view.turn_radps = turned_rad / (2 * view.half_s);
   return view;
 }
 
@@ -136,13 +142,15 @@ glm::dvec3 world_point(const CameraView& view, const FlightShape& shape, double 
   const double azimuth_rad = view.azimuth_rad + view.turn_radps * time_s;
   const glm::dvec3 ahead(std::cos(azimuth_rad), std::sin(azimuth_rad), 0);
   const glm::dvec3 right(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0);
-  glm::dvec3 place = view.start_m + view.velocity_mps * time_s + point.along_m * ahead + point.right_m * right;
-  // Level flight at the height of the line of sight where the intruder is nearest. A steep line of sight is left
-  // slowly.
+  // Level flight at the height at which the line of sight is where the intruder is nearest; of a steep line of sight the
+  // nearest distance is along it.
   constexpr double kShallow_rad = rad_of_deg(12);
   const bool is_shallow = std::abs(view.elevation_rad) < kShallow_rad;
-  place.z = view.start_m.z - (is_shallow ? nearest_m : point.along_m) * std::tan(view.elevation_rad) +
-            (is_shallow ? 0 : view.velocity_mps.z * time_s);
+  const double across_m = is_shallow ? nearest_m : nearest_m * std::cos(view.elevation_rad);
+  const double down_m = across_m * -std::tan(view.elevation_rad);
+  glm::dvec3 place = view.start_m + view.velocity_mps * time_s + (point.along_m - nearest_m + across_m) * ahead +
+                     point.right_m * right;
+  place.z = view.start_m.z + down_m + (is_shallow ? 0 : view.velocity_mps.z * time_s);
   return place;
 }
 

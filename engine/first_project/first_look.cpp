@@ -5,14 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "appearance/appearance.h"
+#include "appearance/light_grid.h"
 #include "base/pose.h"
+#include "base/text.h"
+#include "horizon/horizon.h"
+#include "horizon/sky_map.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
 #include "scene/scene_light.h"
 #include "telemetry/log_samples.h"
+#include "video/luma_stream.h"
 
 namespace sigs {
 
@@ -20,8 +25,11 @@ namespace {
 
 constexpr int kLookFrames = 7;
 constexpr double kSteady_rad = rad_of_deg(4);
-constexpr double kMaxRoll_rad =
-    rad_of_deg(7);  // what is tilted more in all frames is a hillside rather than the horizon
+constexpr double kOnlySky = 0.8, kNoSky = 0.08;  // shares of a frame
+constexpr double kMinBlue = 0.5;                 // of green, linear light: sky; meadows and woods have less
+constexpr double kLooksUp_rad = rad_of_deg(5);
+constexpr double kGuessedUp_deg = 30, kGuessedDown_deg = -90;
+constexpr double kOnGround_m = 2;
 
 // The middles of equal parts of the range.
 std::vector<int> look_frames(const Scene& scene) {
@@ -33,26 +41,67 @@ std::vector<int> look_frames(const Scene& scene) {
   return frames;
 }
 
-// Where the zenith is in each frame, in camera axes.
-struct Horizons {
-  std::vector<double> rolls_rad, pitches_rad;
-
-  void add(const glm::dvec3& up) {
-    pitches_rad.push_back(std::asin(std::clamp(up.x, -1.0, 1.0)));
-    rolls_rad.push_back(std::atan2(-up.y, -up.z));
+// What tells the level, frame by frame.
+class Levels {
+ public:
+  void add(const Frame& frame, const Camera& camera) {
+    ++frames_;
+    const ReducedLuma reduced = reduced_luma(luma_of(frame));
+    const SkyMap sky = sky_map_of(reduced.luma);
+    const bool is_sky = has_colors_of_sky(frame, sky);
+    if (sky.share < kNoSky || !is_sky) ++grounds_;
+    if (!is_sky) return;
+    if (const auto line = horizon_in(reduced.luma, reduced.scale, camera, {}, 0)) {
+      line_pitches_rad_.push_back(std::asin(std::clamp(line->up.x(), -1.0, 1.0)));
+      line_rolls_rad_.push_back(std::atan2(-line->up.y(), -line->up.z()));
+    }
+    if (const auto pitch_rad = skyline_pitch_rad(sky, reduced.scale, camera))
+      skyline_pitches_rad_.push_back(*pitch_rad);
+    else if (sky.share > kOnlySky)
+      ++skies_;
   }
 
-  void set(FirstLook& look, std::size_t frames) const {
-    if (2 * rolls_rad.size() < frames || rolls_rad.empty()) return;
-    const double roll_rad = median_of(rolls_rad);
-    const double pitch_rad = median_of(pitches_rad);
+  void set(FirstLook& look) const {
+    if (frames_ == 0 || set_horizon(look)) return;
+    if (2 * skyline_pitches_rad_.size() >= frames_) {
+      look.level_by = LevelBy::skyline;
+      look.pitch_rad = median_of(skyline_pitches_rad_);
+    } else if (2 * (skies_ + skyline_pitches_rad_.size()) >= frames_) {
+      look.level_by = LevelBy::sky;
+      look.pitch_rad = rad_of_deg(kGuessedUp_deg);
+    } else if (2 * grounds_ >= frames_) {
+      look.level_by = LevelBy::ground;
+      look.pitch_rad = rad_of_deg(kGuessedDown_deg);
+    }
+  }
+
+ private:
+  bool set_horizon(FirstLook& look) const {
+    if (2 * line_rolls_rad_.size() < frames_) return false;
+    const double roll_rad = median_of(line_rolls_rad_);
+    const double pitch_rad = median_of(line_pitches_rad_);
     std::size_t near = 0;
-    for (std::size_t i = 0; i < rolls_rad.size(); ++i)
-      near += std::abs(rolls_rad[i] - roll_rad) < kSteady_rad && std::abs(pitches_rad[i] - pitch_rad) < kSteady_rad;
-    if (2 * near < frames || std::abs(roll_rad) > kMaxRoll_rad) return;
+    for (std::size_t i = 0; i < line_rolls_rad_.size(); ++i)
+      near += std::abs(line_rolls_rad_[i] - roll_rad) < kSteady_rad &&
+              std::abs(line_pitches_rad_[i] - pitch_rad) < kSteady_rad;
+    if (2 * near < frames_) return false;
+    look.level_by = LevelBy::horizon;
     look.roll_rad = roll_rad;
     look.pitch_rad = pitch_rad;
+    return true;
   }
+
+  static bool has_colors_of_sky(const Frame& frame, const SkyMap& sky) {
+    const LightGrid grid = light_grid_of(frame);
+    if (grid.empty() || sky.empty()) return false;
+    cv::Mat cells;
+    cv::resize(sky.sky, cells, grid.size(), 0, 0, cv::INTER_NEAREST);
+    const cv::Scalar light = cv::mean(grid.light, cells == 255);
+    return light[2] >= kMinBlue * light[1];
+  }
+
+  std::vector<double> line_rolls_rad_, line_pitches_rad_, skyline_pitches_rad_;
+  std::size_t frames_ = 0, skies_ = 0, grounds_ = 0;
 };
 
 // By the camera's log, where that has time and place.
@@ -68,25 +117,58 @@ std::optional<GivenSun> sun_by_log(Scene scene) {
 Result<FirstLook> first_look(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel) {
   const std::optional<GivenSun> sun = sun_by_log(scene);
   Surroundings surroundings(!sun);
-  LightImageReader reader;
-  Horizons horizons;
-  std::size_t seen = 0;
+  Levels levels;
   for (const int number : look_frames(scene)) {
     if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
     const Result<Frame> frame = footage.read(number);
     if (!frame) return fail(frame.error());
     if (frame->damaged) continue;
-    ++seen;
     View view{.camera = &scene.camera};
     if (scene.horizon_is_known)
       view.world_from_camera = camera_at(scene.motion, time_of_frame_s(scene.footage, number)).rotation;
     surroundings.add(*frame, view);
-    if (scene.horizon_is_known) continue;
-    if (const LightImage image = reader.read(*frame, view); image.skyline) horizons.add(image.skyline->up);
+    if (!scene.horizon_is_known) levels.add(*frame, scene.camera);
   }
   FirstLook look{.surroundings = surroundings.finish(sun)};
-  horizons.set(look, seen);
+  levels.set(look);
   return look;
+}
+
+std::vector<FirstProjectNote> set_attitude(const FirstLook& look, bool has_path, Project& project) {
+  FirstProjectNote note{.field = "camera.attitude_deg", .is_guess = true};
+  if (look.level_by == LevelBy::nothing) {
+    note.text = "not known: no horizon was found in the footage; the camera counts as level";
+    return {note};
+  }
+  const auto rounded_deg = [](double rad) { return std::round(10 * deg_of_rad(rad)) / 10 + 0.0; };
+  project.camera.roll_deg = rounded_deg(look.roll_rad);
+  project.camera.pitch_deg = rounded_deg(look.pitch_rad);
+  const std::string pitch = number_text(*project.camera.pitch_deg, 1);
+  switch (look.level_by) {
+    case LevelBy::horizon:
+      note.text = fmt::format("roll {}, pitch {}: by the horizon in a few frames",
+                              number_text(*project.camera.roll_deg, 1), pitch);
+      note.remedy = "`sigs ego-motion` finds each frame's attitude";
+      break;
+    case LevelBy::skyline:
+      note.text = fmt::format("pitch {}: by where the sky ends above woods, hills or houses, right to some degrees; "
+                              "roll 0",
+                              pitch);
+      break;
+    case LevelBy::sky:
+      note.text = fmt::format("pitch {}: only sky is in sight, so that the camera looks up; by how much the footage does "
+                              "not tell",
+                              pitch);
+      break;
+    default:
+      note.text = fmt::format("pitch {}: only ground is in sight, so that the camera looks down; by how much the footage "
+                              "does not tell",
+                              pitch);
+  }
+  std::vector<FirstProjectNote> notes{note};
+  if (look.pitch_rad <= kLooksUp_rad || has_path) return notes;
+  project.camera.position_m.z = -kOnGround_m;
+  return notes;
 }
 
 FirstProjectNote set_light(const FirstLook& look, Project& project) {

@@ -150,15 +150,16 @@ std::string why_no_motion(const EgoMotion& motion, const Scene& scene) {
 
 Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool horizon_is_seen,
                                  const MatchControl& control) {
-  FirstMotion found{.track = {}, .note = {.field = "camera.track.file", .is_guess = true}};
+  FirstMotion found{.track = {}, .attitudes = {}, .note = {.field = "camera.track.file", .is_guess = true}};
   const auto none = [&](const std::string& why) {
     found.note.text = "none: " + why + "; the camera keeps one attitude";
     return found;
   };
   if (footage.info().frame_count() < 2) return none("a single image shows no motion");
-  if (footage.info().times_s.back() > kLongestMotion_s)
-    return none(
-        fmt::format("the turns of footage longer than {:.0f} s are left to `sigs ego-motion`", kLongestMotion_s));
+  if (footage.info().times_s.back() > kLongestMotion_s) {
+    found.note.remedy = "`sigs ego-motion --into PROJECT` finds them";
+    return none(fmt::format("turns are not sought in footage longer than {:.0f} s", kLongestMotion_s));
+  }
   const EgoMotionControl following{.progress =
                                        [&](int done, int total) {
                                          if (control.progress) control.progress(double(done) / std::max(1, total));
@@ -170,6 +171,7 @@ Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool 
   if (!motion) return none(motion.error().text());
   if (const std::string why = why_no_motion(*motion, scene); !why.empty()) return none(why);
   found.track = track_of(*motion, footage.info().path);
+  found.attitudes = found_attitudes(*motion, {});
   found.note.is_guess = false;
   found.note.text = motion->level_sd_rad
                         ? fmt::format(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "ego_motion/project_motion.h"
 #include "first_project/first_project.h"
 #include "scene/scene.h"
 #include "telemetry/track.h"
@@ -32,6 +33,7 @@ struct MatchControl {
 // The camera's turns as the images show them (ego_motion).
 struct FirstMotion {
   std::optional<Track> track;  // attitudes on the footage's time axis; none: the camera's attitude stays as it is
+  FoundAttitudes attitudes;    // of the track, for follow_attitudes(), without the file's name
   FirstProjectNote note;       // what was found, or why there is none
 };
 

@@ -36,6 +36,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double kLowCamera_m = 10;    // what is lower stands on the ground
 constexpr double kLongestSpan_s = 60;  // an encounter lasts about that long
 
 // How far the making is when a step begins, by its run time of a clip of 10 s.
@@ -208,28 +209,23 @@ class Planning {
     return scene;
   }
 
+  // Whether the log has the camera's path.
+  [[nodiscard]] bool has_path() const {
+    const auto& track = first_.project.camera.track;
+    return !track.file.empty() && track.position != TrackPositionChoice::none;
+  }
+
   Result<void> look(FrameSource& source) {
     step(kLookStep_percent, "looking at the footage");
     const Result<FirstLook> look = first_look(source, scene(), control_.cancel);
     if (!look) return fail(look.error());
+    std::vector<FirstProjectNote> attitude;
+    if (!scene().horizon_is_known) attitude = set_attitude(*look, has_path(), project());
+    looks_up_ = project().camera.position_m.z > -kLowCamera_m;
     if (const Result<void> done = follow_images(source, *look); !done) return done;
-    if (seen_turns_ && seen_turns_->level_is_known) {
-      // The file has the whole attitude.
-    } else if (look->roll_rad) {
-      const auto rounded_deg = [](double rad) { return std::round(10 * deg_of_rad(rad)) / 10; };
-      project().camera.roll_deg = rounded_deg(*look->roll_rad);
-      project().camera.pitch_deg = rounded_deg(*look->pitch_rad);
-      note(
-          {.field = "camera.attitude_deg",
-           .text = fmt::format("roll {}, pitch {}: by the horizon in a few frames",
-                               number_text(*project().camera.roll_deg, 1), number_text(*project().camera.pitch_deg, 1)),
-           .is_guess = true,
-           .remedy = "`sigs ego-motion` finds each frame's attitude"});
-    } else if (!scene().horizon_is_known) {
-      note({.field = "camera.attitude_deg",
-            .text = "not known: no horizon was found in the footage; the camera counts as level",
-            .is_guess = true});
-    }
+    // A level that the images show at each frame is the motion's, with a note of its own.
+    if (!seen_turns_ || !seen_turns_->level_is_known)
+      for (FirstProjectNote& one : attitude) note(std::move(one));
     return match(source, *look);
   }
 
@@ -242,11 +238,12 @@ class Planning {
       step(kMotionStep_percent + static_cast<int>(share * (kMatchStep_percent - kMotionStep_percent)), kStep);
     };
     Result<FirstMotion> motion =
-        first_motion(source, scene(), look.roll_rad.has_value(), {.progress = tell, .cancel = control_.cancel});
+        first_motion(source, scene(), look.level_by == LevelBy::horizon, {.progress = tell, .cancel = control_.cancel});
     if (!motion) return fail(motion.error());
     if (motion->track) {
       const fs::path file = beside(".attitude.csv");
-      project().camera.track.file = file.filename().string();
+      motion->attitudes.file = file.filename().string();
+      follow_attitudes(project(), motion->attitudes);
       first_.files.push_back({.path = file, .content = track_csv_text(*motion->track), .copy_of = {}});
       seen_turns_ = std::move(motion->track);
     }
@@ -284,7 +281,8 @@ class Planning {
     project().intruders = {std::move(intruder)};
     project().camera.position_m.z -= flight.raise_m;
     note({.field = "camera.position_m",
-          .text = fmt::format("{} m above the ground", number_text(-project().camera.position_m.z, 0)),
+          .text = fmt::format("{} m above the ground{}", number_text(-project().camera.position_m.z, 0),
+                              looks_up_ ? ": a camera that looks up is taken to stand there" : ""),
           .is_guess = true});
     first_.notes.insert(first_.notes.end(), model->notes.begin(), model->notes.end());
     note(flight.note);
@@ -322,6 +320,7 @@ class Planning {
   FirstLog log_;
   std::optional<Camera> camera_;
   std::optional<Track> seen_turns_;  // of the camera, by the images
+  bool looks_up_ = false;  // from the ground
 };
 
 }  // namespace

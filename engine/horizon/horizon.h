@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "camera/camera.h"
+#include "horizon/sky_map.h"
 
 namespace sigs {
 
@@ -26,6 +27,12 @@ struct HorizonLine {
 // those (Fischler, Bolles 1981). Nothing where they are fewer than a quarter of the image's columns, or where what lies
 // above the edge is rougher than 0.7 of what lies below. Rolls beyond 60 degrees are not seen.
 //
+// Sky: each candidate has some above it (sky_map.h). 0.7 of what lies above the plane is sky, the rest stands on the
+// ground; of what lies below it at most 0.15, and in at most 0.3 times as many columns as have the edge: ground may rise
+// above the horizon, but sky is never below it, as it is beside a roof or a slope. The plane crosses nine tenths of the
+// image's columns, or has at least 0.15 of the image on each side: less is not told from a roof in the corner. Up to four
+// planes are tried.
+//
 // Haze: ground at distance d shows exp(-d / visual range) of its contrast against the sky (Koschmieder 1924). Seen from
 // height h that is exp(-a / t) at the angle t below the level, with a = h / visual range. It falls most steeply at
 // t = a / 2, where the edge is found, by 4 / (a e^2) of all of it: an edge that is as wide as w (contrast over greatest
@@ -35,6 +42,19 @@ struct HorizonLine {
 //   own_body  of the footage's size, above 127 where the own body is; may be empty
 [[nodiscard]] std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, const Camera& camera,
                                                     const cv::Mat& own_body, int frame);
+
+// An image of luma reduced for horizon_in() and sky_map_of(): its longer side is at most 640 px.
+struct ReducedLuma {
+  cv::Mat luma;  // CV_8UC1
+  double scale = 1;
+};
+[[nodiscard]] ReducedLuma reduced_luma(const cv::Mat& luma);
+
+// The camera's pitch where it is not rolled and the lower end of the sky is level: the median over the columns. For images
+// without a straight horizon, with woods, hills and houses: off by some degrees, mostly upwards less than that. Nothing
+// where fewer than 0.6 of the columns begin with sky, or where it ends within the image in fewer than half.
+//   scale  as of horizon_in()
+[[nodiscard]] std::optional<double> skyline_pitch_rad(const SkyMap& sky, double scale, const Camera& camera);
 
 // What lines of several frames say together.
 struct Level {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ego_motion/horizon.h"
+#include "horizon/horizon.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,6 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
-#include "ego_motion/turns.h"
 
 namespace sigs::test {
 
@@ -25,7 +24,8 @@ Camera view_camera(LensModel model) {
 
 // Of a camera of this roll (right side down) and pitch (nose up): turned about its Y, then about its X.
 Eigen::Quaterniond level_from_camera(double roll_deg, double pitch_deg) {
-  return turn_of({0, pitch_deg * kDegree, 0}) * turn_of({roll_deg * kDegree, 0, 0});
+  return Eigen::Quaterniond(Eigen::AngleAxisd(pitch_deg * kDegree, Eigen::Vector3d::UnitY())) *
+         Eigen::Quaterniond(Eigen::AngleAxisd(roll_deg * kDegree, Eigen::Vector3d::UnitX()));
 }
 
 // An image of a world that is given by the luma in each direction (X ahead, Z down), with noise of 1.5 codes.
@@ -35,7 +35,7 @@ cv::Mat image_of(const Camera& camera, const Eigen::Quaterniond& level_from_came
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x) {
       const auto ray = camera.lens.ray({x, y});
-      image.at<float>(y, x) = ray ? static_cast<float>(luma_in(level_from_camera * eigen_of(*ray))) : 0.0F;
+      image.at<float>(y, x) = ray ? static_cast<float>(luma_in(level_from_camera * Eigen::Vector3d(ray->x, ray->y, ray->z))) : 0.0F;
     }
   cv::GaussianBlur(image, image, {3, 3}, 0.6);
   cv::Mat noise(image.size(), CV_32F);
@@ -167,6 +167,62 @@ TEST_CASE("without a horizon none is found: blank, rough, an upright edge, a roa
       [](const Eigen::Vector3d& ray) { return std::abs(ray.z() - 0.1 * ray.y()) < 0.01 ? 200.0 : rough_ground(ray); }));
 }
 
+TEST_CASE("a road in footage that looks down is no horizon: above it is ground") {
+  const Camera camera = view_camera(LensModel::kannala_brandt);
+  // Bright ground beside a dark road that crosses the image straight, smooth enough for the edge to be sharp.
+  for (const double tilt : {0.0, 0.1, -0.3})
+    for (const double strength : {0.3, 1.0}) {
+      CAPTURE(tilt);
+      const auto luma = [&](const Eigen::Vector3d& ray) {
+        const double off = ray.y() * tilt - ray.x() / std::max(ray.z(), 0.1);
+        return std::abs(off) < 0.1 ? 60.0 : 60 + strength * rough_ground(ray) + (1 - strength) * 110;
+      };
+      CHECK_FALSE(horizon_in(image_of(camera, level_from_camera(0, -90), luma), 1, camera, {}, 0));
+    }
+}
+
+TEST_CASE("a roof against the sky is no horizon: beside it there is sky below its edge") {
+  const Camera camera = view_camera(LensModel::brown_conrady);
+  for (const double slope : {0.15, -0.25}) {
+    const auto luma = [&](const Eigen::Vector3d& ray) {
+      const double right = ray.y() / ray.x(), down = ray.z() / ray.x();
+      const bool is_roof = right > -0.1 && right < 0.6 && down > 0.05 + slope * right;
+      return is_roof ? 60.0 : sea_and_sky({ray.x(), ray.y(), -std::abs(ray.z())});
+    };
+    CHECK_FALSE(horizon_in(image_of(camera, level_from_camera(0, 0), luma), 1, camera, {}, 0));
+  }
+}
+
+TEST_CASE("a bonnet below a street is no horizon; the street's end is the skyline") {
+  const Camera camera = view_camera(LensModel::brown_conrady);
+  const auto luma = [](const Eigen::Vector3d& ray) {
+    const double down = ray.z() / ray.x();
+    if (down > 0.3) return 70.0;                                                     // the bonnet, straight
+    const double roofs = -0.05 - 0.03 * std::sin(23 * ray.y()) * std::sin(7 * ray.y());
+    return down > roofs ? 20 + rough_ground(ray) : 200.0;
+  };
+  const cv::Mat image = image_of(camera, level_from_camera(0, 4), luma);
+  CHECK_FALSE(horizon_in(image, 1, camera, {}, 0));
+  const auto pitch_rad = skyline_pitch_rad(sky_map_of(image), 1, camera);
+  REQUIRE(pitch_rad);
+  // The roofs stand 0.05 above the level on average, which pitches the camera down; the scene turns with it here.
+  CHECK(*pitch_rad / kDegree == doctest::Approx(4 - 0.05 / kDegree).epsilon(0.4));
+}
+
+TEST_CASE("sky, ground and their border are distinguished in an image that shows one alone or both") {
+  const Camera camera = view_camera(LensModel::brown_conrady);
+  const auto seen = [&](double pitch_deg, const std::function<double(const Eigen::Vector3d&)>& luma) {
+    return sky_map_of(image_of(camera, level_from_camera(0, pitch_deg), luma));
+  };
+  const auto world = [](const Eigen::Vector3d& ray) { return ray.z() > 0 ? rough_ground(ray) : 190 + 20 * ray.z(); };
+  CHECK(seen(50, world).share > 0.99);
+  CHECK(seen(-70, world).share < 0.08);
+  const SkyMap both = seen(5, world);
+  CHECK(both.columns == 1);
+  // The level is 420 tan(5 degrees) = 37 px below the middle row of 360.
+  CHECK(both.share == doctest::Approx((180 + 37) / 360.0).epsilon(0.03));
+}
+
 TEST_CASE("a horizon hidden by the own body over most of the width is none") {
   const Camera camera = view_camera(LensModel::kannala_brandt);
   cv::Mat body(camera.size_px, CV_8UC1, cv::Scalar(0));
@@ -183,7 +239,7 @@ TEST_CASE("lines that stay in the world are its level; lines that move by parall
     turns.push_back(level_from_camera(k, 0.5 * k));
     still.push_back({.frame = k, .up = up_in_camera(turns.back()), .sd_rad = 0.001});
     moving.push_back({.frame = k,
-                      .up = turns.back().conjugate() * turn_of({0, 0.01 * k, 0}) * Eigen::Vector3d(0, 0, -1),
+                      .up = turns.back().conjugate() * Eigen::AngleAxisd(0.01 * k, Eigen::Vector3d::UnitY()) * Eigen::Vector3d(0, 0, -1),
                       .sd_rad = 0.001});
   }
   const auto level = level_of(still, turns);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ego_motion/horizon.h"
+#include "horizon/horizon.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/pose.h"
-#include "ego_motion/turns.h"
+#include "horizon/sky_map.h"
 
 namespace sigs {
 
@@ -25,12 +25,16 @@ constexpr int kGap = 4;                // a column without the edge counts as mu
 constexpr int kHorizonTrials = 600;
 constexpr double kSteepest = 1.7;      // tangent of the roll
 constexpr int kAlike = 10;             // columns whose errors are alike: swell, coding, haze
+constexpr int kPlanes = 4;             // that are tried, one after the other
+constexpr int kSkyAbove_cells = 3;     // from an edge up to the next sky
+constexpr double kMinSkyAbove = 0.7;   // share of what lies above the plane
+constexpr double kMaxSkyBelow = 0.15;  // share of what lies below the plane
+constexpr double kMaxSkyUnder = 0.3;   // columns with sky below the plane, of those with the edge
+constexpr double kNearPlane_rad = 0.012;  // nearer to the plane, cells may hold some of both sides
+constexpr double kMinWide = 0.9, kMinArea = 0.15;  // of the image: across it, or so much on both sides
 constexpr int kBand_px = 14;           // above and below the edge, where texture is compared
 constexpr double kRougher = 0.7;       // of the texture below: that of a sky, at most
 constexpr double kSmooth_codes = 3;    // smooth, whatever is below
-constexpr double kAgree_rad = 0.0087;  // half a degree
-constexpr double kDip_rad = 0.0068;    // sqrt(2 h / R): the horizon's dip seen from 150 m
-constexpr int kLeastLines = 5;
 constexpr double kDeep_rad = 0.1;        // below the edge: ground with little haze
 constexpr double kHazePerWidth = 0.271;  // 2 / e^2, see horizon.h
 constexpr double kSharp_px = 2;          // width that a sharp edge seems to have by differences over two rows
@@ -51,6 +55,10 @@ struct Stretch {
 
   [[nodiscard]] int length() const { return last - first + 1; }
 };
+
+Eigen::Vector3d eigen_of(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
 
 bool is_own_body(const cv::Mat& own_body, double x, double y) {
   if (own_body.empty()) return false;
@@ -79,8 +87,14 @@ std::vector<std::pair<float, float>> edges_in(const cv::Mat& gradient, const cv:
   return edges;
 }
 
+bool has_sky_over(const SkyMap& sky, double x, double y) {
+  for (int k = 1; k <= kSkyAbove_cells; ++k)
+    if (y >= k * SkyMap::kCell_px && sky.is_sky(x, y - k * SkyMap::kCell_px)) return true;
+  return false;
+}
+
 std::vector<Candidate> candidates_in(const cv::Mat& reduced, double scale, const Camera& camera,
-                                     const cv::Mat& own_body) {
+                                     const cv::Mat& own_body, const SkyMap& sky) {
   cv::Mat smooth;
   cv::Mat gradient;
   cv::Mat mean;
@@ -92,7 +106,7 @@ std::vector<Candidate> candidates_in(const cv::Mat& reduced, double scale, const
     int rank = 0;
     for (const auto& [step, y] : edges_in(gradient, mean, x)) {
       const glm::dvec2 pixel((x + 0.5) * scale - 0.5, (static_cast<double>(y) + 0.5) * scale - 0.5);
-      if (is_own_body(own_body, pixel.x, pixel.y)) continue;
+      if (is_own_body(own_body, pixel.x, pixel.y) || !has_sky_over(sky, x, static_cast<double>(y))) continue;
       if (const auto ray = camera.lens.ray(pixel))
         candidates.push_back({x / kColumnStep_px, rank++, {x, y}, eigen_of(*ray)});
     }
@@ -130,7 +144,7 @@ bool is_on(const Candidate& c, const Eigen::Vector3d& normal, const Stretch& str
 
 // The sky is smoother than what lies below it; of an edge within fields or streets both sides are alike.
 // Texture is how neighbours at the same distance from the edge differ.
-bool has_sky_above(const cv::Mat& reduced, const std::vector<Candidate>& candidates, const Eigen::Vector3d& normal,
+bool has_smooth_side_above(const cv::Mat& reduced, const std::vector<Candidate>& candidates, const Eigen::Vector3d& normal,
                    const Stretch& stretch) {
   double above = 0;
   double below = 0;
@@ -158,7 +172,7 @@ std::optional<Eigen::Vector3d> plane_of(const std::vector<Candidate>& candidates
   std::vector<const Candidate*> strong;
   for (const Candidate& c : candidates)
     if (c.rank < static_cast<int>(kTried)) strong.push_back(&c);
-  if (static_cast<double>(strong.size()) < kLeastShare * columns) return std::nullopt;
+  if (strong.size() < 2 || static_cast<double>(strong.size()) < kLeastShare * columns) return std::nullopt;
   cv::RNG chance(1);
   const int count = static_cast<int>(strong.size());
   int best = 0;
@@ -240,20 +254,75 @@ double hills_at(const std::vector<Candidate>& candidates, const Eigen::Vector3d&
   return count > 0 ? std::sqrt(3 * squares / count) : 0;
 }
 
-}  // namespace
+// Where every other cell of a sky map looks.
+class CellRays {
+ public:
+  struct Cell {
+    Eigen::Vector3d ray;
+    int column = 0;
+    bool is_sky = false;
+  };
 
-std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, const Camera& camera,
-                                      const cv::Mat& own_body, int frame) {
-  const std::vector<Candidate> candidates = candidates_in(reduced, scale, camera, own_body);
-  const int columns = reduced.cols / kColumnStep_px;
-  const std::optional<Eigen::Vector3d> plane = plane_of(candidates, columns);
-  if (!plane) return std::nullopt;
-  Eigen::Vector3d normal = *plane;
+  CellRays(const SkyMap& sky, double scale, const Camera& camera, const cv::Mat& own_body)
+      : columns_((sky.sky.cols + kEvery - 1) / kEvery), width_px_(sky.sky.cols * SkyMap::kCell_px) {
+    for (int y = 0; y < sky.sky.rows; y += kEvery)
+      for (int x = 0; x < sky.sky.cols; x += kEvery) {
+        const glm::dvec2 pixel((x + 0.5) * SkyMap::kCell_px * scale - 0.5, (y + 0.5) * SkyMap::kCell_px * scale - 0.5);
+        if (is_own_body(own_body, pixel.x, pixel.y)) continue;
+        if (const auto ray = camera.lens.ray(pixel))
+          cells_.push_back({eigen_of(*ray), x / kEvery, sky.sky(y, x) != 0});
+      }
+  }
+
+  [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
+  [[nodiscard]] int columns() const { return columns_; }
+  [[nodiscard]] double column_px() const { return static_cast<double>(width_px_) / columns_; }
+
+ private:
+  static constexpr int kEvery = 2;
+  std::vector<Cell> cells_;
+  int columns_ = 0, width_px_ = 0;
+};
+
+// Above a horizon is sky, but for what stands on the ground, and below it is none. The edge of a roof goes on as a line
+// below which there is sky, and one that only cuts a corner of the image is not told from a roof.
+bool divides_sky(const CellRays& rays, const Eigen::Vector3d& up, const Stretch& stretch) {
+  int above = 0, sky_above = 0, below = 0, sky_below = 0;
+  const auto columns = static_cast<std::size_t>(rays.columns());
+  std::vector<bool> has_above(columns), has_below(columns), has_sky_below(columns);
+  for (const CellRays::Cell& cell : rays.cells()) {
+    const double up_rad = up.dot(cell.ray);
+    const auto column = static_cast<std::size_t>(cell.column);
+    (up_rad > 0 ? has_above : has_below)[column] = true;
+    if (std::abs(up_rad) < kNearPlane_rad) continue;
+    ++(up_rad > 0 ? above : below);
+    if (!cell.is_sky) continue;
+    ++(up_rad > 0 ? sky_above : sky_below);
+    if (up_rad < 0) has_sky_below[column] = true;
+  }
+  int across = 0, sky_under = 0;
+  for (std::size_t i = 0; i < columns; ++i) {
+    across += has_above[i] && has_below[i] ? 1 : 0;
+    sky_under += has_above[i] && has_sky_below[i] ? 1 : 0;
+  }
+  const double cells = static_cast<double>(rays.cells().size());
+  const bool is_wide = across >= kMinWide * rays.columns() || std::min(above, below) >= kMinArea * cells;
+  return is_wide && sky_above >= kMinSkyAbove * above && sky_below <= kMaxSkyBelow * below &&
+         sky_under * rays.column_px() <= kMaxSkyUnder * stretch.columns * kColumnStep_px;
+}
+
+// A plane that is fitted to the candidates near it.
+struct FittedEdge {
+  Eigen::Vector3d up;
+  Stretch stretch;
   double sd_rad = 0;
+};
+
+std::optional<FittedEdge> fitted_edge(const std::vector<Candidate>& candidates, Eigen::Vector3d normal, int columns) {
+  FittedEdge edge;
   for (int round = 0; round < 3; ++round) {
     const Stretch stretch = stretch_on(candidates, normal);
     if (stretch.columns < kLeastShare * columns) return std::nullopt;
-    if (round == 2 && !has_sky_above(reduced, candidates, normal, stretch)) return std::nullopt;
     Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
     for (const Candidate& c : candidates)
       if (is_on(c, normal, stretch)) m += c.ray * c.ray.transpose();
@@ -261,65 +330,45 @@ std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, cons
     normal = solver.eigenvectors().col(0);
     // The smallest value is the sum of squared misses; the next one tells how long the edge is.
     const double miss2 = std::max(solver.eigenvalues()(0), 0.0) / stretch.columns + 1e-8;
-    sd_rad = std::sqrt(miss2 * kAlike / std::max(solver.eigenvalues()(1), 1e-9));
+    edge.sd_rad = std::sqrt(miss2 * kAlike / std::max(solver.eigenvalues()(1), 1e-9));
   }
-  if (normal.z() > 0) normal = -normal;  // Z is down
-  const Stretch stretch = stretch_on(candidates, normal);
-  std::vector<Candidate> on_edge;
-  for (const Candidate& c : candidates)
-    if (is_on(c, normal, stretch) && (on_edge.empty() || on_edge.back().column < c.column)) on_edge.push_back(c);
-  if (on_edge.empty()) return std::nullopt;
-  return HorizonLine{.frame = frame,
-                     .up = normal,
-                     .sd_rad = sd_rad,
-                     .haze_rad = haze_at(reduced, scale, camera, on_edge, normal),
-                     .hills_rad = hills_at(candidates, normal, stretch)};
+  edge.up = normal.z() > 0 ? Eigen::Vector3d(-normal) : normal;  // Z is down
+  edge.stretch = stretch_on(candidates, edge.up);
+  return edge;
 }
 
-std::optional<Level> level_of(std::span<const HorizonLine> lines,
-                              std::span<const Eigen::Quaterniond> start_from_camera) {
-  std::vector<Eigen::Vector3d> ups;
-  for (const HorizonLine& line : lines)
-    ups.push_back(start_from_camera[static_cast<std::size_t>(line.frame)] * line.up);
-  Level level;
-  Eigen::Vector3d best = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& middle : ups) {
-    int count = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& up : ups) {
-      if ((up - middle).norm() > kAgree_rad) continue;
-      sum += up;
-      ++count;
-    }
-    if (count > level.lines) {
-      level.lines = count;
-      best = sum;
-    }
-  }
-  if (level.lines < kLeastLines || 2 * level.lines < static_cast<int>(ups.size())) return std::nullopt;
-  level.up_in_start = best.normalized();
-  double squares = 0;
-  for (std::size_t i = 0; i < ups.size(); ++i) {
-    if ((ups[i] - level.up_in_start).norm() > kAgree_rad) continue;
-    const HorizonLine& line = lines[i];
-    squares += std::max((ups[i] - level.up_in_start).squaredNorm() / 2, line.sd_rad * line.sd_rad) +
-               line.haze_rad * line.haze_rad + line.hills_rad * line.hills_rad;
-  }
-  // Haze and hills bias all lines alike, so that none of this shrinks with their number.
-  level.sd_rad = std::sqrt(squares / level.lines + kDip_rad * kDip_rad);
-  return level;
-}
+}  // namespace
 
-Eigen::Quaterniond world_from_start(const Eigen::Vector3d& up_in_start) {
-  const Eigen::Vector3d down = -up_in_start;
-  Eigen::Vector3d forward = Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitX().dot(down) * down;
-  if (forward.norm() < 1e-6) forward = Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitZ().dot(down) * down;
-  forward.normalize();
-  Eigen::Matrix3d world;  // rows: the world's axes in the camera's
-  world.row(0) = forward;
-  world.row(1) = down.cross(forward);
-  world.row(2) = down;
-  return Eigen::Quaterniond(world).normalized();
+std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, const Camera& camera,
+                                      const cv::Mat& own_body, int frame) {
+  const SkyMap sky = sky_map_of(reduced, own_body);
+  std::vector<Candidate> candidates = candidates_in(reduced, scale, camera, own_body, sky);
+  const int columns = reduced.cols / kColumnStep_px;
+  for (int plane = 0; plane < kPlanes; ++plane) {
+    const std::optional<Eigen::Vector3d> rough = plane_of(candidates, columns);
+    if (!rough) return std::nullopt;
+    const std::optional<FittedEdge> edge = fitted_edge(candidates, *rough, columns);
+    if (edge && has_smooth_side_above(reduced, candidates, edge->up, edge->stretch)) {
+      if (divides_sky(CellRays(sky, scale, camera, own_body), edge->up, edge->stretch)) {
+        std::vector<Candidate> on_edge;
+        for (const Candidate& c : candidates)
+          if (is_on(c, edge->up, edge->stretch) && (on_edge.empty() || on_edge.back().column < c.column))
+            on_edge.push_back(c);
+        if (on_edge.empty()) return std::nullopt;
+        return HorizonLine{.frame = frame,
+                           .up = edge->up,
+                           .sd_rad = edge->sd_rad,
+                           .haze_rad = haze_at(reduced, scale, camera, on_edge, edge->up),
+                           .hills_rad = hills_at(candidates, edge->up, edge->stretch)};
+      }
+    }
+    const Eigen::Vector3d normal = edge ? edge->up : *rough;
+    const Stretch stretch = stretch_on(candidates, normal);
+    const std::size_t before = candidates.size();
+    std::erase_if(candidates, [&](const Candidate& c) { return is_on(c, normal, stretch); });
+    if (candidates.size() == before) return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace sigs
