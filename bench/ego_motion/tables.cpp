@@ -15,6 +15,10 @@ constexpr const char* kValues =
     "features,"
     "run_s,decode_s,level_error_deg,level_sd_deg,offset_ms,offset_sd_ms,drift_ppm,fused";
 
+std::string header_of(std::string keys) {
+  return keys.append(kValues);
+}
+
 // The columns of kValues, after those that say what was measured.
 std::string values_of(const Measured& result) {
   const made::SlipScore& score = result.score;
@@ -57,7 +61,7 @@ std::vector<Variant> variants() {
 }  // namespace
 
 void measure_cases(const accuracy::Call& call) {
-  accuracy::Csv csv(call.folder / "cases.csv", std::string("case,seed,gyro,") + kValues);
+  accuracy::Csv csv(call.folder / "cases.csv", header_of("case,seed,gyro,"));
   for (const std::uint32_t seed : {1U, 2U, 3U})
     for (const std::string& kind : made::case_names()) {
       const MadeFlight flight = made_flight(call, kind, seed);
@@ -68,7 +72,7 @@ void measure_cases(const accuracy::Call& call) {
 }
 
 void measure_sweep(const accuracy::Call& call) {
-  accuracy::Csv csv(call.folder / "sweep.csv", std::string("variant,case,seed,gyro,") + kValues);
+  accuracy::Csv csv(call.folder / "sweep.csv", header_of("variant,case,seed,gyro,"));
   for (const char* kind : {"vibrating", "clouds", "rolling shutter"}) {
     const MadeFlight flight = made_flight(call, kind, 1);
     for (const Variant& variant : variants())
