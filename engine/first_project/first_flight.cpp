@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/pose.h"
+#include "base/text.h"
 #include "scene/flight.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
@@ -27,6 +28,7 @@ constexpr double kMinVisible_px = 2;                                     // what
 constexpr double kEnough = 0.95;                                         // of the frames
 constexpr double kGood = 0.75;  // from here on, no flight that is nearest at the end is tried
 constexpr double kTurning_rad = rad_of_deg(10);
+constexpr double kSteep_rad = rad_of_deg(60);  // from here on an azimuth says little of what is in view
 constexpr double kGround_m = 30;  // the least height of a flight
 constexpr int kSamples = 25;      // frames at which a flight is judged
 constexpr int kTurnWaypoints = 5;
@@ -116,7 +118,6 @@ CameraView view_of(const Scene& scene) {
     turned_rad += std::remainder(azimuth_rad - before_rad, 2 * std::numbers::pi);
     before_rad = azimuth_rad;
   }
-  constexpr double kSteep_rad = rad_of_deg(60);  // from here on an azimuth says little of what is in view
   if (std::abs(turned_rad) > kTurning_rad && std::abs(view.elevation_rad) < kSteep_rad)
     view.turn_radps = turned_rad / (2 * view.half_s);
   return view;
@@ -212,6 +213,17 @@ class FlightSearch {
         best = std::move(trial);
       if (best.visible_share >= kEnough && best.is_flyable) break;
     }
+    if (std::abs(view_.elevation_rad) >= kSteep_rad && best.visible_share < kGood) return slow_crossing(speed_mps, best);
+    return best;
+  }
+
+  // Below or above the camera an aircraft leaves the image within seconds, but for one that flies nearly as the camera does.
+  Trial slow_crossing(double speed_mps, Trial best) {
+    for (const double factor : {0.5, 0.25, 0.1, 0.05, 0.02, 0.01}) {
+      Trial trial = tried({.speed_mps = factor * speed_mps});
+      if (trial.is_flyable && trial.visible_share > best.visible_share) best = std::move(trial);
+      if (best.visible_share >= kGood) break;
+    }
     return best;
   }
 
@@ -294,11 +306,11 @@ class FlightSearch {
 };
 
 std::string shape_text(const FlightShape& shape) {
-  const std::string speed = fmt::format("at {:.0f} m/s", shape.speed_mps);
+  const std::string speed = fmt::format("at {} m/s", number_text(shape.speed_mps, shape.speed_mps < 3 ? 1 : 0));
   if (shape.turn_rad > 0)
     return fmt::format("comes in {}, turns away in the middle of the frames used and leaves", speed);
   if (shape.approach_rad > 0) return fmt::format("comes towards the camera {}", speed);
-  return fmt::format("crosses from left to right {}, nearest in the middle of the frames used", speed);
+  return fmt::format("crosses from left to right {} against the camera, nearest in the middle of the frames used", speed);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kEgoMotion = "`sigs ego-motion --into` finds in the images";
+const std::string kEgoMotion = "`sigs ego-motion --into` finds in the images how the camera turns";
 constexpr double kMinSpeed_mps = 2;  // slower ones are hidden in the error of satellite positions
 constexpr double kMaxSpeed_mps = 300;
 
@@ -76,18 +76,18 @@ std::vector<FirstProjectNote> set_track(const FirstLog& log, const std::string& 
                                         const FrameRange& range, Project& project) {
   FirstProjectNote note{.field = "camera.track.file"};
   const auto unused = [&](const std::string& why) {
-    note.text = fmt::format("none: {}, {}, is not used: {}; the camera stands still; how it turns, {}",
-                            log.file.filename().string(), log.track->format, why, kEgoMotion);
+    note.text = fmt::format("none: {}, {}, is not used: {}; the camera stands still", log.file.filename().string(),
+                            log.track->format, why);
+    note.remedy = kEgoMotion;
     note.is_guess = true;
     return std::vector{note};
   };
   if (!log.track) {
     return {
         {.field = "camera.speed_mps",
-         .text = "0: no flight log tells how the camera moves, so the intruder's motion is that against the camera; "
-                 "how it turns, " +
-                 kEgoMotion,
-         .is_guess = true}};
+         .text = "0: no flight log tells how the camera moves, so the intruder's motion is that against the camera",
+         .is_guess = true,
+         .remedy = kEgoMotion}};
   }
   const Track& track = *log.track;
   if (!track.on_footage_time) return unused("its time of the footage's frame 0 is not known (camera.track.offset_s)");
@@ -112,8 +112,9 @@ std::vector<FirstProjectNote> set_track(const FirstLog& log, const std::string& 
   const bool has_path = used->flight.motion.path != nullptr;
   note.text = fmt::format("{}, {}: the camera follows its {}", log.file.filename().string(), track.format,
                           has_path && has_camera ? "path and attitude"
-                          : has_path             ? "path; it has no attitude of the camera, which " + kEgoMotion
+                          : has_path             ? "path; it has no attitude of the camera"
                                                  : "attitude");
+  if (has_path && !has_camera) note.remedy = kEgoMotion;
   std::vector<FirstProjectNote> notes{note};
   if (has_path && (!has_camera || !track.heading_is_north) && used->flight.earth) {
     project.geo.heading_deg = std::round(10 * deg_of_rad(used->flight.earth->heading_rad())) / 10;
