@@ -277,6 +277,12 @@ Result<RecoveredProject> Recovery::take_over(const AbandonedProject& abandoned) 
   kept_revision_ = kept_mask_ = 0;
   mask_file_ = content->mask_file;
   RecoveredProject recovered{.read = std::move(*read), .as_read = content->as_read};
+  if (!content->head.project_file.empty()) {
+    // An editor that ended between saving and noting it has written these bytes itself.
+    const FileStamp present = stamp_of(content->head.project_file);
+    const Result<std::string> saved = read_text(content->head.project_file);
+    if (saved && *saved == content->project) recovered.as_read = present;
+  }
   if (mask_file_.empty()) return recovered;
   Result<cv::Mat> mask = read_mask(mask_file_);
   if (mask)

@@ -94,8 +94,8 @@ TEST_CASE("a wrong request of appearance is refused and nothing is written") {
 
 TEST_CASE("init writes the appearance and light that appearance --into writes; --plain leaves them out") {
   if (!has_real_data()) return;
-  // Without a horizon, so that neither takes a height or an attitude from the project.
-  const std::string video = (real_data() / "track/V_AIRPLANE_004.mp4").string();
+  // Nothing but sky, so that neither takes a height or an attitude from the project.
+  const std::string video = (real_data() / "track/V_AIRPLANE_044.mp4").string();
   const TemporaryFolder folder;
   const std::string project = (folder / "p.json").string();
   const Run made = run_sigs("init " + video + " --progress plain --out " + project);

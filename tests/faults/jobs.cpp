@@ -145,7 +145,7 @@ Workplace::Workplace() : tiny_(30) {
        .inputs = {"p.json", "flight.mkv", "flight.xml"}},
       {.name = "ego-motion",
        .arguments = "ego-motion" + in("flight.mkv") + "--calibration" + in("flight.xml") +
-                    "--progress none --out OUT/a.csv --plot OUT/a.png",
+                    "--max-unknown 100 --progress none --out OUT/a.csv --plot OUT/a.png",
        .inputs = {"flight.mkv", "flight.xml"}},
       {.name = "appearance",
        .arguments =

@@ -45,7 +45,7 @@ TEST_CASE("the footage is matched at the press of a button, shown with what was 
   ui_test.wait_for_place("inspector/found in the footage");
   editor.settle();
   ui_test.image("matched");
-  CHECK(lies_within(editor.place("inspector/found in the footage"), {0, 0, 1600, 960 - 210}));  // above the timeline
+  CHECK(lies_within(editor.place("inspector/found in the footage"), {0, 0, 1600, 960}));  // beside the timeline
   const Json after = ui_test.saved(project);
   CHECK(after["appearance"]["grain"]["sd_bright"].get<double>() > 0);
   CHECK(after["appearance"]["codec"]["match"] == "footage");

@@ -146,6 +146,8 @@ TEST_CASE("a person authors an encounter by numbers and by dragging its closest 
   unfold_encounter(editor);
   ui_test.wait_for_place("inspector/encounter/miss");
 
+  ui_test.edit([&] { editor.click("inspector/encounter/straight"); });  // numbers alone keep the sample's curve
+
   const Wanted wanted{-42.5, 17.25, 5, 125, 61};
   give(ui_test, "closing", "61");
   const int revision = revision_of(editor.state());

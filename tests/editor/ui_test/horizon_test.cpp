@@ -94,10 +94,10 @@ TEST_CASE("a new project asks for its horizon, which looking and clicking do not
   editor.click("new project/empty");
   (void)editor.place("first steps/Horizon");
   ui_test.image("first steps");
-  choose(ui_test, "Footage", "sample.mp4");
+  choose(ui_test, "Video", "sample.mp4");
   choose(ui_test, "Calibration", "sample.xml");
   CHECK_FALSE(editor.has_place("viewport/horizon"));
-  choose(ui_test, "Aircraft", "light-aircraft.obj");
+  choose(ui_test, "Model", "light-aircraft.obj");
   const ScreenPlace line = editor.place("viewport/horizon");  // comes by itself
   (void)editor.place("first steps/Horizon");
   ui_test.image("last step");
