@@ -117,11 +117,13 @@ void measure_horizons(const fs::path& truth) {
   }
   fmt::print(
       "| half | straight: found | skyline: line within 4 degrees | none | wrong lines | line, median error, degrees | "
-      "largest | pitch by skyline, frames | median error, degrees | 0.9 |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "largest | pitch by skyline, frames | median error, degrees | 0.9 "
+      "|\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (const auto& [half, t] : halves)
-    fmt::print("| {} | {} of {} | {} of {} | {} | {} | {} | {} | {} of {} | {} | {} |\n", half, t.straight_found, t.straight,
-               t.skyline_found, t.skyline, t.none, t.wrong, quantile(t.line_deg, 0.5), quantile(t.line_deg, 1), t.pitched,
-               t.straight + t.skyline, quantile(t.pitch_deg, 0.5), quantile(t.pitch_deg, 0.9));
+    fmt::print("| {} | {} of {} | {} of {} | {} | {} | {} | {} | {} of {} | {} | {} |\n", half, t.straight_found,
+               t.straight, t.skyline_found, t.skyline, t.none, t.wrong, quantile(t.line_deg, 0.5),
+               quantile(t.line_deg, 1), t.pitched, t.straight + t.skyline, quantile(t.pitch_deg, 0.5),
+               quantile(t.pitch_deg, 0.9));
 }
 
 }  // namespace sigs::bench

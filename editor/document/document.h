@@ -218,8 +218,8 @@ struct Revision {
 // per update of the window's loop, after drawing, and in the other calls that are not const. Frames are indices of the
 // footage, from 0. For the window's thread; other threads work with the revision() that they were given.
 //
-// A document belongs to one file, the one that it was opened from or saved to last, which project().file names: no edit,
-// undo or redo changes that.
+// A document belongs to one file, the one that it was opened from or saved to last, which project().file names: no
+// edit, undo or redo changes that.
 class Document {
  public:
   // An empty project; file "" until it is saved.
@@ -283,8 +283,8 @@ class Document {
   void apply(const std::vector<Edit>& edits);
 
   // Writes the project to its own file, or to another path; it belongs there from then on, with all that can be undone
-  // and redone, and its relative paths are rewritten to mean the same files. A file that is there is replaced at once by
-  // the complete one. Errors: cannot_create (without a file name too), write_failed; then nothing has changed.
+  // and redone, and its relative paths are rewritten to mean the same files. A file that is there is replaced at once
+  // by the complete one. Errors: cannot_create (without a file name too), write_failed; then nothing has changed.
   [[nodiscard]] Result<void> save();
   [[nodiscard]] Result<void> save_as(const std::filesystem::path& path);
 

@@ -14,10 +14,10 @@
 #include "ego_motion/features.h"
 #include "ego_motion/focal_scale.h"
 #include "ego_motion/gyro_fusion.h"
-#include "horizon/horizon.h"
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
 #include "ego_motion/turns.h"
+#include "horizon/horizon.h"
 #include "video/luma_stream.h"
 
 namespace sigs {
@@ -74,9 +74,7 @@ class Estimate {
   }
 
  private:
-  [[nodiscard]] static Error interrupted() {
-    return {"", "interrupted; nothing was written", ErrorKind::interrupted};
-  }
+  [[nodiscard]] static Error interrupted() { return {"", "interrupted; nothing was written", ErrorKind::interrupted}; }
 
   // share  of the whole work
   void report(double share) const {

@@ -105,7 +105,8 @@ std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double 
   std::vector<Costs> costs(pairs.size());
   parallel_for(static_cast<int>(pairs.size()), static_cast<int>(std::thread::hardware_concurrency()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    for (int s = 0; s < kScales && !is_cancelled(cancel); ++s) costs[k][static_cast<std::size_t>(s)] = cost_of(pairs[k], scale_at(s), pixel_rad);
+    for (int s = 0; s < kScales && !is_cancelled(cancel); ++s)
+      costs[k][static_cast<std::size_t>(s)] = cost_of(pairs[k], scale_at(s), pixel_rad);
   });
   if (is_cancelled(cancel)) return std::nullopt;
   const auto sum_of = [&](auto&& pick) {

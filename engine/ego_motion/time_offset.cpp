@@ -137,7 +137,8 @@ class OffsetSearch {
         highest = c.correlation;
         best = good[n];
       }
-      control_.report(kShareOfSome + (1 - kShareOfSome) * static_cast<double>(n + 1) / static_cast<double>(good.size()));
+      control_.report(kShareOfSome +
+                      (1 - kShareOfSome) * static_cast<double>(n + 1) / static_cast<double>(good.size()));
     }
     return best;
   }
@@ -152,7 +153,7 @@ class OffsetSearch {
   const StepControl& control_;
   std::vector<SeenTurn> some_;
   bool all_are_picked_ = false;
-  std::size_t stride_ = 1;  // between offsets that are compared first
+  std::size_t stride_ = 1;                      // between offsets that are compared first
   std::vector<std::optional<double>> by_some_;  // correlations; kNothing: too few turns; none: not compared
   std::size_t compared_ = 0;
 };

@@ -56,10 +56,10 @@ struct TimeOffset {
 };
 
 // The offset with which turns seen and recorded have the highest correlation, between -max_offset_s and max_offset_s in
-// steps of 5 ms; a parabola through the highest values gives it to parts of a step. Coarse to fine: offsets half a frame
-// apart are compared by some of the turns, then those of 5 ms about the good ones, and the best of these by all turns.
-// Where log and footage belong together, that finds the maximum of all steps. Drift: a line through the offsets of four
-// parts of the footage. Nothing where fewer than 20 turns can be compared, or where the search was cancelled.
+// steps of 5 ms; a parabola through the highest values gives it to parts of a step. Coarse to fine: offsets half a
+// frame apart are compared by some of the turns, then those of 5 ms about the good ones, and the best of these by all
+// turns. Where log and footage belong together, that finds the maximum of all steps. Drift: a line through the offsets
+// of four parts of the footage. Nothing where fewer than 20 turns can be compared, or where the search was cancelled.
 [[nodiscard]] std::optional<TimeOffset> time_offset(std::span<const SeenTurn> turns, const RateIntegral& rates,
                                                     double max_offset_s, const StepControl& control = {});
 

@@ -29,8 +29,8 @@ constexpr double kEnough = 0.95;                                         // of t
 constexpr double kGood = 0.75;  // from here on, no flight that is nearest at the end is tried
 constexpr double kTurning_rad = rad_of_deg(10);
 constexpr double kSteep_rad = rad_of_deg(60);  // from here on an azimuth says little of what is in view
-constexpr double kGround_m = 30;  // the least height of a flight
-constexpr int kSamples = 25;      // frames at which a flight is judged
+constexpr double kGround_m = 30;               // the least height of a flight
+constexpr int kSamples = 25;                   // frames at which a flight is judged
 constexpr int kTurnWaypoints = 5;
 constexpr int kSizeSteps = 4;
 
@@ -75,7 +75,7 @@ glm::dvec3 aim(const Scene& scene, double middle_s) {
   const auto ray_at = [&](double share) {
     return scene.camera.lens.ray({(size.width - 1) / 2.0, share * (size.height - 1)});
   };
-  constexpr double kUsualShare = 0.36;  // of the image's height, from above
+  constexpr double kUsualShare = 0.36;   // of the image's height, from above
   constexpr double kUpwardShare = 0.45;  // of a camera that looks up at what flies
   constexpr double kUpward_rad = rad_of_deg(5);
   if (scene.horizon_is_known && elevation_of(attitude * glm::dvec3(1, 0, 0)) > kUpward_rad)
@@ -143,8 +143,8 @@ glm::dvec3 world_point(const CameraView& view, const FlightShape& shape, double 
   const double azimuth_rad = view.azimuth_rad + view.turn_radps * time_s;
   const glm::dvec3 ahead(std::cos(azimuth_rad), std::sin(azimuth_rad), 0);
   const glm::dvec3 right(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0);
-  // Level flight at the height at which the line of sight is where the intruder is nearest; of a steep line of sight the
-  // nearest distance is along it.
+  // Level flight at the height at which the line of sight is where the intruder is nearest; of a steep line of sight
+  // the nearest distance is along it.
   constexpr double kShallow_rad = rad_of_deg(12);
   const bool is_shallow = std::abs(view.elevation_rad) < kShallow_rad;
   const double across_m = is_shallow ? nearest_m : nearest_m * std::cos(view.elevation_rad);
@@ -213,11 +213,13 @@ class FlightSearch {
         best = std::move(trial);
       if (best.visible_share >= kEnough && best.is_flyable) break;
     }
-    if (std::abs(view_.elevation_rad) >= kSteep_rad && best.visible_share < kGood) return slow_crossing(speed_mps, best);
+    if (std::abs(view_.elevation_rad) >= kSteep_rad && best.visible_share < kGood)
+      return slow_crossing(speed_mps, best);
     return best;
   }
 
-  // Below or above the camera an aircraft leaves the image within seconds, but for one that flies nearly as the camera does.
+  // Below or above the camera an aircraft leaves the image within seconds, but for one that flies nearly as the camera
+  // does.
   Trial slow_crossing(double speed_mps, Trial best) {
     for (const double factor : {0.5, 0.25, 0.1, 0.05, 0.02, 0.01}) {
       Trial trial = tried({.speed_mps = factor * speed_mps});
@@ -310,7 +312,8 @@ std::string shape_text(const FlightShape& shape) {
   if (shape.turn_rad > 0)
     return fmt::format("comes in {}, turns away in the middle of the frames used and leaves", speed);
   if (shape.approach_rad > 0) return fmt::format("comes towards the camera {}", speed);
-  return fmt::format("crosses from left to right {} against the camera, nearest in the middle of the frames used", speed);
+  return fmt::format("crosses from left to right {} against the camera, nearest in the middle of the frames used",
+                     speed);
 }
 
 }  // namespace

@@ -23,10 +23,9 @@ struct FirstFlight {
 //   approach   towards the camera, passing it after the range's end
 // At its nearest it is 20 to 60 px large: 3 % of the image's width within these. It crosses the middle column of the
 // image just above the horizon where the scene knows that and it is in the image, else a little above the middle; where
-// the camera looks up by more than 5 degrees, near the middle, so that the intruder is seen from below, and where it looks
-// down, from above. Flight is level.
-// Where the camera turns in one direction by more than 10 degrees, the flight follows. A range of one frame has a
-// waypoint in that frame and one after it.
+// the camera looks up by more than 5 degrees, near the middle, so that the intruder is seen from below, and where it
+// looks down, from above. Flight is level. Where the camera turns in one direction by more than 10 degrees, the flight
+// follows. A range of one frame has a waypoint in that frame and one after it.
 //   scene  with camera, motion, footage and range; without intruders
 [[nodiscard]] FirstFlight first_flight(Scene scene, const std::shared_ptr<const Model>& model);
 

@@ -83,11 +83,10 @@ std::vector<FirstProjectNote> set_track(const FirstLog& log, const std::string& 
     return std::vector{note};
   };
   if (!log.track) {
-    return {
-        {.field = "camera.speed_mps",
-         .text = "0: no flight log tells how the camera moves, so the intruder's motion is that against the camera",
-         .is_guess = true,
-         .remedy = kEgoMotion}};
+    return {{.field = "camera.speed_mps",
+             .text = "0: no flight log tells how the camera moves, so the intruder's motion is that against the camera",
+             .is_guess = true,
+             .remedy = kEgoMotion}};
   }
   const Track& track = *log.track;
   if (!track.on_footage_time) return unused("its time of the footage's frame 0 is not known (camera.track.offset_s)");

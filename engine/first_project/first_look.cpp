@@ -151,19 +151,22 @@ std::vector<FirstProjectNote> set_attitude(const FirstLook& look, bool has_path,
       note.remedy = "`sigs ego-motion` finds each frame's attitude";
       break;
     case LevelBy::skyline:
-      note.text = fmt::format("pitch {}: by where the sky ends above woods, hills or houses, right to some degrees; "
-                              "roll 0",
-                              pitch);
+      note.text = fmt::format(
+          "pitch {}: by where the sky ends above woods, hills or houses, right to some degrees; "
+          "roll 0",
+          pitch);
       break;
     case LevelBy::sky:
-      note.text = fmt::format("pitch {}: only sky is in sight, so that the camera looks up; by how much the footage does "
-                              "not tell",
-                              pitch);
+      note.text = fmt::format(
+          "pitch {}: only sky is in sight, so that the camera looks up; by how much the footage does "
+          "not tell",
+          pitch);
       break;
     default:
-      note.text = fmt::format("pitch {}: only ground is in sight, so that the camera looks down; by how much the footage "
-                              "does not tell",
-                              pitch);
+      note.text = fmt::format(
+          "pitch {}: only ground is in sight, so that the camera looks down; by how much the footage "
+          "does not tell",
+          pitch);
   }
   std::vector<FirstProjectNote> notes{note};
   if (look.pitch_rad <= kLooksUp_rad || has_path) return notes;

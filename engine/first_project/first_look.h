@@ -29,8 +29,8 @@ struct FirstLook {
 };
 
 // Looks at up to 7 frames of the scene's range. Damaged ones are left out. The level is sought only where the scene
-// does not know it. A horizon (horizon/horizon.h) is taken where it lies within 4 degrees of the median in at least half
-// of the frames; else a skyline in at least half of them; else sky, or ground, that fills at least half of them.
+// does not know it. A horizon (horizon/horizon.h) is taken where it lies within 4 degrees of the median in at least
+// half of the frames; else a skyline in at least half of them; else sky, or ground, that fills at least half of them.
 // Errors: those of FrameSource::read().
 [[nodiscard]] Result<FirstLook> first_look(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel);
 

@@ -320,7 +320,7 @@ class Planning {
   FirstLog log_;
   std::optional<Camera> camera_;
   std::optional<Track> seen_turns_;  // of the camera, by the images
-  bool looks_up_ = false;  // from the ground
+  bool looks_up_ = false;            // from the ground
 };
 
 }  // namespace

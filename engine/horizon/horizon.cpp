@@ -23,22 +23,22 @@ constexpr double kNear_rad = 0.0025;   // a candidate on the plane
 constexpr double kLeastShare = 0.25;   // of the columns, side by side
 constexpr int kGap = 4;                // a column without the edge counts as much as so many with it
 constexpr int kHorizonTrials = 600;
-constexpr double kSteepest = 1.7;      // tangent of the roll
-constexpr int kAlike = 10;             // columns whose errors are alike: swell, coding, haze
-constexpr int kPlanes = 4;             // that are tried, one after the other
-constexpr int kSkyAbove_cells = 3;     // from an edge up to the next sky
-constexpr double kMinSkyAbove = 0.7;   // share of what lies above the plane
-constexpr double kMaxSkyBelow = 0.15;  // share of what lies below the plane
-constexpr double kMaxSkyUnder = 0.3;   // columns with sky below the plane, of those with the edge
-constexpr double kNearPlane_rad = 0.012;  // nearer to the plane, cells may hold some of both sides
+constexpr double kSteepest = 1.7;                  // tangent of the roll
+constexpr int kAlike = 10;                         // columns whose errors are alike: swell, coding, haze
+constexpr int kPlanes = 4;                         // that are tried, one after the other
+constexpr int kSkyAbove_cells = 3;                 // from an edge up to the next sky
+constexpr double kMinSkyAbove = 0.7;               // share of what lies above the plane
+constexpr double kMaxSkyBelow = 0.15;              // share of what lies below the plane
+constexpr double kMaxSkyUnder = 0.3;               // columns with sky below the plane, of those with the edge
+constexpr double kNearPlane_rad = 0.012;           // nearer to the plane, cells may hold some of both sides
 constexpr double kMinWide = 0.9, kMinArea = 0.15;  // of the image: across it, or so much on both sides
-constexpr int kBand_px = 14;           // above and below the edge, where texture is compared
-constexpr double kRougher = 0.7;       // of the texture below: that of a sky, at most
-constexpr double kSmooth_codes = 3;    // smooth, whatever is below
-constexpr double kDeep_rad = 0.1;        // below the edge: ground with little haze
-constexpr double kHazePerWidth = 0.271;  // 2 / e^2, see horizon.h
-constexpr double kSharp_px = 2;          // width that a sharp edge seems to have by differences over two rows
-constexpr double kPeak_rad = 0.01;       // edges farther from the plane are of something else
+constexpr int kBand_px = 14;                       // above and below the edge, where texture is compared
+constexpr double kRougher = 0.7;                   // of the texture below: that of a sky, at most
+constexpr double kSmooth_codes = 3;                // smooth, whatever is below
+constexpr double kDeep_rad = 0.1;                  // below the edge: ground with little haze
+constexpr double kHazePerWidth = 0.271;            // 2 / e^2, see horizon.h
+constexpr double kSharp_px = 2;                    // width that a sharp edge seems to have by differences over two rows
+constexpr double kPeak_rad = 0.01;                 // edges farther from the plane are of something else
 
 struct Candidate {
   int column = 0;
@@ -144,8 +144,8 @@ bool is_on(const Candidate& c, const Eigen::Vector3d& normal, const Stretch& str
 
 // The sky is smoother than what lies below it; of an edge within fields or streets both sides are alike.
 // Texture is how neighbours at the same distance from the edge differ.
-bool has_smooth_side_above(const cv::Mat& reduced, const std::vector<Candidate>& candidates, const Eigen::Vector3d& normal,
-                   const Stretch& stretch) {
+bool has_smooth_side_above(const cv::Mat& reduced, const std::vector<Candidate>& candidates,
+                           const Eigen::Vector3d& normal, const Stretch& stretch) {
   double above = 0;
   double below = 0;
   int count = 0;
@@ -269,8 +269,7 @@ class CellRays {
       for (int x = 0; x < sky.sky.cols; x += kEvery) {
         const glm::dvec2 pixel((x + 0.5) * SkyMap::kCell_px * scale - 0.5, (y + 0.5) * SkyMap::kCell_px * scale - 0.5);
         if (is_own_body(own_body, pixel.x, pixel.y)) continue;
-        if (const auto ray = camera.lens.ray(pixel))
-          cells_.push_back({eigen_of(*ray), x / kEvery, sky.sky(y, x) != 0});
+        if (const auto ray = camera.lens.ray(pixel)) cells_.push_back({eigen_of(*ray), x / kEvery, sky.sky(y, x) != 0});
       }
   }
 

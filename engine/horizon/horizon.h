@@ -28,10 +28,10 @@ struct HorizonLine {
 // above the edge is rougher than 0.7 of what lies below. Rolls beyond 60 degrees are not seen.
 //
 // Sky: each candidate has some above it (sky_map.h). 0.7 of what lies above the plane is sky, the rest stands on the
-// ground; of what lies below it at most 0.15, and in at most 0.3 times as many columns as have the edge: ground may rise
-// above the horizon, but sky is never below it, as it is beside a roof or a slope. The plane crosses nine tenths of the
-// image's columns, or has at least 0.15 of the image on each side: less is not told from a roof in the corner. Up to four
-// planes are tried.
+// ground; of what lies below it at most 0.15, and in at most 0.3 times as many columns as have the edge: ground may
+// rise above the horizon, but sky is never below it, as it is beside a roof or a slope. The plane crosses nine tenths
+// of the image's columns, or has at least 0.15 of the image on each side: less is not told from a roof in the corner.
+// Up to four planes are tried.
 //
 // Haze: ground at distance d shows exp(-d / visual range) of its contrast against the sky (Koschmieder 1924). Seen from
 // height h that is exp(-a / t) at the angle t below the level, with a = h / visual range. It falls most steeply at
@@ -50,9 +50,9 @@ struct ReducedLuma {
 };
 [[nodiscard]] ReducedLuma reduced_luma(const cv::Mat& luma);
 
-// The camera's pitch where it is not rolled and the lower end of the sky is level: the median over the columns. For images
-// without a straight horizon, with woods, hills and houses: off by some degrees, mostly upwards less than that. Nothing
-// where fewer than 0.6 of the columns begin with sky, or where it ends within the image in fewer than half.
+// The camera's pitch where it is not rolled and the lower end of the sky is level: the median over the columns. For
+// images without a straight horizon, with woods, hills and houses: off by some degrees, mostly upwards less than that.
+// Nothing where fewer than 0.6 of the columns begin with sky, or where it ends within the image in fewer than half.
 //   scale  as of horizon_in()
 [[nodiscard]] std::optional<double> skyline_pitch_rad(const SkyMap& sky, double scale, const Camera& camera);
 

@@ -10,8 +10,8 @@ namespace sigs {
 namespace {
 
 constexpr double kMinSkyColumns = 0.6, kMinEnds = 0.5;  // of the columns, for skyline_pitch_rad()
-constexpr double kAgree_rad = 0.0087;  // half a degree
-constexpr double kDip_rad = 0.0068;    // sqrt(2 h / R): the horizon's dip seen from 150 m
+constexpr double kAgree_rad = 0.0087;                   // half a degree
+constexpr double kDip_rad = 0.0068;                     // sqrt(2 h / R): the horizon's dip seen from 150 m
 constexpr int kLeastLines = 5;
 
 }  // namespace

@@ -12,14 +12,14 @@ namespace {
 
 constexpr float kDarker_codes = 14;
 constexpr float kBrighter_codes = 42;
-constexpr float kRough_codes = 2.5F;   // mean slope of luma within a cell, codes a pixel
-constexpr float kBeside_codes = 5;     // between neighbours of which one is known as sky
-constexpr float kFollowed = 0.12F;     // share by which the sky's luma follows each cell
-constexpr int kLookAhead = 5;          // cells
-constexpr int kUpperEnd = 2;           // cells: a column's sky begins within these
-constexpr float kTopStep_codes = 10;   // between columns: where one part of the upper border ends
+constexpr float kRough_codes = 2.5F;    // mean slope of luma within a cell, codes a pixel
+constexpr float kBeside_codes = 5;      // between neighbours of which one is known as sky
+constexpr float kFollowed = 0.12F;      // share by which the sky's luma follows each cell
+constexpr int kLookAhead = 5;           // cells
+constexpr int kUpperEnd = 2;            // cells: a column's sky begins within these
+constexpr float kTopStep_codes = 10;    // between columns: where one part of the upper border ends
 constexpr float kTopDarker_codes = 20;  // than the brightest part: ground that reaches the upper border
-constexpr double kMinTopPart = 0.1;    // of the width, to be the brightest part
+constexpr double kMinTopPart = 0.1;     // of the width, to be the brightest part
 constexpr uchar kSky = 255, kPassed = 128;
 
 struct Cells {
@@ -68,14 +68,15 @@ void scan(const Cells& cells, int x, cv::Mat_<uchar>& sky) {
     }
     if (around < 0) return;
     int alike = 0, seen = 0;
-    for (int below = y + 1; below <= std::min(y + kLookAhead, rows - 1); ++below) ++seen, alike += is_like(below) ? 1 : 0;
+    for (int below = y + 1; below <= std::min(y + kLookAhead, rows - 1); ++below)
+      ++seen, alike += is_like(below) ? 1 : 0;
     if (2 * alike < std::max(seen, 1)) return;
     sky(y, x) = kPassed;
   }
 }
 
-// Columns that begin with sky: parts of the upper border that are divided by steps of luma and are about as bright as the
-// brightest. In a tilted image ground may reach the border beside the sky.
+// Columns that begin with sky: parts of the upper border that are divided by steps of luma and are about as bright as
+// the brightest. In a tilted image ground may reach the border beside the sky.
 std::vector<bool> top_columns(const Cells& cells) {
   struct Part {
     int from = 0, to = 0;
@@ -107,7 +108,8 @@ std::vector<bool> top_columns(const Cells& cells) {
 void spread(const Cells& cells, cv::Mat_<uchar>& sky) {
   const auto reach = [&](int y, int from, int to) {
     if (sky(y, to) == kSky || sky(y, from) != kSky || cells.slope.at<float>(y, to) > kRough_codes) return;
-    if (std::abs(cells.luma.at<float>(y, to) - cells.luma.at<float>(y, from)) < kBeside_codes && cells.hidden(y, to) == 0)
+    if (std::abs(cells.luma.at<float>(y, to) - cells.luma.at<float>(y, from)) < kBeside_codes &&
+        cells.hidden(y, to) == 0)
       sky(y, to) = kSky;
   };
   for (int y = 0; y < sky.rows; ++y) {

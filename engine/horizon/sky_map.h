@@ -7,13 +7,14 @@ namespace sigs {
 
 // Which parts of a frame are sky, by the image alone.
 //
-// Sky is what each column of cells shows from the image's upper border downwards, while it is smooth and changes slowly:
-// it ends where a cell is darker than those above it by more than 14 codes, brighter by more than 42, or rough, and most
-// of the 20 px below are so too; what is smaller than that (an aircraft, a wire) is passed over. Sky then spreads
-// sideways, behind masts and aircraft that are larger. Parts of the upper border that are darker than its brightest part by
-// more than 20 codes, with a step between them, are ground that reaches the border of a tilted image. After the idea of Shen, Wang (2013), Sky region detection in a
-// single image for autonomous ground robot navigation: the first strong edge of each column bounds the sky.
-// A smooth ground without an edge against what lies above it (water in haze) counts as sky.
+// Sky is what each column of cells shows from the image's upper border downwards, while it is smooth and changes
+// slowly: it ends where a cell is darker than those above it by more than 14 codes, brighter by more than 42, or rough,
+// and most of the 20 px below are so too; what is smaller than that (an aircraft, a wire) is passed over. Sky then
+// spreads sideways, behind masts and aircraft that are larger. Parts of the upper border that are darker than its
+// brightest part by more than 20 codes, with a step between them, are ground that reaches the border of a tilted image.
+// After the idea of Shen, Wang (2013), Sky region detection in a single image for autonomous ground robot navigation:
+// the first strong edge of each column bounds the sky. A smooth ground without an edge against what lies above it
+// (water in haze) counts as sky.
 struct SkyMap {
   static constexpr int kCell_px = 4;  // of the reduced image
 

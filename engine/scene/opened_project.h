@@ -48,8 +48,8 @@ struct OpenedProject {
 // Whether the frames of a project's footage need their quantisers: where the codec match is to be by the footage's own.
 [[nodiscard]] Quantisers quantisers_for(const Project& project);
 
-// The footage of a project: a video, or images with the times that the project states. Errors and arguments are those of
-// FrameSource::open(); they do not name the project.
+// The footage of a project: a video, or images with the times that the project states. Errors and arguments are those
+// of FrameSource::open(); they do not name the project.
 [[nodiscard]] Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel = nullptr,
                                                Quantisers quantisers = Quantisers::leave_out);
 

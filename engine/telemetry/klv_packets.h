@@ -57,8 +57,8 @@ struct KlvPackets {
 
 // Reads all packets with the key of ST 0601. Packets with another key are passed over, as are the 5 bytes of a metadata
 // access unit's header (ISO/IEC 13818-1, 2.12.4) that may stand before each packet. The length of a packet that is left
-// out may be what is damaged, so that others are looked for in it: until as many bytes were read again as there are, and
-// 1 MiB. Beyond, as in a file made to take long, damaged packets are passed over whole.
+// out may be what is damaged, so that others are looked for in it: until as many bytes were read again as there are,
+// and 1 MiB. Beyond, as in a file made to take long, damaged packets are passed over whole.
 [[nodiscard]] KlvPackets klv_packets(std::string_view bytes);
 
 }  // namespace sigs

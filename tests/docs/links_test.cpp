@@ -63,8 +63,7 @@ std::set<std::string> names_of_files() {
 
 // Names of headers and sources in a text: words that end with .h or .cpp and have a stem of three letters or more.
 std::vector<std::string> sources_named(const std::string& text) {
-  constexpr std::string_view kOfNames =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-";
+  constexpr std::string_view kOfNames = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-";
   std::vector<std::string> names;
   for (const std::string_view ending : {".h", ".cpp"})
     for (std::size_t dot = text.find(ending); dot != std::string::npos; dot = text.find(ending, dot + 1)) {

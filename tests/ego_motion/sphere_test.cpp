@@ -131,11 +131,12 @@ TEST_CASE("an estimation can be cancelled after all frames are decoded, with a l
     for (const std::size_t last : {std::size_t{59}, std::size_t{60}, reports.size() - 2}) {
       std::atomic<bool> cancel = false;
       std::size_t count = 0;
-      const auto motion = motion_of(path, camera, track, {.progress =
-                                                              [&](int, int) {
-                                                                if (count++ == last) cancel = true;
-                                                              },
-                                                          .cancel = &cancel});
+      const auto motion = motion_of(path, camera, track,
+                                    {.progress =
+                                         [&](int, int) {
+                                           if (count++ == last) cancel = true;
+                                         },
+                                     .cancel = &cancel});
       CAPTURE(last);
       REQUIRE_FALSE(motion);
       CHECK(motion.error().kind == ErrorKind::interrupted);

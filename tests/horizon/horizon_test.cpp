@@ -7,7 +7,6 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
-
 namespace sigs::test {
 
 namespace {
@@ -35,7 +34,8 @@ cv::Mat image_of(const Camera& camera, const Eigen::Quaterniond& level_from_came
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x) {
       const auto ray = camera.lens.ray({x, y});
-      image.at<float>(y, x) = ray ? static_cast<float>(luma_in(level_from_camera * Eigen::Vector3d(ray->x, ray->y, ray->z))) : 0.0F;
+      image.at<float>(y, x) =
+          ray ? static_cast<float>(luma_in(level_from_camera * Eigen::Vector3d(ray->x, ray->y, ray->z))) : 0.0F;
     }
   cv::GaussianBlur(image, image, {3, 3}, 0.6);
   cv::Mat noise(image.size(), CV_32F);
@@ -197,7 +197,7 @@ TEST_CASE("a bonnet below a street is no horizon; the street's end is the skylin
   const Camera camera = view_camera(LensModel::brown_conrady);
   const auto luma = [](const Eigen::Vector3d& ray) {
     const double down = ray.z() / ray.x();
-    if (down > 0.3) return 70.0;                                                     // the bonnet, straight
+    if (down > 0.3) return 70.0;  // the bonnet, straight
     const double roofs = -0.05 - 0.03 * std::sin(23 * ray.y()) * std::sin(7 * ray.y());
     return down > roofs ? 20 + rough_ground(ray) : 200.0;
   };
@@ -239,7 +239,8 @@ TEST_CASE("lines that stay in the world are its level; lines that move by parall
     turns.push_back(level_from_camera(k, 0.5 * k));
     still.push_back({.frame = k, .up = up_in_camera(turns.back()), .sd_rad = 0.001});
     moving.push_back({.frame = k,
-                      .up = turns.back().conjugate() * Eigen::AngleAxisd(0.01 * k, Eigen::Vector3d::UnitY()) * Eigen::Vector3d(0, 0, -1),
+                      .up = turns.back().conjugate() * Eigen::AngleAxisd(0.01 * k, Eigen::Vector3d::UnitY()) *
+                            Eigen::Vector3d(0, 0, -1),
                       .sd_rad = 0.001});
   }
   const auto level = level_of(still, turns);

@@ -33,8 +33,9 @@ void change(Document& document, const std::function<void(Project&)>& what) {
 TEST_CASE("a guess is listed until its setting is changed, and again when that is undone") {
   Document document = document_with_intruder();
   Guesses guesses;
-  guesses.begin({{"camera.speed_mps", "no log"}, {"light", "seen in 5 frames"}, {"intruders[0].trajectory", "crosses"}},
-                document);
+  guesses.begin(
+      {{{"camera.speed_mps", "no log"}}, {{"light", "seen in 5 frames"}}, {{"intruders[0].trajectory", "crosses"}}},
+      document);
   const std::string all = "camera.speed_mps light intruders[0].trajectory ";
   CHECK(fields_of(guesses) == all);
 
@@ -59,7 +60,7 @@ TEST_CASE("a guess is listed until its setting is changed, and again when that i
 TEST_CASE("guesses go with the project that they were made for") {
   Document document = document_with_intruder();
   Guesses guesses;
-  guesses.begin({{"camera.speed_mps", "no log"}}, document);
+  guesses.begin({{{"camera.speed_mps", "no log"}}}, document);
   document = Document(Project(), document.last_number() + 1);
   guesses.follow(document);
   CHECK(guesses.left().empty());
@@ -68,7 +69,7 @@ TEST_CASE("guesses go with the project that they were made for") {
 TEST_CASE("a guess in a setting that no project has stays, whatever its name") {
   Document document = document_with_intruder();
   Guesses guesses;
-  guesses.begin({{"", "?"}, {"intruders[9].model", "?"}, {"a~b[", "?"}}, document);
+  guesses.begin({{{"", "?"}}, {{"intruders[9].model", "?"}}, {{"a~b[", "?"}}}, document);
   change(document, [](Project& p) { p.camera.yaw_deg = 20; });
   guesses.follow(document);
   CHECK(guesses.left().size() == 3);

@@ -64,19 +64,38 @@ class EditorAndModel {
 
   void act() {
     switch (pick(16)) {
-      case 0: open(pick(3)); break;
-      case 1: reload(); break;
-      case 2: (void)save_as_named(); break;
-      case 3: save_as_asked(); break;
-      case 4: kill(); break;
-      case 5: pick(2) == 0 ? write_from_outside(pick(3)) : begin_anew(); break;
-      case 6: wait_for_recovery(); break;
+      case 0:
+        open(pick(3));
+        break;
+      case 1:
+        reload();
+        break;
+      case 2:
+        (void)save_as_named();
+        break;
+      case 3:
+        save_as_asked();
+        break;
+      case 4:
+        kill();
+        break;
+      case 5:
+        pick(2) == 0 ? write_from_outside(pick(3)) : begin_anew();
+        break;
+      case 6:
+        wait_for_recovery();
+        break;
       case 7:
       case 8:
-      case 9: undo(); break;
+      case 9:
+        undo();
+        break;
       case 10:
-      case 11: redo(); break;
-      default: edit();
+      case 11:
+        redo();
+        break;
+      default:
+        edit();
     }
     compare();
   }
@@ -101,10 +120,12 @@ class EditorAndModel {
   void start() {
     session_.reset();
     document_ = std::make_unique<Document>();
-    session_ = std::make_unique<ProjectSession>(
-        *document_, settings_,
-        ProjectSession::Environment{.recovery_folder = folder_ / "state", .wake = [] {}, .is_exporting = {}, .mask = {},
-                                    .is_asking_for_file = {}});
+    session_ = std::make_unique<ProjectSession>(*document_, settings_,
+                                                ProjectSession::Environment{.recovery_folder = folder_ / "state",
+                                                                            .wake = [] {},
+                                                                            .is_exporting = {},
+                                                                            .mask = {},
+                                                                            .is_asking_for_file = {}});
     has_project_ = false;
   }
 
@@ -152,7 +173,8 @@ class EditorAndModel {
     document_->apply(ChangeProject{"edit",
                                    [&](Project& p) {
                                      p.camera.speed_mps = changed.speed;
-                                     if (changed.footage != 0) p.footage.video = path_in_project(p, clip(changed.footage));
+                                     if (changed.footage != 0)
+                                       p.footage.video = path_in_project(p, clip(changed.footage));
                                    },
                                    {}});
     states_.resize(present_ + 1);

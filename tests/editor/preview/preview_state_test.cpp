@@ -104,7 +104,8 @@ TEST_CASE("a change that touches no image keeps the image that is shown, and fil
   CHECK(fixture.shows_at_once(document.revision()));
 }
 
-TEST_CASE("what changes with the files of a project is told at once: other footage, or an image that is there already") {
+TEST_CASE(
+    "what changes with the files of a project is told at once: other footage, or an image that is there already") {
   int calls = 0;
   PreviewState state(PreviewLimits{}, [&calls] { ++calls; });
   const Revision revision(1, std::make_shared<const Project>());
