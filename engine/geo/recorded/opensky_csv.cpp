@@ -86,7 +86,7 @@ Result<std::vector<PathDraft>> drafts_of_opensky_csv(std::string_view text, cons
       drafts.back().height = HeightReference::ellipsoid;
     }
     PathDraft& draft = drafts[found->second];
-    if (draft.name.empty()) draft.name = file_name_text(field_at(fields, columns.callsign));
+    if (draft.name.empty()) draft.name = file_name_text(csv_text(field_at(fields, columns.callsign)));
     const DraftPoint point = point_of_state(fields, columns);
     if (!is_repeated(draft, point)) draft.points.push_back(point);
   }
