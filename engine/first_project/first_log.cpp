@@ -62,7 +62,11 @@ Result<FirstLog> log_of_video(const fs::path& video, const std::atomic<bool>* ca
     if (log.track || !fs::is_regular_file(candidate, code)) continue;
     Result<Track> track = read_track(candidate, {.cancel = cancel});
     if (!track && track.error().kind == ErrorKind::interrupted) return fail(track.error());
-    if (!track) continue;
+    if (!track) {
+      if (log.unusable.empty() && carries_telemetry(candidate))
+        log.unusable = candidate.filename().string() + " " + track.error().what;
+      continue;
+    }
     log.file = candidate;
     log.lens = track->lens;
     log.track = std::make_shared<const Track>(*std::move(track));
@@ -83,10 +87,11 @@ std::vector<FirstProjectNote> set_track(const FirstLog& log, const std::string& 
     return std::vector{note};
   };
   if (!log.track) {
-    return {{.field = "camera.speed_mps",
-             .text = "0: no flight log tells how the camera moves, so the intruder's motion is that against the camera",
-             .is_guess = true,
-             .remedy = kEgoMotion}};
+    FirstProjectNote still{.field = "camera.speed_mps", .is_guess = true, .remedy = kEgoMotion};
+    still.text = fmt::format(
+        "0: {}, so the intruder's motion is that against the camera",
+        log.unusable.empty() ? "no flight log tells how the camera moves" : "there is telemetry, but " + log.unusable);
+    return {still};
   }
   const Track& track = *log.track;
   if (!track.on_footage_time) return unused("its time of the footage's frame 0 is not known (camera.track.offset_s)");

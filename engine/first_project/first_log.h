@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "first_project/first_project.h"
@@ -15,11 +16,12 @@ namespace sigs {
 struct FirstLog {
   std::filesystem::path file;  // the video itself, or the subtitles beside it; empty: there is none
   std::shared_ptr<const Track> track;
+  std::string unusable;            // "clip.ts: why": telemetry that is there, of which nothing can be read; "": none
   std::optional<LoggedLens> lens;  // by the log, or by the header of the video; also without a log
 };
 
 // Looks for a log in the video, then for DJI's subtitles beside it: of the same name with the extension .srt or .SRT.
-// What cannot be read counts as not there. Error: interrupted.
+// What has telemetry that cannot be read is named in `unusable`. Error: interrupted.
 [[nodiscard]] Result<FirstLog> log_of_video(const std::filesystem::path& video, const std::atomic<bool>* cancel);
 
 // Lets the project's camera follow the log (camera.track, geo.heading_deg), where it is good enough for that: its times

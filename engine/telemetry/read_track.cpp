@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <string_view>
 
 #include "base/input_file.h"
@@ -72,17 +73,23 @@ tl::unexpected<Error> no_format(const std::filesystem::path& file, const std::ve
                                  (found.empty() ? "" : "; its data streams are " + listed(found)));
 }
 
-Result<Track> read(const std::filesystem::path& file, const ReadTrackOptions& options) {
+// What reads the file, in the format that recognises it. Errors: no_format(), those of data_streams_of().
+Result<std::function<Result<Track>()>> reader_of(const std::filesystem::path& file, const ReadTrackOptions& options) {
   const std::string head = head_of(file);
   for (const FileFormat& format : kFileFormats)
-    if (format.recognises(head)) return format.read(file, options);
+    if (format.recognises(head)) return [&] { return format.read(file, options); };
   const Result<std::vector<DataStream>> streams = data_streams_of(file, options.cancel);
   // What FFmpeg says of a file that is no container would mislead; of an MP4 that was cut short it helps.
   if (!streams) return streams.error().kind == ErrorKind::cannot_read ? no_format(file, {}) : fail(streams.error());
   for (const StreamFormat& format : kStreamFormats)
     for (const DataStream& stream : *streams)
-      if (format.recognises(stream)) return format.read(file, stream, options);
+      if (format.recognises(stream)) return [&, stream] { return format.read(file, stream, options); };
   return no_format(file, *streams);
+}
+
+Result<Track> read(const std::filesystem::path& file, const ReadTrackOptions& options) {
+  const Result<std::function<Result<Track>()>> reader = reader_of(file, options);
+  return reader ? (*reader)() : fail(reader.error());
 }
 
 }  // namespace
@@ -92,6 +99,10 @@ Result<Track> read_track(const std::filesystem::path& file, const ReadTrackOptio
   if (!std::ifstream(file, std::ios::binary))
     return fail(file.string(), "may not be read: permission denied", ErrorKind::cannot_read);
   return guarded([&] { return read(file, options); });
+}
+
+bool carries_telemetry(const std::filesystem::path& file) {
+  return guarded([&]() -> Result<bool> { return reader_of(file, {}).has_value(); }).value_or(false);
 }
 
 }  // namespace sigs

@@ -19,4 +19,7 @@ struct ReadTrackOptions {
 // Errors: cannot_read, bad_data (no known format, no telemetry in it, or nothing sound), interrupted.
 [[nodiscard]] Result<Track> read_track(const std::filesystem::path& file, const ReadTrackOptions& options = {});
 
+// Whether one of these formats recognises the file or a stream in it, though nothing in it may be sound.
+[[nodiscard]] bool carries_telemetry(const std::filesystem::path& file);
+
 }  // namespace sigs

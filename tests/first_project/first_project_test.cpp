@@ -210,6 +210,20 @@ TEST_CASE("real clips become projects; a GoPro's log gives the path, KLV its fie
   CHECK(test::text_of(folder / "klv.calibration.xml").find("tag 16") != std::string::npos);
 }
 
+TEST_CASE("telemetry that is there, but of which nothing can be read, is said to be there") {
+  if (!test::has_real_data()) return;
+  const test::TemporaryFolder folder;
+  std::string bytes = test::text_of(test::real_data() / "telemetry/klv/h264_klv.ts");
+  const std::string key = "\x06\x0E\x2B\x34";  // each packet begins with it
+  for (std::size_t at = bytes.find(key); at != std::string::npos; at = bytes.find(key, at)) bytes[at] = 0;
+  test::write_file_and_folders(folder / "clip.ts", bytes);
+  const FirstProject made = made_and_opened({.video = folder / "clip.ts", .out = folder / "p.json", .plain = true});
+  CHECK(note_on(made, "camera.speed_mps").text.find("clip.ts has no intact ST 0601 packet") != std::string::npos);
+  // A video without any telemetry has none that is unusable.
+  const FirstProject bare = made_and_opened({.video = sample_video(), .out = folder / "bare.json", .plain = true});
+  CHECK(note_on(bare, "camera.speed_mps").text.find("no flight log") != std::string::npos);
+}
+
 TEST_CASE("the axes and unit of a user's model are found") {
   if (!test::has_real_data()) return;
   const test::TemporaryFolder folder;
