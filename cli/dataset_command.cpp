@@ -211,6 +211,9 @@ Result<void> run(const DatasetOptions& options) {
   if (options.coverage_files.has_any() && !shows_coverage)
     return fail(options.coverage_files.json.empty() ? "--plot" : "--json",
                 "goes with --dry-run, without --merge, or with --coverage", ErrorKind::usage);
+  if (options.coverage_files.overwrite && !options.coverage_files.has_any())
+    return fail("--force", "replaces the files of --json and --plot; videos are made anew by another --out",
+                ErrorKind::usage);
   if (options.coverage) return print_counted(options);
   DatasetRequest request{
       .jobs = options.jobs, .resume = options.resume, .index = options.only.empty(), .merge_only = options.merge};
@@ -272,6 +275,7 @@ Command add_dataset_command(CLI::App& program) {
   command->add_option("--plot", options->coverage_files.plot, "draw the same as histograms; a PNG")
       ->option_text("FILE")
       ->check(output_path());
+  command->add_flag("--force", options->coverage_files.overwrite, "replace the files of --json and --plot");
   command->footer(kDatasetFooter);
   add_set_option(*command, options->project);
   add_progress_option(*command, options->progress);

@@ -30,7 +30,7 @@ Result<void> check_coverage_names(const CoverageOptions& options) {
 
 Result<void> report_coverage(const Coverage& coverage, const std::string& title, const CoverageOptions& options) {
   if (const Result<void> named = check_coverage_names(options); !named) return named;
-  StagedOutputs outputs(StagedOutputs::Existing::refuse);
+  StagedOutputs outputs(options.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
   for (const auto& [path, is_plot] : {std::pair(options.json, false), std::pair(options.plot, true)}) {
     if (path.empty()) continue;
     const Result<std::filesystem::path> staged = outputs.add_file(path);

@@ -25,15 +25,19 @@ std::vector<VideoSpec> specs_of(const Recipe& recipe, std::size_t group_index) {
       specs.push_back({.group = group_index, .name = name_from(group.name, {.number = number})});
     return specs;
   }
+  std::map<std::string, int> numbers;  // the last one of each name without its number
   for (const std::string& background : group.backgrounds)
     for (const std::string& aircraft : group.aircraft)
       for (std::size_t flight = 0; flight < group.flights.size(); ++flight)
-        for (int number = 1; number <= group.count; ++number)
+        for (int i = 0; i < group.count; ++i) {
+          NameParts parts{background, aircraft, group.flights[flight].name, 0};
+          parts.number = ++numbers[lower_case(name_from(group.name, parts))];
           specs.push_back({.group = group_index,
-                           .name = name_from(group.name, {background, aircraft, group.flights[flight].name, number}),
+                           .name = name_from(group.name, parts),
                            .background = index_of(recipe.backgrounds, background),
                            .aircraft = index_of(recipe.aircraft, aircraft),
                            .flight = flight});
+        }
   return specs;
 }
 

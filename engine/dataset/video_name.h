@@ -11,7 +11,7 @@ struct NameParts {
   std::string background;
   std::string aircraft;
   std::string flight;
-  int number = 1;  // among the videos that agree in the other three, from 1
+  int number = 1;  // from 1, among the videos of a group whose names differ by it alone
 };
 
 // The pattern with {background}, {aircraft}, {flight} and {number} filled in. Numbers have at least four digits, so

@@ -213,8 +213,8 @@ TEST_CASE("a video that fails is listed with its reason, the others are made") {
 
 TEST_CASE("a full disk and a folder that cannot be created are reported as such") {
   const TinyRecipe recipe(40);
-  const std::string command = "export GCOV_PREFIX=/dev/null; ulimit -f 4; " + (build_dir() / "sigs").string() + " " + recipe.arguments("out") +
-                              " >/dev/null 2>" + recipe.out("err");
+  const std::string command = "export GCOV_PREFIX=/dev/null; ulimit -f 4; " + (build_dir() / "sigs").string() + " " +
+                              recipe.arguments("out") + " >/dev/null 2>" + recipe.out("err");
   const int status = std::system(("bash -c '" + command + "'").c_str());
   CHECK(WEXITSTATUS(status) == 74);
   CHECK_MESSAGE(has(read_text(recipe.out("err")).value(), "6 videos failed"), read_text(recipe.out("err")).value());
@@ -229,11 +229,25 @@ TEST_CASE("an invalid command line exits with status 64") {
   const TinyRecipe recipe;
   for (const char* const more :
        {"--shard 0/3", "--shard 4/3", "--shard 1", "--shard 1/3x", "--shard /", "--jobs -1", "--merge --resume",
-        "--merge --shard 1/2", "--merge --dry-run --json x.json", "--plot x.png", "--out ''"})
+        "--merge --shard 1/2", "--merge --dry-run --json x.json", "--plot x.png", "--dry-run --force", "--out ''"})
     CHECK_MESSAGE(recipe.run("out", more).status == 64, more);
   CHECK_FALSE(fs::exists(recipe.out("out")));
   CHECK(run_sigs("dataset").status == 64);
   CHECK(run_sigs("dataset " + recipe.out("none.json")).status == 66);
+}
+
+TEST_CASE("files of a coverage are replaced when that is asked for, and not otherwise") {
+  const TinyRecipe recipe;
+  const std::string json = recipe.out("c.json"), plot = recipe.out("c.png");
+  const std::string files = "--dry-run --json " + json + " --plot " + plot;
+  write_file(plot, "mine");
+  CHECK(recipe.run("out", files).status == 73);
+  CHECK(read_text(plot).value() == "mine");
+  CHECK_FALSE(fs::exists(json));
+  CHECK(recipe.run("out", files + " --force").status == 0);
+  CHECK(read_text(plot).value().starts_with("\x89PNG"));
+  CHECK(fs::exists(json));
+  CHECK_FALSE(fs::exists(recipe.out("out")));
 }
 
 TEST_CASE("one file of COCO results, numbered as a split's coco labels, is scored against all its clips") {

@@ -168,6 +168,20 @@ TEST_CASE("two videos of one name are an error, also where only case differs") {
   CHECK(RecipeFolder().error(json).starts_with("videos[0].name: gives \"labels\", which is kept for"));
 }
 
+TEST_CASE("numbers go on over the combinations that a pattern does not tell apart") {
+  nlohmann::ordered_json json = RecipeFolder::recipe();
+  json["backgrounds"].push_back(json["backgrounds"][0]);
+  json["backgrounds"][1]["name"] = "dusk";
+  json["videos"] = {{{"name", "near-{number}"}, {"count", 2}, {"flights", {"left_right"}}}};
+  const Plan plan = RecipeFolder().plan(json);
+  CHECK(names_of(plan) == std::vector<std::string>{"near-0001", "near-0002", "near-0003", "near-0004"});
+  CHECK(named(plan, "near-0002").tags.at("background") == "day");
+  CHECK(named(plan, "near-0003").tags.at("background") == "dusk");
+  json["videos"][0]["name"] = "{background}-{number}";
+  CHECK(names_of(RecipeFolder().plan(json)) ==
+        std::vector<std::string>{"day-0001", "day-0002", "dusk-0001", "dusk-0002"});
+}
+
 TEST_CASE("tags state what a video is made of") {
   nlohmann::ordered_json json = RecipeFolder::recipe();
   json["backgrounds"][0]["tags"] = {{"sky", "clear"}, {"by", "background"}};
