@@ -7,6 +7,8 @@
 
 #include "accuracy/csv.h"
 #include "camera/row_motion.h"
+#include "first_project/first_project.h"
+#include "project/json.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
 #include "telemetry/track_csv.h"
@@ -25,6 +27,16 @@ ModelSettings model_for(double distance_m) {
 }
 
 Project project_of(const Clip& clip, const CameraKnowledge& camera) {
+  if (!camera.project.empty()) {
+    Result<ReadProject> read = read_project(camera.project);
+    if (!read) accuracy::stop(read.error().text());
+    read->project.intruders.clear();
+    if (!camera.is_locked) {
+      read->project.camera.track = {};
+      read->project.light = {};  // the sun's direction may need the log's time and place
+    }
+    return std::move(read->project);
+  }
   Project project{.file = "world_lock.json", .name = clip.source.name};
   project.footage.video = clip.source.path.string();
   project.footage.calibration = clip.calibration.string();
@@ -70,12 +82,27 @@ std::vector<CameraKnowledge> knowledge_of(const Clip& clip, const std::filesyste
   return all;
 }
 
+InitKnowledge init_knowledge_of(const Clip& clip, const std::filesystem::path& folder) {
+  const std::filesystem::path file =
+      std::filesystem::absolute(folder / "init" / clip.source.name / (clip.source.name + ".json"));
+  const Result<FirstProject> made =
+      make_first_project({.video = clip.source.path, .frame_rate_hz = {}, .out = file, .overwrite = true}, {});
+  if (!made) accuracy::stop(made.error().text());
+  InitKnowledge init{
+      .cameras = {{.name = "init without lock", .project = file, .is_locked = false}, {.name = "init", .project = file}},
+      .said = {}};
+  for (const FirstProjectNote& note : made->notes)
+    if (note.field == "camera.track.file" || note.field == "camera.speed_mps")
+      init.said += (init.said.empty() ? "" : "; ") + note.text;
+  return init;
+}
+
 Scene scene_with(const Clip& clip, const CameraKnowledge& camera, int frame, const std::vector<Hovering>& intruders) {
   Project project = project_of(clip, camera);
   const Scene empty = opened_scene(project, clip);
   const auto world_from_camera = camera_at(empty.motion, clip.shape.times_s[static_cast<std::size_t>(frame)]);
   for (const Hovering& hovering : intruders) {
-    const auto ray = clip.camera.lens.ray({hovering.pixel.x, hovering.pixel.y});
+    const auto ray = empty.camera.lens.ray({hovering.pixel.x, hovering.pixel.y});
     if (!ray) accuracy::stop(clip.source.name + ": an intruder's pixel has no ray");
     IntruderSettings intruder{.model = model_for(hovering.distance_m)};
     intruder.trajectory.waypoints = {{.position_m = world_from_camera * (*ray * hovering.distance_m)}};

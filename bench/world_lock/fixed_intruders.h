@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,20 +15,32 @@
 namespace sigs::bench {
 
 inline constexpr double kDistances_m[] = {300, 1000, 10000};
+// So far that a camera that travels has no parallax against it.
+inline constexpr double kDistant_m[] = {1e6};
 
 // What tells a project how the camera turns.
 struct CameraKnowledge {
-  std::string name;           // "constant attitude", "images", "images and gyroscope", "true attitude"
+  std::string name;           // "constant attitude", "images", "images and gyroscope", "true attitude", "init"
   std::string track;          // camera.track.file; empty: none
   std::string attitude_file;  // camera.attitude_file; empty: none
   double readout_s = 0;
   int lost_frames = 0;  // that the estimation could not judge
   std::optional<GyroLink> gyro = {};
+  std::filesystem::path project = {};  // instead of all these: a project file, of which the intruders are left out
+  bool is_locked = true;               // false: of the project, camera.track is left out
 };
 
 // Constant attitude; estimated from the images; with the log's gyroscope; true: those that there are for the clip.
 // Estimates are written into the folder. Stops the program where an estimation fails.
 [[nodiscard]] std::vector<CameraKnowledge> knowledge_of(const Clip& clip, const std::filesystem::path& folder);
+
+// The project that `sigs init` makes of the clip, without its camera.track and with it; `said` is its note of that. It
+// is written into the folder. Stops the program where that fails.
+struct InitKnowledge {
+  std::vector<CameraKnowledge> cameras;
+  std::string said;
+};
+[[nodiscard]] InitKnowledge init_knowledge_of(const Clip& clip, const std::filesystem::path& folder);
 
 // An intruder that hovers where the camera saw a pixel.
 struct Hovering {
@@ -35,7 +48,8 @@ struct Hovering {
   double distance_m = 1000;
 };
 
-// The scene of a project with these intruders, which are seen at their pixels in `frame`. The camera does not travel.
+// The scene of a project with these intruders, which are seen at their pixels in `frame`. The camera does not travel,
+// but where a project's log says so.
 [[nodiscard]] Scene scene_with(const Clip& clip, const CameraKnowledge& camera, int frame,
                                const std::vector<Hovering>& intruders);
 

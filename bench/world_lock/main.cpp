@@ -22,6 +22,7 @@ using namespace sigs::bench;
 struct Options {
   std::string folder, clip, images, figure;
   double field_deg = 60;
+  bool init = false;
 };
 
 // Root mean square and largest length of vectors.
@@ -91,9 +92,19 @@ void measure(const ClipSource& source, const Options& options, Tables& tables) {
               clip.frame_count(), 100 * motion.tracked, motion.step_rms_px, motion.range_px, verdict);
   std::fflush(stdout);
   if (std::string_view(verdict) != "moves") return;
-  const std::string lens = fit_guessed_lens(clip, options.folder);
-  const std::vector<CameraKnowledge> cameras = knowledge_of(clip, options.folder);
-  const SlipRun run = slip_of(clip, cameras);
+  std::string lens;
+  std::vector<CameraKnowledge> cameras;
+  if (options.init) {
+    InitKnowledge init = init_knowledge_of(clip, options.folder);
+    cameras = std::move(init.cameras);
+    std::printf("  %s\n", init.said.c_str());
+    lens = init.said;
+    std::replace(lens.begin(), lens.end(), ',', ';');
+  } else {
+    lens = fit_guessed_lens(clip, options.folder);
+    cameras = knowledge_of(clip, options.folder);
+  }
+  const SlipRun run = options.init ? slip_of(clip, cameras, kDistant_m) : slip_of(clip, cameras);
   write_samples(clip, cameras, run, tables.samples);
   const Reference reference = reference_of(run);
   const auto steps = all_of(run, &SlipSample::step_px), offsets = all_of(run, &SlipSample::offset_px);
@@ -129,7 +140,8 @@ void measure_all(const Options& options) {
                  "offset_x,offset_y,growth"}};
   for (ClipSource source : clip_sources()) {
     source.guessed_field_rad = rad_of_deg(options.field_deg);
-    if (options.clip.empty() || options.clip == source.name) measure(source, options, tables);
+    if (options.clip.empty() || (',' + options.clip + ',').find(',' + source.name + ',') != std::string::npos)
+      measure(source, options, tables);
   }
 }
 
@@ -139,7 +151,9 @@ int main(int count, char** arguments) {
   CLI::App app("Slip of an intruder that is fixed in the world against the background of real footage.");
   Options options;
   app.add_option("FOLDER", options.folder, "where tables and estimates go")->required();
-  app.add_option("--clip", options.clip, "this one alone");
+  app.add_option("--clip", options.clip, "this one alone, or these, divided by commas");
+  app.add_flag("--init", options.init,
+               "the project that `sigs init` makes of a clip, with its camera.track and without");
   app.add_option("--field", options.field_deg,
                  "field of view of clips without calibration whose turns do not show it, degrees")
       ->check(CLI::Range(5, 150));

@@ -15,17 +15,16 @@ namespace {
 
 constexpr int kPlaces = 3;
 constexpr int kNoPlaceStep = 5;  // frames until it is tried again where there was no place
-constexpr std::size_t kDistances = std::size(kDistances_m);
 
-// The intruders of one start: scenes by knowledge, in each of them kDistances intruders for each place.
+// The intruders of one start: scenes by knowledge, in each of them an intruder at each distance for each place.
 class Stretch {
  public:
   Stretch(const Clip& clip, const std::vector<CameraKnowledge>& cameras, int start,
-          const std::vector<cv::Point>& places)
-      : clip_(clip), start_(start) {
+          const std::vector<cv::Point>& places, std::span<const double> distances_m)
+      : clip_(clip), start_(start), distances_(distances_m.size()) {
     std::vector<Hovering> intruders;
     for (const cv::Point& place : places)
-      for (const double distance_m : kDistances_m) intruders.push_back({.pixel = place, .distance_m = distance_m});
+      for (const double distance_m : distances_m) intruders.push_back({.pixel = place, .distance_m = distance_m});
     for (const CameraKnowledge& camera : cameras) scenes_.push_back(scene_with(clip, camera, start, intruders));
     for (const cv::Point& place : places) points_.emplace_back(BackgroundPoint(clip, start, place));
     for (const cv::Point& place : places) at_.emplace_back(place);
@@ -60,14 +59,14 @@ class Stretch {
                       .start_px = at_[place],
                       .background = background.at};
     for (const Scene& scene : scenes_) {
-      const std::size_t first = place * kDistances;
+      const std::size_t first = place * distances_;
       const auto at_start = pixel_of(scene, first, start_), before = pixel_of(scene, first, frame - 1),
                  now = pixel_of(scene, first, frame);
       if (!at_start || !before || !now) return false;
       sample.step_px.push_back(*now - *before - background.step.px);
       // Where the intruder was put and where its truth says it was agree but for the rows' times.
       sample.offset_px.push_back((*now - *at_start) - (background.at - at_[place]));
-      for (std::size_t i = 1; i < kDistances; ++i)
+      for (std::size_t i = 1; i < distances_; ++i)
         run.distances_differ_px =
             std::max(run.distances_differ_px, cv::norm(pixel_of(scene, first + i, frame).value_or(*now) - *now));
     }
@@ -79,6 +78,7 @@ class Stretch {
 
   const Clip& clip_;
   int start_;
+  std::size_t distances_;
   std::vector<Scene> scenes_;
   std::vector<std::optional<BackgroundPoint>> points_;
   std::vector<cv::Point2d> at_;
@@ -87,7 +87,7 @@ class Stretch {
 
 }  // namespace
 
-SlipRun slip_of(const Clip& clip, const std::vector<CameraKnowledge>& cameras) {
+SlipRun slip_of(const Clip& clip, const std::vector<CameraKnowledge>& cameras, std::span<const double> distances_m) {
   SlipRun run;
   cv::Point2d shift_px;
   const std::vector<double>& times_s = clip.shape.times_s;
@@ -97,7 +97,7 @@ SlipRun slip_of(const Clip& clip, const std::vector<CameraKnowledge>& cameras) {
       start += kNoPlaceStep;
       continue;
     }
-    Stretch stretch(clip, cameras, start, places);
+    Stretch stretch(clip, cameras, start, places, distances_m);
     int frame = start;
     Pyramid before = pyramid_of(clip.luma[static_cast<std::size_t>(frame)]);
     bool goes_on = true;

@@ -24,12 +24,14 @@ struct SlipSample {
 
 struct SlipRun {
   std::vector<SlipSample> samples;
-  double distances_differ_px = 0;  // largest difference between the pixels of 300, 1000 and 10000 m
+  double distances_differ_px =
+      0;  // largest difference between the pixels of the first distance and those of the others
 };
 
-// Puts intruders at each of kDistances_m in front of up to 3 points of the background and follows both until the point
+// Puts intruders at each distance in front of up to 3 points of the background and follows both until the point
 // is lost, leaves the image or 10 s have passed; then the same again from there, to the end of the clip.
-[[nodiscard]] SlipRun slip_of(const Clip& clip, const std::vector<CameraKnowledge>& cameras);
+[[nodiscard]] SlipRun slip_of(const Clip& clip, const std::vector<CameraKnowledge>& cameras,
+                              std::span<const double> distances_m = kDistances_m);
 
 inline constexpr double kLongest_s = 10;
 

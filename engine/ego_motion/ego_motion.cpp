@@ -197,6 +197,18 @@ class Estimate {
   }
 
   // Whether the image turns as the calibration has it.
+  // A pinhole with another focal length sees the same pixels along other rays and a straight edge in another plane.
+  void take_focal_length(double factor) {
+    motion_.focal_factor = factor;
+    for (FrameRays& frame : seen_.rays)
+      for (RayObservation& o : frame) o.ray = Eigen::Vector3d(factor * o.ray.x(), o.ray.y(), o.ray.z()).normalized();
+    for (HorizonLine& line : seen_.lines) {
+      line.up = Eigen::Vector3d(line.up.x() / factor, line.up.y(), line.up.z()).normalized();
+      for (double* angle_rad : {&line.sd_rad, &line.haze_rad, &line.hills_rad}) *angle_rad /= factor;
+    }
+    seen_.pixel_rad /= factor;
+  }
+
   void compare_with_lens() {
     motion_.focal_scale = focal_scale(seen_.rays, seen_.pixel_rad, control_.cancel);
     if (!motion_.focal_scale) return;
@@ -205,6 +217,7 @@ class Estimate {
     const bool fits = found.least < kClose && (found.largest == 0 || found.largest > 1 / kClose);
     const auto ray = camera_.lens.ray({camera_.size_px.width - 1.0, (camera_.size_px.height - 1) / 2.0});
     if (fits || !ray || !(ray->x > 0)) return;
+    if (settings_.fits_focal_length && camera_.lens.is_pinhole()) return take_focal_length(found.value);
     const double half_rad = std::acos(std::clamp(ray->x, 0.0, 1.0));
     const auto field_deg = [&](double scale) { return 2 * std::atan(std::tan(half_rad) / scale) * 57.29577951308232; };
     const std::string narrow = found.largest > 0 ? fmt::format("{:.0f} to", field_deg(found.largest)) : "at most";

@@ -64,10 +64,12 @@ struct EgoMotion {
   std::optional<double> level_sd_rad;  // standard deviation of the world's level, common to all frames: a horizon was
                                        // seen. Not given: roll and pitch are against frame 0, which counts as level
   std::optional<GyroLink> gyro;
-  std::optional<FocalScale> focal_scale;  // what the turns show of it; nothing is corrected by it
-  bool is_stabilized = false;             // the log states that the camera turned the image (Track::camera_from_image)
-  std::vector<Warning> warnings;          // with ranges of frames; first what puts the whole in doubt: many frames of
-                                          // which nothing is known, a lens unlike its calibration
+  std::optional<FocalScale> focal_scale;  // what the turns show of it; nothing is corrected by it, but where asked for
+  // The focal length with which all is computed, over the calibration's (EgoMotionSettings::fits_focal_length).
+  double focal_factor = 1;
+  bool is_stabilized = false;     // the log states that the camera turned the image (Track::camera_from_image)
+  std::vector<Warning> warnings;  // with ranges of frames; first what puts the whole in doubt: many frames of
+                                  // which nothing is known, a lens unlike its calibration
 };
 
 // The camera's rotation frame by frame, in one pass over the footage: README.md. The time of a frame is that of its

@@ -42,8 +42,9 @@ struct EgoMotionSettings {
   // that of its middle row.
   std::optional<double> readout_s = {};
 
-  bool use_horizon = true;  // where it is seen, roll and pitch are absolute
-  bool use_gyro = true;     // fuse the rates of the telemetry, where there are any
+  bool use_horizon = true;         // where it is seen, roll and pitch are absolute
+  bool fits_focal_length = false;  // where the turns show another one than a pinhole calibration has, it is theirs
+  bool use_gyro = true;            // fuse the rates of the telemetry, where there are any
 
   // Factors from the adjustment's own standard deviation to the one that is reported: sd_factor of all of it, sd_growth
   // of what it grows by while features leave the image and others take over. The errors of a feature in successive

@@ -54,10 +54,8 @@ Track track_of(const EgoMotion& motion, const std::filesystem::path& footage) {
 
 namespace {
 
-template <class T>
-Channel<T> shifted(Channel<T> channel, double offset_s) {
-  for (double& time_s : channel.times_s) time_s -= offset_s;
-  return channel;
+bool is_footage_clock(const std::string& clock) {
+  return clock.starts_with("footage");
 }
 
 }  // namespace
@@ -68,11 +66,18 @@ void add_log(Track& attitudes, const Track& log, const EgoMotion& motion) {
   if (!is_placed && !log.on_footage_time) return;
   // Positions change slowly: the drift of the clock does not show in them.
   const double offset_s = is_placed ? motion.gyro->offset_s : 0;
-  attitudes.position = shifted(log.position, offset_s);
+  const auto placed = [&](auto channel) {
+    // What has a clock of its own and is placed on the footage already, the gyroscope does not place.
+    const bool has_own_clock =
+        log.on_footage_time && is_footage_clock(channel.clock) != is_footage_clock(log.camera_rate_radps.clock);
+    for (double& time_s : channel.times_s) time_s -= has_own_clock ? 0 : offset_s;
+    return channel;
+  };
+  attitudes.position = placed(log.position);
   attitudes.height_above_ellipsoid = log.height_above_ellipsoid;
-  attitudes.local_position_ned_m = shifted(log.local_position_ned_m, offset_s);
-  attitudes.velocity_ned_mps = shifted(log.velocity_ned_mps, offset_s);
-  attitudes.exposure_s = shifted(log.exposure_s, offset_s);
+  attitudes.local_position_ned_m = placed(log.local_position_ned_m);
+  attitudes.velocity_ned_mps = placed(log.velocity_ned_mps);
+  attitudes.exposure_s = placed(log.exposure_s);
   if (log.utc_at_zero_s) attitudes.utc_at_zero_s = *log.utc_at_zero_s + offset_s;
 }
 

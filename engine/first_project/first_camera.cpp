@@ -17,6 +17,9 @@ namespace {
 
 constexpr double kMinFov_deg = 1;
 constexpr double kMaxFov_deg = 359;
+const std::string kStateFov = "--fov states it if you know it; ";
+const std::string kMeasure = "`sigs calibrate` measures the lens";
+const std::string kNothingTells = "a guess: nothing in the file tells it";
 
 double pixel_aspect(const VideoInfo& video) {
   return double(video.pixel_aspect_num) / video.pixel_aspect_den;
@@ -53,6 +56,13 @@ GuessedLens lens_of(const VideoInfo& video, double length, double fov_rad, bool 
   return guessed;
 }
 
+// A pinhole of that field of view along the image's longer side.
+GuessedLens default_lens(const VideoInfo& video, double fov_rad) {
+  const double width = video.size_px.width * pixel_aspect(video), height = video.size_px.height;
+  return lens_of(video, std::max(width, height), fov_rad, false,
+                 width >= height ? "from side to side" : "from top to bottom");
+}
+
 GuessedLens guessed_lens(const FirstProjectOptions& options, const VideoInfo& video,
                          const std::optional<LoggedLens>& logged, FirstProjectNote& note) {
   const double width = video.size_px.width * pixel_aspect(video);
@@ -62,7 +72,7 @@ GuessedLens guessed_lens(const FirstProjectOptions& options, const VideoInfo& vi
     return guessed;
   };
   note.is_guess = true;
-  note.remedy = "`sigs calibrate` measures the lens";
+  note.remedy = kMeasure;
   if (options.horizontal_fov_deg) {
     const double fov_deg = *options.horizontal_fov_deg;
     return finish(lens_of(video, width, rad_of_deg(fov_deg), fov_deg >= kFisheyeFov_deg, "from side to side"),
@@ -79,10 +89,8 @@ GuessedLens guessed_lens(const FirstProjectOptions& options, const VideoInfo& vi
     return finish(lens_of(video, width, *logged->horizontal_fov_rad, is_fisheye, "from side to side"),
                   "by what the file states (" + logged->source + "); distortion is not known");
   }
-  note.remedy = "--fov states it if you know it; " + note.remedy;
-  return finish(lens_of(video, std::max(width, height), rad_of_deg(kGuessedFov_deg), false,
-                        width >= height ? "from side to side" : "from top to bottom"),
-                "a guess: nothing in the file tells it");
+  note.remedy = kStateFov + note.remedy;
+  return finish(default_lens(video, rad_of_deg(kGuessedFov_deg)), kNothingTells);
 }
 
 std::string calibration_xml(const LensParameters& lens, cv::Size size_px, const std::string& note) {
@@ -103,6 +111,12 @@ std::string calibration_xml(const LensParameters& lens, cv::Size size_px, const 
       exact_text(lens.cx), exact_text(lens.fy), exact_text(lens.cy), lens.coefficients.size(), coefficients);
 }
 
+FirstCamera camera_of(const VideoInfo& video, const GuessedLens& guessed, Lens lens, FirstProjectNote note) {
+  return {.camera = {.lens = std::move(lens), .size_px = video.size_px},
+          .calibration_text = calibration_xml(guessed.lens, video.size_px, note.text),
+          .note = std::move(note)};
+}
+
 }  // namespace
 
 Result<FirstCamera> first_camera(const FirstProjectOptions& options, const VideoInfo& video,
@@ -121,9 +135,22 @@ Result<FirstCamera> first_camera(const FirstProjectOptions& options, const Video
   const GuessedLens guessed = guessed_lens(options, video, logged, note);
   Result<Lens> lens = Lens::make(guessed.lens);
   if (!lens) return fail(lens.error());
-  return FirstCamera{.camera = {.lens = *std::move(lens), .size_px = video.size_px},
-                     .calibration_text = calibration_xml(guessed.lens, video.size_px, note.text),
-                     .note = note};
+  FirstCamera camera = camera_of(video, guessed, *std::move(lens), note);
+  camera.is_default = note.text.ends_with(kNothingTells);
+  return camera;
+}
+
+Result<FirstCamera> camera_by_turns(const VideoInfo& video, const FocalScale& seen) {
+  const auto field_rad = [](double scale) { return 2 * std::atan(std::tan(rad_of_deg(kGuessedFov_deg) / 2) / scale); };
+  const GuessedLens guessed = default_lens(video, field_rad(seen.value));
+  FirstProjectNote note{.field = "footage.calibration", .is_guess = true};
+  note.text = fmt::format("{}, by how the images turn ({} {:.0f}); distortion is not known", guessed.how,
+                          seen.largest > 0 ? fmt::format("{:.0f} to", deg_of_rad(field_rad(seen.largest))) : "at most",
+                          deg_of_rad(field_rad(seen.least)));
+  note.remedy = kStateFov + kMeasure;
+  Result<Lens> lens = Lens::make(guessed.lens);
+  if (!lens) return fail(lens.error());
+  return camera_of(video, guessed, *std::move(lens), std::move(note));
 }
 
 }  // namespace sigs

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "camera/camera.h"
+#include "ego_motion/ego_motion.h"
 #include "first_project/first_project.h"
 #include "telemetry/track.h"
 #include "video/frame_source.h"
@@ -24,6 +25,7 @@ struct FirstCamera {
   Camera camera;                 // of the footage's size
   std::string calibration_text;  // of the file to be written; empty: the user's file is used
   FirstProjectNote note;         // field footage.calibration
+  bool is_default = false;       // of kGuessedFov_deg, since nothing tells it
 };
 
 // The camera of the user's calibration file, else of the stated field of view, else of what the file says, else of
@@ -32,5 +34,8 @@ struct FirstCamera {
 // Errors: those of read_calibration(); usage for a field of view out of range.
 [[nodiscard]] Result<FirstCamera> first_camera(const FirstProjectOptions& options, const VideoInfo& video,
                                                const std::optional<LoggedLens>& logged);
+
+// The camera of kGuessedFov_deg with the focal length that the turns of the images show instead.
+[[nodiscard]] Result<FirstCamera> camera_by_turns(const VideoInfo& video, const FocalScale& seen);
 
 }  // namespace sigs

@@ -118,7 +118,6 @@ std::vector<FirstProjectNote> set_track(const FirstLog& log, const std::string& 
                           has_path && has_camera ? "path and attitude"
                           : has_path             ? "path; it has no attitude of the camera"
                                                  : "attitude");
-  if (has_path && !has_camera) note.remedy = kEgoMotion;
   std::vector<FirstProjectNote> notes{note};
   if (has_path && (!has_camera || !track.heading_is_north) && used->flight.earth) {
     project.geo.heading_deg = std::round(10 * deg_of_rad(used->flight.earth->heading_rad())) / 10;
@@ -129,6 +128,10 @@ std::vector<FirstProjectNote> set_track(const FirstLog& log, const std::string& 
                      .is_guess = true});
   }
   return notes;
+}
+
+bool lacks_attitude(const FirstLog& log, const Project& project) {
+  return project.camera.track.file.empty() || !log.track || log.track->ned_from_camera.empty();
 }
 
 }  // namespace sigs

@@ -33,4 +33,7 @@ struct FirstLog {
                                                       const FootageShape& footage, const FrameRange& range,
                                                       Project& project);
 
+// Whether the project's camera follows a log that has no attitude of its own, so that the images have to tell it.
+[[nodiscard]] bool lacks_attitude(const FirstLog& log, const Project& project);
+
 }  // namespace sigs

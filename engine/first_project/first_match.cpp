@@ -117,7 +117,7 @@ namespace {
 constexpr double kLongestMotion_s = 90;
 constexpr double kMaxLostShare = 0.05;
 constexpr double kMaxStep_px = 1;
-constexpr double kStill_px = 0.5;
+constexpr double kStill_px = 0.5, kStillBesideCut_px = 3;
 
 // Why the turns are of no use; "": they are.
 std::string why_no_motion(const EgoMotion& motion, const Scene& scene) {
@@ -125,11 +125,14 @@ std::string why_no_motion(const EgoMotion& motion, const Scene& scene) {
   double largest_rad = 0, step_rad = 0;
   bool is_known = true;
   const auto begin = static_cast<std::size_t>(scene.first_frame);
+  std::size_t stretch = begin, cut = 0;  // frames
   for (std::size_t n = begin; n <= static_cast<std::size_t>(scene.last_frame) && n < motion.frames.size(); ++n) {
     const EgoFrame& frame = motion.frames[n];
     ++used;
     lost += frame.is_lost && n > begin ? 1 : 0;
-    const glm::dquat turn = glm::conjugate(motion.frames[begin].world_from_camera) * frame.world_from_camera;
+    if (frame.is_cut && n > begin) cut = n;
+    if (frame.is_lost) stretch = n;  // what it turned by meanwhile is not known
+    const glm::dquat turn = glm::conjugate(motion.frames[stretch].world_from_camera) * frame.world_from_camera;
     largest_rad = std::max(largest_rad, 2 * std::acos(std::min(1.0, std::abs(turn.w))));
     if (!frame.is_lost && frame.sd_rad.x >= kUnknownRotation_rad) is_known = false;
     if (!frame.is_lost) step_rad = std::max({step_rad, frame.step_sd_rad.y, frame.step_sd_rad.z});
@@ -137,20 +140,25 @@ std::string why_no_motion(const EgoMotion& motion, const Scene& scene) {
   if (static_cast<double>(lost) > kMaxLostShare * static_cast<double>(used))
     return fmt::format("the images do not show how the camera turns in {} of {} frames", lost, used);
   if (lost == 0 && !is_known) return "the images do not show how the camera turns before the frames used";
-  const double px_per_rad = scene.camera.lens.pixels_per_radian({1, 0, 0});
+  const double px_per_rad = motion.focal_factor * scene.camera.lens.pixels_per_radian({1, 0, 0});
   // What adds up over seconds, as where clouds drift, moves footage and intruder alike.
   if (step_rad * px_per_rad > kMaxStep_px)
     return fmt::format("the images show the camera's turns to {:.1f} px only", step_rad * px_per_rad);
   const double still_px = largest_rad * px_per_rad;
   if (still_px < kStill_px) return fmt::format("the camera stands still: it turns by {:.1f} px at most", still_px);
+  if (cut > 0 && still_px < kStillBesideCut_px)
+    return fmt::format("the camera stands still, but for a jerk or a cut at frame {}: it turns by {:.1f} px at most",
+                       cut, still_px);
   return "";
 }
 
 }  // namespace
 
-Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool horizon_is_seen,
+Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, const FirstMotionOptions& options,
                                  const MatchControl& control) {
-  FirstMotion found{.track = {}, .attitudes = {}, .note = {.field = "camera.track.file", .is_guess = true}};
+  FirstMotion found{
+      .focal = {}, .track = {}, .attitudes = {}, .note = {.field = "camera.track.file", .is_guess = true}};
+  if (options.log != nullptr) found.note.field = "camera.track.attitude";  // its path stays
   const auto none = [&](const std::string& why) {
     found.note.text = "none: " + why + "; the camera keeps one attitude";
     return found;
@@ -165,21 +173,28 @@ Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool 
                                          if (control.progress) control.progress(double(done) / std::max(1, total));
                                        },
                                    .cancel = control.cancel};
-  const Result<EgoMotion> motion =
-      estimate_ego_motion(footage, scene.camera, {}, nullptr, {.use_horizon = horizon_is_seen}, following);
+  const Result<EgoMotion> motion = estimate_ego_motion(
+      footage, scene.camera, {}, options.log,
+      {.use_horizon = options.horizon_is_seen, .fits_focal_length = options.lens_is_guessed}, following);
   if (!motion && motion.error().kind == ErrorKind::interrupted) return fail(motion.error());
   if (!motion) return none(motion.error().text());
   if (const std::string why = why_no_motion(*motion, scene); !why.empty()) return none(why);
+  if (motion->focal_factor != 1) found.focal = motion->focal_scale;
   found.track = track_of(*motion, footage.info().path);
+  if (options.log != nullptr) add_log(*found.track, *options.log, *motion);
   found.attitudes = found_attitudes(*motion, {});
   found.note.is_guess = false;
+  const char* const by =
+      motion->gyro && motion->gyro->is_fused ? "by the images and the log's gyroscope" : "by the images";
   found.note.text = motion->level_sd_rad
                         ? fmt::format(
-                              "the camera's attitude at each frame, by the images and the horizon in them, level "
-                              "to {:.1f} degrees",
-                              deg_of_rad(*motion->level_sd_rad))
-                        : "the camera's turns at each frame, by the images; camera.attitude_deg is its attitude at the "
-                          "start";
+                              "the camera's attitude at each frame, {}, and the horizon in them, level to {:.1f} "
+                              "degrees",
+                              by, deg_of_rad(*motion->level_sd_rad))
+                        : fmt::format(
+                              "the camera's turns at each frame, {}; camera.attitude_deg is its attitude at the "
+                              "start",
+                              by);
   return found;
 }
 

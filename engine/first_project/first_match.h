@@ -32,17 +32,22 @@ struct MatchControl {
 
 // The camera's turns as the images show them (ego_motion).
 struct FirstMotion {
-  std::optional<Track> track;  // attitudes on the footage's time axis; none: the camera's attitude stays as it is
-  FoundAttitudes attitudes;    // of the track, for follow_attitudes(), without the file's name
-  FirstProjectNote note;       // what was found, or why there is none
+  std::optional<FocalScale> focal;  // the lens is another one: of its focal length; the track is by that
+  std::optional<Track> track;       // attitudes on the footage's time axis; none: the camera's attitude stays as it is
+  FoundAttitudes attitudes;         // of the track, for follow_attitudes(), without the file's name
+  FirstProjectNote note;            // what was found, or why there is none
 };
 
-// Finds them where they help. None where the camera stands still (no more than half a pixel), where more than a
-// twentieth of the frames used are lost, where nothing tells the turn of a frame within a pixel, and for footage longer
-// than 90 s.
-//   horizon_is_seen  false: an edge that may look like one does not count
-// Error: interrupted.
-[[nodiscard]] Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene, bool horizon_is_seen,
-                                               const MatchControl& control);
+struct FirstMotionOptions {
+  bool horizon_is_seen = true;   // false: an edge that may look like one does not count
+  bool lens_is_guessed = false;  // the focal length may be that which the turns show
+  const Track* log = nullptr;    // of the flight, with angular rates or none; its positions become the track's
+};
+
+// Finds them where they help. None where the camera stands still (no more than half a pixel; three where there are cuts
+// or jerks between), where more than a twentieth of the frames used are lost, where nothing tells the turn of a frame
+// within a pixel, and for footage longer than 90 s. Error: interrupted.
+[[nodiscard]] Result<FirstMotion> first_motion(FrameSource& footage, const Scene& scene,
+                                               const FirstMotionOptions& options, const MatchControl& control);
 
 }  // namespace sigs

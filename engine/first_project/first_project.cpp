@@ -152,6 +152,8 @@ class Planning {
     const fs::path& file = first_.project.file;
     return file.parent_path() / (stem_of(file) + suffix);
   }
+  [[nodiscard]] fs::path calibration_file() const { return beside(".calibration.xml"); }
+
   void note(FirstProjectNote note) { first_.notes.push_back(std::move(note)); }
 
   void name_project() {
@@ -182,12 +184,12 @@ class Planning {
     if (!camera) return fail(camera.error());
     camera_ = camera->camera;
     note(camera->note);
+    lens_is_default_ = camera->is_default;
     if (camera->calibration_text.empty()) {
       project().footage.calibration = relative_to(options_.calibration, project().file);
     } else {
-      const fs::path file = beside(".calibration.xml");
-      first_.files.push_back({.path = file, .content = camera->calibration_text, .copy_of = {}});
-      project().footage.calibration = file.filename().string();
+      first_.files.push_back({.path = calibration_file(), .content = camera->calibration_text, .copy_of = {}});
+      project().footage.calibration = calibration_file().filename().string();
     }
     const std::string log_path = log_.file.empty() ? "" : relative_to(log_.file, project().file);
     for (FirstProjectNote& track : set_track(log_, log_path, footage_, range_, project())) note(std::move(track));
@@ -217,38 +219,61 @@ class Planning {
 
   Result<void> look(FrameSource& source) {
     step(kLookStep_percent, "looking at the footage");
-    const Result<FirstLook> look = first_look(source, scene(), control_.cancel);
+    Result<FirstLook> look = first_look(source, scene(), control_.cancel);
     if (!look) return fail(look.error());
+    Result<FirstMotion> motion = seen_motion(source, *look);
+    if (!motion) return fail(motion.error());
+    if (motion->focal) {
+      if (const Result<void> done = take_focal_length(source, *motion->focal); !done) return done;
+      look = first_look(source, scene(), control_.cancel);
+      if (!look) return fail(look.error());
+    }
     std::vector<FirstProjectNote> attitude;
     if (!scene().horizon_is_known) attitude = set_attitude(*look, has_path(), project());
     looks_up_ = project().camera.position_m.z > -kLowCamera_m;
-    if (const Result<void> done = follow_images(source, *look); !done) return done;
+    follow(*std::move(motion));
     // A level that the images show at each frame is the motion's, with a note of its own.
     if (!seen_turns_ || !seen_turns_->level_is_known)
       for (FirstProjectNote& one : attitude) note(std::move(one));
     return match(source, *look);
   }
 
-  // Lets the camera turn as the images show it, where no log tells it.
-  Result<void> follow_images(FrameSource& source, const FirstLook& look) {
-    if (options_.plain || !project().camera.track.file.empty()) return {};
+  Result<void> take_focal_length(FrameSource& source, const FocalScale& seen) {
+    Result<FirstCamera> camera = camera_by_turns(source.info(), seen);
+    if (!camera) return fail(camera.error());
+    camera_ = std::move(camera->camera);
+    for (FirstProjectFile& file : first_.files)
+      if (file.path == calibration_file()) file.content = camera->calibration_text;
+    for (FirstProjectNote& one : first_.notes)
+      if (one.field == camera->note.field) one = camera->note;
+    return {};
+  }
+
+  // How the camera turns by the images, where no log tells it; else nothing, without a note.
+  Result<FirstMotion> seen_motion(FrameSource& source, const FirstLook& look) {
+    if (options_.plain || !lacks_attitude(log_, project())) return FirstMotion{};
     constexpr const char* kStep = "finding the camera's motion";
     step(kMotionStep_percent, kStep);
     const auto tell = [&](double share) {
       step(kMotionStep_percent + static_cast<int>(share * (kMatchStep_percent - kMotionStep_percent)), kStep);
     };
-    Result<FirstMotion> motion =
-        first_motion(source, scene(), look.level_by == LevelBy::horizon, {.progress = tell, .cancel = control_.cancel});
-    if (!motion) return fail(motion.error());
-    if (motion->track) {
+    return first_motion(source, scene(),
+                        {.horizon_is_seen = look.level_by == LevelBy::horizon,
+                         .lens_is_guessed = lens_is_default_,
+                         .log = project().camera.track.file.empty() ? nullptr : log_.track.get()},
+                        {.progress = tell, .cancel = control_.cancel});
+  }
+
+  // Lets the camera turn as the images show it.
+  void follow(FirstMotion motion) {
+    if (motion.track) {
       const fs::path file = beside(".attitude.csv");
-      motion->attitudes.file = file.filename().string();
-      follow_attitudes(project(), motion->attitudes);
-      first_.files.push_back({.path = file, .content = track_csv_text(*motion->track), .copy_of = {}});
-      seen_turns_ = std::move(motion->track);
+      motion.attitudes.file = file.filename().string();
+      follow_attitudes(project(), motion.attitudes);
+      first_.files.push_back({.path = file, .content = track_csv_text(*motion.track), .copy_of = {}});
+      seen_turns_ = std::move(motion.track);
     }
-    note(motion->note);
-    return {};
+    if (!motion.note.text.empty()) note(std::move(motion.note));
   }
 
   Result<void> match(FrameSource& source, const FirstLook& look) {
@@ -319,6 +344,7 @@ class Planning {
   FrameRange range_;
   FirstLog log_;
   std::optional<Camera> camera_;
+  bool lens_is_default_ = false;
   std::optional<Track> seen_turns_;  // of the camera, by the images
   bool looks_up_ = false;            // from the ground
 };
