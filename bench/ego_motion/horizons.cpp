@@ -4,7 +4,9 @@
 //   straight  sea, a plain or far hills: a line is to be found
 //   skyline   near woods, hills or houses hide the level, whose row is known to some 20 px: a line may be found
 //   none      nothing but sky, or a level that nothing shows: no line is to be found
-// The clips' field of view is not known; 70 degrees are taken. Prints a table.
+// The clips' field of view is not known; 70 degrees are taken. Two further rows of the table are made of these frames:
+// those with a straight horizon, and those without any, turned by 15 to 45 degrees about the image's centre; and one of
+// the landscapes of tests/attitude_flights, seen from 150 m straight down and 45 degrees down. Prints a table.
 
 #include <fmt/format.h>
 
@@ -14,6 +16,8 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "attitude_flights/flight.h"
+#include "base/pose.h"
 #include "ego_motion/measures.h"
 #include "horizon/horizon.h"
 #include "video/frame_source.h"
@@ -58,18 +62,22 @@ std::optional<fs::path> clip_of(const std::string& name) {
   return std::nullopt;
 }
 
-void judge(const cv::Mat& luma, const std::vector<std::string>& row, const std::string& where, Tally& tally) {
+// The level's row at the left and right border.
+struct Level {
+  double left_row = 0, right_row = 0;
+};
+
+void judge(const cv::Mat& luma, const std::string& kind, const Level& level, const std::string& where, Tally& tally) {
   const Camera camera = usual_camera(luma.size());
   const ReducedLuma reduced = reduced_luma(luma);
   const auto line = horizon_in(reduced.luma, reduced.scale, camera, {}, 0);
   const auto pitch_rad = skyline_pitch_rad(sky_map_of(reduced.luma), reduced.scale, camera);
-  const std::string& kind = row[3];
   ++(kind == "straight" ? tally.straight : kind == "skyline" ? tally.skyline : tally.none);
   if (kind == "none") {
     if (line) ++tally.wrong, fmt::print(stderr, "{}: a line where there is none\n", where);
     return;
   }
-  const glm::dvec3 up = up_of(camera, std::stod(row[4]), std::stod(row[5]));
+  const glm::dvec3 up = up_of(camera, level.left_row, level.right_row);
   if (line) {
     const double off_deg = degrees_between({line->up.x(), line->up.y(), line->up.z()}, up);
     if (off_deg > kWrong_deg) {
@@ -83,6 +91,55 @@ void judge(const cv::Mat& luma, const std::vector<std::string>& row, const std::
   if (!pitch_rad) return;
   ++tally.pitched;
   tally.pitch_deg.push_back(std::abs(*pitch_rad - std::asin(up.x)) * 180 / std::numbers::pi);
+}
+
+// The middle of an image that is turned clockwise, as large as can be without corners that nothing fills, and its
+// level, which half of its columns have to show.
+void judge_turned(const cv::Mat& luma, const std::string& kind, const Level& level, double angle_rad,
+                  const std::string& where, Tally& tally) {
+  const double sine = std::abs(std::sin(angle_rad)), cosine = std::cos(angle_rad);
+  const cv::Size from = luma.size();
+  const double share = std::min(from.width / (from.width * cosine + from.height * sine),
+                                from.height / (from.width * sine + from.height * cosine));
+  const cv::Size size(static_cast<int>(share * from.width) - 1, static_cast<int>(share * from.height) - 1);
+  const double from_x = 0.5 * (from.width - 1), from_y = 0.5 * (from.height - 1);
+  const double x = 0.5 * (size.width - 1), y = 0.5 * (size.height - 1);
+  cv::Mat turn = cv::getRotationMatrix2D(cv::Point2d(from_x, from_y), -angle_rad * 180 / std::numbers::pi, 1);
+  turn.at<double>(0, 2) += x - from_x;
+  turn.at<double>(1, 2) += y - from_y;
+  cv::Mat turned;
+  cv::warpAffine(luma, turned, turn, size, cv::INTER_LINEAR);
+  const auto place = [&](double at_x, double at_y) {
+    const auto of = [&](int i) {
+      return turn.at<double>(i, 0) * at_x + turn.at<double>(i, 1) * at_y + turn.at<double>(i, 2);
+    };
+    return glm::dvec2(of(0), of(1));
+  };
+  const glm::dvec2 left = place(0, level.left_row), right = place(from.width - 1.0, level.right_row);
+  const double slope = (right.y - left.y) / (right.x - left.x);
+  const Level now{.left_row = left.y - slope * left.x, .right_row = left.y + slope * (size.width - 1 - left.x)};
+  int in_view = 0;
+  for (int column = 0; column < size.width; ++column) {
+    const double row = now.left_row + (now.right_row - now.left_row) * column / (size.width - 1);
+    in_view += row >= 0 && row < size.height ? 1 : 0;
+  }
+  if (kind != "none" && 2 * in_view < size.width) return;
+  judge(turned, kind, now, fmt::format("{}, turned by {:.0f} degrees", where, angle_rad * 180 / std::numbers::pi),
+        tally);
+}
+
+// Fields and water from above: nowhere is a horizon.
+void judge_ground(Tally& tally) {
+  for (const std::uint32_t seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U})
+    for (const double pitch_deg : {-90.0, -60.0, -45.0})
+      for (const bool has_water : {false, true}) {
+        made::FlightSettings settings{.seed = seed, .frames = 2};
+        settings.motion.pitch_rad = rad_of_deg(pitch_deg);
+        settings.landscape.moving_water = has_water;
+        const made::Flight flight(settings, usual_camera({640, 480}));
+        judge(luma_of(flight.frame(1)), "none", {},
+              fmt::format("landscape {}, {:.0f} degrees{}", seed, pitch_deg, has_water ? ", water" : ""), tally);
+      }
 }
 
 std::string quantile(std::vector<double> values, double share) {
@@ -112,9 +169,15 @@ void measure_horizons(const fs::path& truth) {
     for (std::string number; std::getline(numbers, number, '+');) {
       const Result<Frame> frame = footage->read(std::stoi(number));
       if (!frame) accuracy::stop(frame.error().text());
-      judge(luma_of(*frame), row, row[1] + " frame " + number, halves[row[0]]);
+      const std::string where = row[1] + " frame " + number;
+      const Level level = row[4].empty() ? Level{} : Level{std::stod(row[4]), std::stod(row[5])};
+      judge(luma_of(*frame), row[3], level, where, halves[row[0]]);
+      if (row[3] != "skyline")
+        for (const double angle_deg : {-45.0, -30.0, -15.0, 15.0, 30.0, 45.0})
+          judge_turned(luma_of(*frame), row[3], level, rad_of_deg(angle_deg), where, halves[row[0] + ", turned"]);
     }
   }
+  judge_ground(halves["ground from above"]);
   fmt::print(
       "| half | straight: found | skyline: line within 4 degrees | none | wrong lines | line, median error, degrees | "
       "largest | pitch by skyline, frames | median error, degrees | 0.9 "

@@ -23,22 +23,17 @@ constexpr double kNear_rad = 0.0025;   // a candidate on the plane
 constexpr double kLeastShare = 0.25;   // of the columns, side by side
 constexpr int kGap = 4;                // a column without the edge counts as much as so many with it
 constexpr int kHorizonTrials = 600;
-constexpr double kSteepest = 1.7;                  // tangent of the roll
-constexpr int kAlike = 10;                         // columns whose errors are alike: swell, coding, haze
-constexpr int kPlanes = 4;                         // that are tried, one after the other
-constexpr int kSkyAbove_cells = 3;                 // from an edge up to the next sky
-constexpr double kMinSkyAbove = 0.7;               // share of what lies above the plane
-constexpr double kMaxSkyBelow = 0.15;              // share of what lies below the plane
-constexpr double kMaxSkyUnder = 0.3;               // columns with sky below the plane, of those with the edge
-constexpr double kNearPlane_rad = 0.012;           // nearer to the plane, cells may hold some of both sides
-constexpr double kMinWide = 0.9, kMinArea = 0.15;  // of the image: across it, or so much on both sides
-constexpr int kBand_px = 14;                       // above and below the edge, where texture is compared
-constexpr double kRougher = 0.7;                   // of the texture below: that of a sky, at most
-constexpr double kSmooth_codes = 3;                // smooth, whatever is below
-constexpr double kDeep_rad = 0.1;                  // below the edge: ground with little haze
-constexpr double kHazePerWidth = 0.271;            // 2 / e^2, see horizon.h
-constexpr double kSharp_px = 2;                    // width that a sharp edge seems to have by differences over two rows
-constexpr double kPeak_rad = 0.01;                 // edges farther from the plane are of something else
+constexpr double kSteepest = 1.7;        // tangent of the roll
+constexpr int kAlike = 10;               // columns whose errors are alike: swell, coding, haze
+constexpr int kPlanes = 4;               // that are tried, one after the other
+constexpr int kSkyAbove_cells = 3;       // from an edge up to the next sky
+constexpr int kBand_px = 14;             // above and below the edge, where texture is compared
+constexpr double kRougher = 0.7;         // of the texture below: that of a sky, at most
+constexpr double kSmooth_codes = 3;      // smooth, whatever is below
+constexpr double kDeep_rad = 0.1;        // below the edge: ground with little haze
+constexpr double kHazePerWidth = 0.271;  // 2 / e^2, see horizon.h
+constexpr double kSharp_px = 2;          // width that a sharp edge seems to have by differences over two rows
+constexpr double kPeak_rad = 0.01;       // edges farther from the plane are of something else
 
 struct Candidate {
   int column = 0;
@@ -58,13 +53,6 @@ struct Stretch {
 
 Eigen::Vector3d eigen_of(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
-}
-
-bool is_own_body(const cv::Mat& own_body, double x, double y) {
-  if (own_body.empty()) return false;
-  const int column = std::clamp(static_cast<int>(std::lround(x)), 0, own_body.cols - 1);
-  const int row = std::clamp(static_cast<int>(std::lround(y)), 0, own_body.rows - 1);
-  return own_body.at<uchar>(row, column) > 127;
 }
 
 // Rows where it is brighter above than below by most, to parts of a row, with the step in codes.
@@ -254,62 +242,6 @@ double hills_at(const std::vector<Candidate>& candidates, const Eigen::Vector3d&
   return count > 0 ? std::sqrt(3 * squares / count) : 0;
 }
 
-// Where every other cell of a sky map looks.
-class CellRays {
- public:
-  struct Cell {
-    Eigen::Vector3d ray;
-    int column = 0;
-    bool is_sky = false;
-  };
-
-  CellRays(const SkyMap& sky, double scale, const Camera& camera, const cv::Mat& own_body)
-      : columns_((sky.sky.cols + kEvery - 1) / kEvery), width_px_(sky.sky.cols * SkyMap::kCell_px) {
-    for (int y = 0; y < sky.sky.rows; y += kEvery)
-      for (int x = 0; x < sky.sky.cols; x += kEvery) {
-        const glm::dvec2 pixel((x + 0.5) * SkyMap::kCell_px * scale - 0.5, (y + 0.5) * SkyMap::kCell_px * scale - 0.5);
-        if (is_own_body(own_body, pixel.x, pixel.y)) continue;
-        if (const auto ray = camera.lens.ray(pixel)) cells_.push_back({eigen_of(*ray), x / kEvery, sky.sky(y, x) != 0});
-      }
-  }
-
-  [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
-  [[nodiscard]] int columns() const { return columns_; }
-  [[nodiscard]] double column_px() const { return static_cast<double>(width_px_) / columns_; }
-
- private:
-  static constexpr int kEvery = 2;
-  std::vector<Cell> cells_;
-  int columns_ = 0, width_px_ = 0;
-};
-
-// Above a horizon is sky, but for what stands on the ground, and below it is none. The edge of a roof goes on as a line
-// below which there is sky, and one that only cuts a corner of the image is not told from a roof.
-bool divides_sky(const CellRays& rays, const Eigen::Vector3d& up, const Stretch& stretch) {
-  int above = 0, sky_above = 0, below = 0, sky_below = 0;
-  const auto columns = static_cast<std::size_t>(rays.columns());
-  std::vector<bool> has_above(columns), has_below(columns), has_sky_below(columns);
-  for (const CellRays::Cell& cell : rays.cells()) {
-    const double up_rad = up.dot(cell.ray);
-    const auto column = static_cast<std::size_t>(cell.column);
-    (up_rad > 0 ? has_above : has_below)[column] = true;
-    if (std::abs(up_rad) < kNearPlane_rad) continue;
-    ++(up_rad > 0 ? above : below);
-    if (!cell.is_sky) continue;
-    ++(up_rad > 0 ? sky_above : sky_below);
-    if (up_rad < 0) has_sky_below[column] = true;
-  }
-  int across = 0, sky_under = 0;
-  for (std::size_t i = 0; i < columns; ++i) {
-    across += has_above[i] && has_below[i] ? 1 : 0;
-    sky_under += has_above[i] && has_sky_below[i] ? 1 : 0;
-  }
-  const double cells = static_cast<double>(rays.cells().size());
-  const bool is_wide = across >= kMinWide * rays.columns() || std::min(above, below) >= kMinArea * cells;
-  return is_wide && sky_above >= kMinSkyAbove * above && sky_below <= kMaxSkyBelow * below &&
-         sky_under * rays.column_px() <= kMaxSkyUnder * stretch.columns * kColumnStep_px;
-}
-
 // A plane that is fitted to the candidates near it.
 struct FittedEdge {
   Eigen::Vector3d up;
@@ -348,7 +280,11 @@ std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, cons
     if (!rough) return std::nullopt;
     const std::optional<FittedEdge> edge = fitted_edge(candidates, *rough, columns);
     if (edge && has_smooth_side_above(reduced, candidates, edge->up, edge->stretch)) {
-      if (divides_sky(CellRays(sky, scale, camera, own_body), edge->up, edge->stretch)) {
+      const SkyEdge below_sky{.up = edge->up,
+                              .first_px = edge->stretch.first * kColumnStep_px,
+                              .last_px = edge->stretch.last * kColumnStep_px,
+                              .seen_px = edge->stretch.columns * kColumnStep_px};
+      if (divides_sky(below_sky, sky, reduced, scale, camera, own_body)) {
         std::vector<Candidate> on_edge;
         for (const Candidate& c : candidates)
           if (is_on(c, edge->up, edge->stretch) && (on_edge.empty() || on_edge.back().column < c.column))

@@ -140,6 +140,29 @@ TEST_CASE("a sea's horizon is found to 0.1 degrees, whatever the roll, the pitch
     }
 }
 
+TEST_CASE("a calm sea, smooth as the sky, has a horizon where it is tilted too; a cloud's straight edge is none") {
+  // Calm water mirrors the sky: in direction a below the level it is a share of what is seen at a above it.
+  const auto sky = [](double up_rad) { return 200 - 90 * up_rad; };
+  const auto calm_sea = [&](const Eigen::Vector3d& ray) {
+    const double down_rad = std::asin(ray.z());
+    return down_rad > 0 ? 0.92 * sky(down_rad) - 60 * down_rad : sky(-down_rad);
+  };
+  // A layer of cloud with a straight lower edge, clear sky below it, down to the image's border.
+  const auto cloud = [&](const Eigen::Vector3d& ray) {
+    const double up_rad = 0.6 + std::asin(-ray.z());
+    return sky(up_rad) + (ray.z() < 0 ? 14 : 0);
+  };
+  const Camera camera = view_camera(LensModel::brown_conrady);
+  for (const double roll_deg : {-25.0, -8.0, 0.0, 8.0, 25.0}) {
+    CAPTURE(roll_deg);
+    const Eigen::Quaterniond attitude = level_from_camera(roll_deg, 2);
+    const auto line = horizon_in(image_of(camera, attitude, calm_sea), 1, camera, {}, 0);
+    REQUIRE(line);
+    CHECK(degrees_between(line->up, up_in_camera(attitude)) < 0.2);  // as for a rough sea, at twice the noise
+    CHECK_FALSE(horizon_in(image_of(camera, attitude, cloud), 1, camera, {}, 0));
+  }
+}
+
 TEST_CASE("hills over more than half of the width do not hide the rest of the horizon") {
   const Camera camera = view_camera(LensModel::kannala_brandt);
   const Eigen::Quaterniond turn = level_from_camera(3, 1);
