@@ -39,7 +39,8 @@ constexpr const char* kAppearanceFooter =
 
 struct AppearanceOptions {
   fs::path file;
-  std::string frames;  // "A-B"; empty: all
+  SequenceTiming timing;  // of images
+  std::string frames;     // "A-B"; empty: all
   int every = 0;
   fs::path out;   // empty: not written
   fs::path plot;  // likewise
@@ -80,7 +81,7 @@ struct Looked {
 };
 
 Result<Looked> looked_at(const AppearanceOptions& options, const std::optional<Project>& project) {
-  Looked looked{.video = options.file, .frames = {.every = options.every}};
+  Looked looked{.video = options.file, .timing = options.timing, .frames = {.every = options.every}};
   if (project) {
     looked.video = resolved(*project, project->footage.video);
     looked.timing = timing_of(*project);
@@ -219,6 +220,9 @@ Result<void> run(const AppearanceOptions& options) {
   if (const Result<void> named = check_names(options); !named) return named;
   std::optional<Project> project;
   if (is_project_file(options.file)) {
+    if (options.timing != SequenceTiming{})
+      return fail(options.timing.times_file.empty() ? "--frame-rate" : "--timestamps",
+                  "is stated by the project; leave it out", ErrorKind::usage);
     Result<Project> read = project_of_file(options.file);
     if (!read) return fail(read.error());
     project = std::move(*read);
@@ -258,6 +262,7 @@ Command add_appearance_command(CLI::App& program) {
       ->option_text("N")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000));
+  add_timing_options(*command, options->timing);
   command->add_option("--out", options->out, "write the settings that follow, as JSON")
       ->option_text("FILE")
       ->check(output_path());

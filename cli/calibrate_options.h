@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "video/image_sequence.h"
 
 namespace sigs::cli {
 
@@ -23,6 +24,7 @@ struct CalibrateOptions {
   std::filesystem::path out;
   std::filesystem::path plot;     // empty: none
   std::filesystem::path json;     // likewise
+  SequenceTiming timing;          // without a board: of images
   std::filesystem::path log;      // without a board: with angular rates; empty: the video's own
   std::optional<double> fov_deg;  // without a board: horizontal field of view that the user knows
   int max_frames = 1800;          // without a board: that are looked at

@@ -42,7 +42,8 @@ Result<RoughInputs> inputs_of(const CalibrateOptions& options) {
 }
 
 Result<RoughCalibration> found_in(const CalibrateOptions& options) {
-  Result<FrameSource> footage = FrameSource::open(options.inputs[0], &interrupt_flag());
+  Result<FrameSource> footage =
+      FrameSource::open(options.inputs[0], &interrupt_flag(), Quantisers::leave_out, options.timing);
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
   const Result<RoughInputs> inputs = inputs_of(options);
@@ -108,6 +109,7 @@ void add_rough_options(CLI::App& command, CalibrateOptions& options) {
       .add_option("--fov", options.fov_deg, "without a board: the horizontal field of view, where it is known; degrees")
       ->option_text("DEG")
       ->check(from_to(1, 300));
+  add_timing_options(command, options.timing);
   command.add_option("--max-frames", options.max_frames, "without a board: look at no more frames than these")
       ->option_text("N")
       ->capture_default_str()

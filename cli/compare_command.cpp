@@ -41,7 +41,8 @@ constexpr int kMostPiece_px = 1600;  // of an enlarged target; larger ones are e
 
 struct CompareOptions {
   fs::path video;
-  std::string box;  // X,Y,W,H; empty: --boxes
+  SequenceTiming timing;  // of images
+  std::string box;        // X,Y,W,H; empty: --boxes
   fs::path boxes;
   std::optional<int> frame;
   std::vector<fs::path> projects;
@@ -111,7 +112,7 @@ struct RealTarget {
 Result<RealTarget> real_target(const CompareOptions& options) {
   const Result<Boxes> boxes = boxes_of(options);
   if (!boxes) return fail(boxes.error());
-  Result<FrameSource> footage = FrameSource::open(options.video, nullptr, Quantisers::read);
+  Result<FrameSource> footage = FrameSource::open(options.video, nullptr, Quantisers::read, options.timing);
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
   const int frame = frame_of(options, *boxes), count = footage->info().frame_count();
@@ -277,6 +278,7 @@ Command add_compare_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("compare", "measure a real aircraft and ours beside it");
   const auto options = std::make_shared<CompareOptions>();
   command->add_option("VIDEO", options->video, "footage with a real aircraft")->required()->check(not_empty());
+  add_timing_options(*command, options->timing);
   command->add_option("--box", options->box, "where the aircraft is: its first column and row, its width and height")
       ->option_text("X,Y,W,H");
   command->add_option("--boxes", options->boxes, "the same for many frames: CSV with frame,label,x,y,w,h")

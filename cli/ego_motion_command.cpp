@@ -64,6 +64,8 @@ Result<void> check_inputs(const EgoMotionOptions& options) {
   for (const Result<void>& one :
        {said("VIDEO", !options.video.empty(), true), said("--calibration", !options.calibration.empty(), true),
         said("--mask", !options.mask.empty(), false), said("--telemetry", !options.telemetry.empty(), false),
+        said("--frame-rate", options.timing.frame_rate_hz > 0, false),
+        said("--timestamps", !options.timing.times_file.empty(), false),
         said("--readout-ms", options.readout_ms.has_value(), false)})
     if (!one) return one;
   if (!has_project && options.csv.empty()) return fail("--out", "is required", ErrorKind::usage);
@@ -231,10 +233,7 @@ Command add_ego_motion_command(CLI::App& program) {
   add_input("--calibration", options->calibration, "the camera's calibration");
   add_input("--mask", options->mask, "the own body's mask: 8-bit grey, white where the own body is");
   add_input("--telemetry", options->telemetry, "a log with the camera's rates, or the video that has it");
-  command->add_option("--frame-rate", options->timing.frame_rate_hz, "frames a second of images, which do not state it")
-      ->option_text("HZ")
-      ->check(from_to(0.001, 1e6));
-  add_input("--timestamps", options->timing.times_file, "of images: a file with the time of each");
+  add_timing_options(*command, options->timing);
   command->add_option("--readout-ms", options->readout_ms, "rolling shutter, first row to last; milliseconds")
       ->option_text("MS")
       ->check(from_to(0, 1000));

@@ -16,7 +16,6 @@ namespace {
 
 struct InitOptions {
   FirstProjectOptions project;
-  double frame_rate_hz = 0;  // 0: not given
   double fov_deg = 0;
   std::string progress = "auto";
 };
@@ -24,7 +23,6 @@ struct InitOptions {
 Result<void> init(const InitOptions& options, bool has_fov) {
   FirstProjectOptions project = options.project;
   if (has_fov) project.horizontal_fov_deg = options.fov_deg;
-  if (options.frame_rate_hz > 0) project.frame_rate_hz = options.frame_rate_hz;
   defer_interrupts();
   Progress progress(progress_style(options.progress));
   const auto tell = [&](int done, int total, const std::string& step) {
@@ -58,9 +56,7 @@ Command add_init_command(CLI::App& program) {
                                ->option_text("DEG")
                                ->check(from_to(1, 359));
   fov->excludes(calibration);
-  command->add_option("--frame-rate", options->frame_rate_hz, "frames a second of images, which do not state it")
-      ->option_text("HZ")
-      ->check(from_to(0.001, 100000));
+  add_timing_options(*command, options->project.timing);
   command->add_option("--model", options->project.model, "the intruder's model (obj); default: a light aircraft")
       ->option_text("FILE")
       ->check(not_empty());

@@ -171,6 +171,17 @@ CLI::Validator from_to(double low, double high) {
   return {wrong, ""};
 }
 
+void add_timing_options(CLI::App& command, SequenceTiming& timing) {
+  CLI::Option* const rate =
+      command.add_option("--frame-rate", timing.frame_rate_hz, "frames a second of images, which do not state it")
+          ->option_text("HZ")
+          ->check(from_to(0.001, 1e6));
+  command.add_option("--timestamps", timing.times_file, "of images: a file with the time of each")
+      ->option_text("FILE")
+      ->check(not_empty())
+      ->excludes(rate);
+}
+
 void add_progress_option(CLI::App& command, std::string& style) {
   command.add_option("--progress", style, "auto, plain, json or none")
       ->option_text("STYLE")

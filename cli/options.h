@@ -11,6 +11,7 @@
 #include "base/result.h"
 #include "export/export_project.h"
 #include "project/project.h"
+#include "video/image_sequence.h"
 
 namespace sigs::cli {
 
@@ -61,6 +62,9 @@ void add_setting_option(CLI::App& command, const SettingOption& option, OptionSe
 
 // --progress, as progress_style() takes it.
 void add_progress_option(CLI::App& command, std::string& style);
+
+// --frame-rate and --timestamps, for commands that take footage and not the project that names it.
+void add_timing_options(CLI::App& command, SequenceTiming& timing);
 
 // "10-20" or "10". Error usage.
 [[nodiscard]] Result<FrameRange> frame_range_of(const std::string& text);

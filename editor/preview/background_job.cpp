@@ -45,7 +45,7 @@ ExportJob::ExportJob(std::function<void()> wake)
       }) {}
 
 Result<OwnBody> detected(const DetectionRequest& request, const DetectionControl& control) {
-  Result<FrameSource> source = FrameSource::open(request.video, control.cancel);
+  Result<FrameSource> source = FrameSource::open(request.video, control.cancel, Quantisers::leave_out, request.timing);
   if (!source) return fail(source.error());
   return detect_own_body(*source, request.first_frame, request.settings, control);
 }

@@ -16,6 +16,7 @@
 #include "editor/preview/worker_thread.h"
 #include "export/export_project.h"
 #include "occlusion/detect.h"
+#include "video/image_sequence.h"
 
 namespace sigs::editor {
 
@@ -247,6 +248,7 @@ class ExportJob : public BackgroundJob<ExportRequest, ExportReport> {
 // Which video is looked through for the own body, from which frame on (counted from 0), and how.
 struct DetectionRequest {
   std::filesystem::path video;
+  SequenceTiming timing;  // as for FrameSource::open()
   int first_frame = 0;
   OwnBodySettings settings;
 

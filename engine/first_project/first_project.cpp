@@ -124,9 +124,8 @@ class Planning {
   Result<FirstProject> planned() {
     if (const Result<void> sound = check_options(options_); !sound) return fail(sound.error());
     step(0, "reading the video");
-    Result<FrameSource> source =
-        FrameSource::open(options_.video, control_.cancel, options_.plain ? Quantisers::leave_out : Quantisers::read,
-                          {.frame_rate_hz = options_.frame_rate_hz.value_or(0), .times_file = {}});
+    Result<FrameSource> source = FrameSource::open(
+        options_.video, control_.cancel, options_.plain ? Quantisers::leave_out : Quantisers::read, options_.timing);
     if (const Result<void> on = check_interrupt(control_.cancel); !on) return fail(on.error());
     if (!source) return fail(source.error());
     const VideoInfo info = source->info();
@@ -166,7 +165,9 @@ class Planning {
     project().file = canonical_name(out);
     project().name = name;
     project().footage.video = relative_to(options_.video, project().file);
-    project().footage.frame_rate_hz = options_.frame_rate_hz;
+    if (options_.timing.frame_rate_hz > 0) project().footage.frame_rate_hz = options_.timing.frame_rate_hz;
+    if (!options_.timing.times_file.empty())
+      project().footage.timestamps = relative_to(options_.timing.times_file, project().file);
     const UsedFrames used = used_frames(footage_);
     range_ = used.range;
     if (!used.note) return;

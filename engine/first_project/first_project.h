@@ -11,6 +11,7 @@
 #include "base/result.h"
 #include "project/project.h"
 #include "scene/visibility.h"
+#include "video/image_sequence.h"
 
 namespace sigs {
 
@@ -23,7 +24,7 @@ namespace sigs {
 
 struct FirstProjectOptions {
   std::filesystem::path video;
-  std::optional<double> frame_rate_hz;       // of images, which do not state it; none: not known
+  SequenceTiming timing;                     // of images, which do not state it
   std::filesystem::path calibration;         // empty: none is given
   std::optional<double> horizontal_fov_deg;  // of the footage, 1 to 359; not together with a calibration
   std::filesystem::path model;  // OBJ; empty: the sample light aircraft; samples are copied beside the project

@@ -15,6 +15,8 @@ namespace sigs {
 struct SequenceTiming {
   double frame_rate_hz = 0;          // 0: not known, kDefaultSequenceRate_hz is taken with a warning
   std::filesystem::path times_file;  // a line for each image (video/image_times.h); empty: evenly spaced
+
+  [[nodiscard]] bool operator==(const SequenceTiming&) const = default;
 };
 inline constexpr double kDefaultSequenceRate_hz = 25;
 

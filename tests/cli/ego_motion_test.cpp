@@ -132,3 +132,33 @@ TEST_CASE("attitudes of images are at the times that are stated") {
   CHECK(last_time_s(" --timestamps " + (folder / "times.txt").string()) == doctest::Approx(0.75));  // 0.5 + 0.25
   CHECK(run_sigs(call + " --frame-rate 0").status == 64);
 }
+
+// A file of times with too few lines is refused only by who reads it.
+TEST_CASE("every command that takes footage in images takes its times") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "images");
+  cv::Mat noise(96, 128, CV_8UC1);
+  cv::RNG(5).fill(noise, cv::RNG::UNIFORM, 0, 256);
+  for (int n = 0; n < 4; ++n) cv::imwrite((folder / "images" / (std::to_string(n) + ".png")).string(), noise);
+  write_file(folder / "times.txt", "0\n0.1\n0.4\n0.5\n");
+  write_file(folder / "short.txt", "0\n0.1\n");
+  const std::string images = (folder / "images").string(),
+                    lens = (source_dir() / "assets/calibrations/sample.xml").string();
+  const std::string times = " --timestamps " + (folder / "times.txt").string();
+  for (const std::string& call :
+       {"init " + images + " --out " + (folder / "p.json").string(), "appearance " + images,
+        "compare " + images + " --frame 2 --box 50,40,20,20",
+        "calibrate " + images + " --out " + (folder / "lens.xml").string(),
+        "ego-motion " + images + " --calibration " + lens + " --out " + (folder / "a.csv").string()}) {
+    CAPTURE(call);
+    const Run refused = run_sigs(call + " --timestamps " + (folder / "short.txt").string());
+    CHECK(refused.status == 65);
+    CHECK(refused.err.find("short.txt") != std::string::npos);
+    CHECK(run_sigs(call + times + " --frame-rate 10").status == 64);
+  }
+  const std::string project = (folder / "p.json").string();
+  REQUIRE(run_sigs("init " + images + times + " --plain --out " + project).status == 0);
+  CHECK(read_project(project)->project.footage.timestamps == "times.txt");
+  CHECK(run_sigs("appearance " + project + " --frame-rate 10").status == 64);
+  CHECK(run_sigs("ego-motion --into " + project + times).status == 64);
+}

@@ -297,7 +297,7 @@ TEST_CASE("images give the project their folder's name, and leave their folder a
   fs::current_path(folder.path());
   for (const fs::path& footage : {fs::path("flight"), fs::path("flight/%04d.png")}) {
     CAPTURE(footage.string());
-    const FirstProject made = made_and_opened({.video = footage, .frame_rate_hz = 50});
+    const FirstProject made = made_and_opened({.video = footage, .timing = {.frame_rate_hz = 50}});
     CHECK(made.project.name == "flight");
     CHECK(made.project.file == canonical_name(folder / "flight-project/flight.json"));
     CHECK(made.project.footage.video == "../" + footage.string());
@@ -311,7 +311,8 @@ TEST_CASE("images give the project their folder's name, and leave their folder a
 TEST_CASE("the intruder of a first project has the footage's noise; a plain one has none") {
   const test::TemporaryFolder folder;
   const double sd = 4;
-  FirstProjectOptions options{.video = noisy_images(folder, sd), .frame_rate_hz = 25, .out = folder / "p.json"};
+  FirstProjectOptions options{
+      .video = noisy_images(folder, sd), .timing = {.frame_rate_hz = 25}, .out = folder / "p.json"};
   const FirstProject made = made_and_opened(options);
   // 10 % is what the estimate of noise promises between 0.2 and 0.8 of the brightness (docs/appearance.md).
   const GrainSettings& grain = made.project.appearance.grain;
@@ -429,7 +430,7 @@ TEST_CASE("the camera of a first project turns as the images show it; one that s
     still.push_back(0.1 * std::sin(0.7 * n));
   }
   FirstProjectOptions options{
-      .frame_rate_hz = 25, .horizontal_fov_deg = fov_deg, .out = folder / "p.json", .overwrite = true};
+      .timing = {.frame_rate_hz = 25}, .horizontal_fov_deg = fov_deg, .out = folder / "p.json", .overwrite = true};
   options.video = moved_images(folder, "shaken", shaken);
   const FirstProject turned = made_and_opened(options);
   CHECK(turned.project.camera.track.file == "p.attitude.csv");

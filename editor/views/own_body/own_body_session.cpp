@@ -8,6 +8,7 @@
 #include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
 #include "occlusion/mask_geometry.h"
+#include "scene/opened_project.h"
 #include "scene/scene_files.h"
 
 namespace sigs::editor {
@@ -195,6 +196,7 @@ bool OwnBodySession::edge_waits() const {
 bool OwnBodySession::start(const Document& document) {
   const Project& project = document.project();
   const bool started = job_.start({.video = resolved(project, project.footage.video),
+                                   .timing = timing_of(project),
                                    .first_frame = project.footage.first_frame,
                                    .settings = project.own_body});
   detection_ = job_.state();
