@@ -124,6 +124,22 @@ TEST_CASE("the table in the engine's README names every module there is") {
     if (entry.is_directory()) CHECK_MESSAGE(modules.contains(entry.path().filename().string()), entry.path());
 }
 
+// A level's number stands in the grey of its text, a module's name in bold; the levels go down.
+TEST_CASE("the diagram of the modules has each at its level") {
+  std::map<std::string, int> drawn;
+  int level = -1;
+  for (const std::string& line : lines_of(sigs::test::source_dir() / "docs/architecture.svg")) {
+    if (!line.starts_with("<text")) continue;
+    const std::size_t begin = line.find('>') + 1;
+    const std::string text = line.substr(begin, line.find('<', begin) - begin);
+    if (line.find("fill=\"#888\"") != std::string::npos) level = std::stoi(text);
+    if (line.find("font-weight=\"600\"") != std::string::npos) drawn[text] = level;
+  }
+  std::map<std::string, int> listed{{"bench", modules_in_readme().at("cli").level}};
+  for (const auto& [name, module] : modules_in_readme()) listed[name] = module.level;
+  CHECK(drawn == listed);
+}
+
 TEST_CASE("modules may include only modules of lower levels") {
   const Modules modules = modules_in_readme();
   REQUIRE(modules.size() > 10);
