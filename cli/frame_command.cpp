@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/paths.h"
 #include "base/threads.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 
 struct FrameOptions {
   ProjectOptions project;
-  std::filesystem::path folder = ".";
+  std::filesystem::path out = ".";  // a folder, or a PNG
   int frame = 0;
   bool stages = false;
   bool force = false;
@@ -72,15 +73,20 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
 
 using NamedImages = std::vector<std::pair<fs::path, cv::Mat>>;
 
-// By their final names.
-NamedImages stage_images(const ComposedFrame& frame, const FrameOptions& options) {
-  const std::string base = fmt::format("frame_{}", options.frame);
-  NamedImages images{
-      {options.folder / (base + ".png"), frame.image.bit_depth > 8 ? bgr16_of(frame.image) : bgr_of(frame.image)}};
-  for (std::size_t i = 0; i < frame.stages.size(); ++i) {
-    images.emplace_back(options.folder / fmt::format("{}_{:02}_{}.png", base, i, frame.stages[i].name),
-                        frame.stages[i].image);
-  }
+// The frame's own file: the one that is named, else frame_N.png in the folder that is. A folder there is one, whatever
+// its name.
+fs::path image_path(const FrameOptions& options) {
+  if (lower_extension(options.out) == ".png" && !fs::is_directory(options.out)) return options.out;
+  return options.out / fmt::format("frame_{}.png", options.frame);
+}
+
+// By their final names; those of the stages begin as the frame's does.
+NamedImages stage_images(const ComposedFrame& frame, const fs::path& path) {
+  NamedImages images{{path, frame.image.bit_depth > 8 ? bgr16_of(frame.image) : bgr_of(frame.image)}};
+  for (std::size_t i = 0; i < frame.stages.size(); ++i)
+    images.emplace_back(
+        path.parent_path() / fmt::format("{}_{:02}_{}.png", path.stem().string(), i, frame.stages[i].name),
+        frame.stages[i].image);
   return images;
 }
 
@@ -103,9 +109,11 @@ Result<void> run(const FrameOptions& options) {
   const Result<ComposedFrame> frame = composed(*project, options);
   if (!frame) return fail(frame.error());
   defer_interrupts();
+  const fs::path path = image_path(options);
   CreatedFolders folders;
-  if (const Result<void> made = folders.make(options.folder); !made) return made;
-  return write(stage_images(*frame, options), *project, options.force);
+  if (const Result<void> made = folders.make(path.has_parent_path() ? path.parent_path() : fs::path(".")); !made)
+    return made;
+  return write(stage_images(*frame, path), *project, options.force);
 }
 
 }  // namespace
@@ -117,7 +125,7 @@ Command add_frame_command(CLI::App& program) {
   command->add_option("--frame", options->frame, "which one, counted from 0 in the footage")
       ->required()
       ->option_text("N");
-  command->add_option("--out", options->folder, "folder to write into; made where it is not there")
+  command->add_option("--out", options->out, "a PNG, or a folder to write into; made where it is not there")
       ->capture_default_str()
       ->check(output_path());
   command->add_flag("--stages", options->stages, "write every intermediate image too");

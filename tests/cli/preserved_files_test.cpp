@@ -94,6 +94,34 @@ TEST_CASE("files, folders, links and FIFOs of any names beside the outputs are p
     CHECK_MESSAGE(fs::exists(out / made), made);
 }
 
+TEST_CASE("a frame goes into the folder or the PNG that is named, with its stages beside it") {
+  const TinyProject tiny;
+  const fs::path out = tiny.out();
+  const std::string call = "frame " + tiny.project() + " --frame 3 --stages --out ";
+  const auto files_in = [](const fs::path& folder) {
+    std::map<std::string, std::string> texts;
+    for (const auto& entry : fs::directory_iterator(folder)) texts[entry.path().filename()] = text_of(entry.path());
+    return texts;
+  };
+  REQUIRE(run_sigs(call + out.string()).status == 0);
+  const auto in_folder = files_in(out);
+  REQUIRE(in_folder.size() > 3);
+  const Run named = run_sigs(call + (out / "named/shown.png").string());
+  REQUIRE_MESSAGE(named.status == 0, named.err);
+  const auto beside = files_in(out / "named");
+  CHECK(beside.size() == in_folder.size());
+  for (const auto& [name, text] : in_folder) {
+    CAPTURE(name);
+    const std::string other = "shown" + name.substr(std::string("frame_3").size());
+    REQUIRE(beside.contains(other));
+    CHECK(beside.at(other) == text);
+  }
+  CHECK(run_sigs(call + (out / "named/shown.png").string()).status == 73);
+  fs::create_directory(out / "folder.png");
+  CHECK(run_sigs(call + (out / "folder.png").string()).status == 0);
+  CHECK(fs::exists(out / "folder.png/frame_3.png"));
+}
+
 TEST_CASE("a mask's footage may be named like the mask's temporary file") {
   const TemporaryFolder folder;
   write_flight(folder / "vv.mkv", 10);
