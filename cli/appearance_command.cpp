@@ -21,6 +21,7 @@
 #include "cli/output_files.h"
 #include "cli/process.h"
 #include "cli/progress.h"
+#include "first_project/first_project.h"
 #include "project/json.h"
 #include "scene/opened_project.h"
 
@@ -103,7 +104,8 @@ Result<Appearance> found_in(const Looked& looked, const std::optional<Project>& 
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
   AppearanceHints hints;
   if (project) {
-    Result<AppearanceHints> known = hints_of(*project, footage->info(), print_warning);
+    Result<AppearanceHints> known =
+        hints_of(*project, footage->info(), is_still_guessed(*project, "camera.position_m"), print_warning);
     if (!known) return fail(known.error());
     hints = std::move(*known);
   }

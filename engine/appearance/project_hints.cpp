@@ -18,7 +18,7 @@ namespace {
 struct KnownCamera {
   Scene scene;
   bool has_calibration = false;
-  bool has_height = true;
+  bool has_height = false;
   cv::Mat own_body;  // CV_8UC1
 };
 
@@ -45,14 +45,14 @@ AppearanceHints hints_by(std::shared_ptr<KnownCamera> known) {
 }  // namespace
 
 AppearanceHints hints_of(const Scene& scene) {
-  return hints_by(
-      std::make_shared<KnownCamera>(KnownCamera{.scene = scene, .has_calibration = true, .has_height = false}));
+  return hints_by(std::make_shared<KnownCamera>(KnownCamera{.scene = scene, .has_calibration = true}));
 }
 
-Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage,
+Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage, bool height_is_guess,
                                  const std::function<void(const Warning&)>& warn) {
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
-  const auto known = std::make_shared<KnownCamera>(KnownCamera{.scene = bare_scene(project, shape_of(footage))});
+  const auto known = std::make_shared<KnownCamera>(
+      KnownCamera{.scene = bare_scene(project, shape_of(footage)), .has_height = !height_is_guess});
   Scene& scene = known->scene;
   const OrProblem<FrameRange> range = scene_range(project.footage, scene.footage);
   if (!range) return failed(range.error());

@@ -14,8 +14,10 @@ namespace sigs {
 // What a project knows of its camera at each frame, for estimate_appearance(): the calibration, attitude and height
 // where they are stated, the own body's mask, the sun's direction where the camera's log has UTC and place. Intruders
 // and their models are not looked at, and may be missing. Errors name the project file and the field.
-//   warn  called with each warning of the files that are read
-[[nodiscard]] Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage,
+//   height_is_guess  the camera's height in the project was guessed (is_still_guessed() in first_project), and counts
+//                    as not known
+//   warn             called with each warning of the files that are read
+[[nodiscard]] Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footage, bool height_is_guess,
                                                const std::function<void(const Warning&)>& warn);
 
 // The same by a scene of which no project file is written yet: its camera, its attitude where that is known, and the

@@ -377,6 +377,13 @@ std::vector<FirstProjectGuess> guesses_beside(const fs::path& project_file) {
   return guesses;
 }
 
+bool is_still_guessed(const Project& project, const std::string& field) {
+  const std::vector<FirstProjectGuess> guesses = guesses_beside(project.file);
+  return std::any_of(guesses.begin(), guesses.end(), [&](const FirstProjectGuess& guess) {
+    return guess.field == field && guess.value == setting_text(project, field);
+  });
+}
+
 Result<FirstProject> planned_first_project(const FirstProjectOptions& options, const FirstProjectControl& control) {
   return Planning(options, control).planned();
 }

@@ -63,6 +63,9 @@ struct FirstProjectGuess {
 // without a value (files of earlier versions) is left out. Empty where there is no such file.
 [[nodiscard]] std::vector<FirstProjectGuess> guesses_beside(const std::filesystem::path& project_file);
 
+// Whether a setting was guessed when the project was made, and has the value still that was guessed.
+[[nodiscard]] bool is_still_guessed(const Project& project, const std::string& field);
+
 // A file that is made beside the project file: a text, or a copy of another file.
 struct FirstProjectFile {
   std::filesystem::path path;  // absolute

@@ -45,7 +45,7 @@ class LoggedFlight {
   [[nodiscard]] Appearance found() const {
     Result<FrameSource> footage = FrameSource::open(project_.footage.video);
     REQUIRE(footage);
-    const Result<AppearanceHints> hints = hints_of(project_, footage->info(), [](const Warning&) {});
+    const Result<AppearanceHints> hints = hints_of(project_, footage->info(), false, [](const Warning&) {});
     if (!hints) FAIL(hints.error().text());
     Result<Appearance> found = estimate_appearance(*footage, {}, *hints, {});
     REQUIRE(found);

@@ -77,6 +77,26 @@ TEST_CASE("what is found goes into a project whose other settings stay") {
   CHECK(run_sigs("appearance " + tiny.project()).status == 0);  // its own footage: 64x48
 }
 
+TEST_CASE("a height that init guessed tells no visibility, the same height stated by the user does") {
+  const TemporaryFolder folder;
+  const std::string project = (folder / "p.json").string(), stated = (folder / "stated.json").string();
+  REQUIRE(run_sigs("init " + sample() + " --plain --out " + project).status == 0);
+  const nlohmann::json first = json_of(project);
+  write_file(stated, first.dump(2));  // without the list of guesses that is beside the other one
+  const Run guessed = run_sigs("appearance " + project + " --frames 0-40 --into " + project);
+  REQUIRE_MESSAGE(guessed.status == 0, guessed.err);
+  CHECK_MESSAGE(has(guessed.out, "not known: the camera's height is not known; clear air is taken"), guessed.out);
+  CHECK(json_of(project)["appearance"]["haze"]["visibility_m"].is_null());
+  const Run known = run_sigs("appearance " + stated + " --frames 0-40 --into " + stated);
+  REQUIRE_MESSAGE(known.status == 0, known.err);
+  CHECK(json_of(stated)["appearance"]["haze"]["visibility_m"].is_number());
+  nlohmann::json changed = first;
+  changed["camera"]["position_m"] = {0, 0, -151};
+  write_file(project, changed.dump(2));
+  REQUIRE(run_sigs("appearance " + project + " --frames 0-40 --into " + project).status == 0);
+  CHECK(json_of(project)["appearance"]["haze"]["visibility_m"].is_number());
+}
+
 TEST_CASE("a wrong request of appearance is refused and nothing is written") {
   const TemporaryFolder folder;
   const std::string png = (folder / "a.png").string();
