@@ -156,6 +156,10 @@ void print_summary(const EgoMotion& motion) {
   if (motion.level_sd_rad)
     std::fprintf(stderr, "horizon seen: roll and pitch are absolute to %s deg\n",
                  fixed_text(deg_of_rad(*motion.level_sd_rad), 2).c_str());
+  else
+    std::fprintf(stderr,
+                 "no horizon seen: roll and pitch are against frame 0; what they were there, "
+                 "camera.attitude_deg states\n");
   if (motion.gyro)
     std::fprintf(
         stderr, "gyroscope: offset of the log %s s (+- %s), drift %s, correlation %s, images turn %s times as fast%s\n",

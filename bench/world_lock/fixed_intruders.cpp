@@ -88,9 +88,9 @@ InitKnowledge init_knowledge_of(const Clip& clip, const std::filesystem::path& f
   const Result<FirstProject> made =
       make_first_project({.video = clip.source.path, .frame_rate_hz = {}, .out = file, .overwrite = true}, {});
   if (!made) accuracy::stop(made.error().text());
-  InitKnowledge init{
-      .cameras = {{.name = "init without lock", .project = file, .is_locked = false}, {.name = "init", .project = file}},
-      .said = {}};
+  InitKnowledge init{.cameras = {{.name = "init without lock", .project = file, .is_locked = false},
+                                 {.name = "init", .project = file}},
+                     .said = {}};
   for (const FirstProjectNote& note : made->notes)
     if (note.field == "camera.track.file" || note.field == "camera.speed_mps")
       init.said += (init.said.empty() ? "" : "; ") + note.text;

@@ -72,9 +72,6 @@ void add_doubtful_frames(EgoMotion& motion, const std::string& where) {
         motion.warnings.begin(),
         {where, fmt::format("how the camera turned since frame 0 is not known in {} of {} frames, {:.0f} %", unknown,
                             motion.frames.size(), 100.0 * unknown / static_cast<double>(motion.frames.size()))});
-  if (!motion.level_sd_rad)
-    motion.warnings.push_back(
-        {where, "no horizon was found: roll and pitch are against frame 0, which counts as level"});
 }
 
 }  // namespace sigs

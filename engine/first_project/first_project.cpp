@@ -274,7 +274,11 @@ class Planning {
       first_.files.push_back({.path = file, .content = track_csv_text(*motion.track), .copy_of = {}});
       seen_turns_ = std::move(motion.track);
     }
-    if (!motion.note.text.empty()) note(std::move(motion.note));
+    if (motion.note.text.empty()) return;
+    // It was looked for: to look for it again is of no use.
+    for (FirstProjectNote& other : first_.notes)
+      if (other.field == "camera.speed_mps") other.remedy.clear();
+    note(std::move(motion.note));
   }
 
   Result<void> match(FrameSource& source, const FirstLook& look) {
@@ -291,6 +295,10 @@ class Planning {
         match_appearance(source, scene(), project(), {.progress = tell, .cancel = control_.cancel});
     if (!found) return fail(found.error());
     for (const FirstProjectNote& one : *found) note(one);
+    if (project().appearance.saturation == 0)
+      first_.warnings.push_back({options_.video.string(),
+                                 "is gray; if a thermal camera took it, things show their heat in it, which is not "
+                                 "modelled: the intruder is lit as by day"});
     return {};
   }
 

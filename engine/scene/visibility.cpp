@@ -31,7 +31,7 @@ std::string size_text(const Visibility& visibility) {
   if (visibility.largest_px <= 0) return "";
   const std::string low = pixels_text(visibility.smallest_px);
   const std::string high = pixels_text(visibility.largest_px);
-  return low == high ? fmt::format(", {} px", low) : fmt::format(", {} to {} px", low, high);
+  return low == high ? fmt::format(", {} px across", low) : fmt::format(", {} to {} px across", low, high);
 }
 
 constexpr std::array<double, 4> kShares{1, 0.75, 0.5,

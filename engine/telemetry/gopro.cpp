@@ -287,9 +287,10 @@ class Reading {
             ? fmt::format("the drone's clock is placed on the footage to within {:.2f} s, by the payloads in which its "
                           "samples arrived; how long they took is not known",
                           offset.uncertainty_s)
-            : fmt::format("the drone's clock does not agree with the payloads; it is placed on the footage by their "
-                          "median, with a spread of {:.2f} s",
-                          offset.uncertainty_s));
+            : fmt::format(
+                  "the drone's attitude and position may be up to {:.2f} s off against the images: its clock does "
+                  "not agree with when its samples arrived",
+                  offset.uncertainty_s));
   }
 
   // SYST: the drone's clock and UTC, in seconds.
@@ -308,7 +309,7 @@ class Reading {
     std::vector<std::string> names;
     for (const auto& [key, payloads] : streams_.unused) names.push_back(key);
     if (names.size() > 40) names.resize(40);
-    if (!names.empty()) warn("", "streams that are there but not used: " + listed(names));
+    track_.unused_streams = std::move(names);
   }
 
   void say_broken() {

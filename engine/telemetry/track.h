@@ -75,7 +75,8 @@ struct Track {
   // gaps, samples that were left out. Samples that a warning names as unsound are not in the channels unless the
   // reading was told to keep them (ReadTrackOptions).
   std::vector<Warning> warnings = {};
-  bool damaged = false;  // the file is cut off or broken: what stands before the damage is here
+  std::vector<std::string> unused_streams = {};  // by their names in the file: they are there, nothing is made of them
+  bool damaged = false;                          // the file is cut off or broken: what stands before the damage is here
 };
 
 }  // namespace sigs

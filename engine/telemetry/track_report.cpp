@@ -2,6 +2,7 @@
 #include "telemetry/track_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -116,6 +117,8 @@ std::string heading_of(const Track& track) {
   if (!track.position.empty())
     text += fmt::format("heights: {}\n", track.height_above_ellipsoid ? "above the ellipsoid"
                                                                       : "above the sea, the start, or not known");
+  if (!track.unused_streams.empty())
+    text += fmt::format("streams not used: {}\n", fmt::join(track.unused_streams, ", "));
   if (track.damaged) text += "damaged: yes; what stands before the damage is here\n";
   return text;
 }

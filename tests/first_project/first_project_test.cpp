@@ -464,8 +464,10 @@ TEST_CASE("the camera of a first project turns as the images show it; one that s
 TEST_CASE("where nothing states the field of view, but the camera pans, it is that of which the images turn") {
   const test::TemporaryFolder folder;
   const double focal_px = 160 / std::tan(rad_of_deg(25) / 2);
-  FirstProjectOptions options{
-      .video = panned_images(folder, focal_px), .frame_rate_hz = 25, .out = folder / "p.json", .overwrite = true};
+  FirstProjectOptions options{.video = panned_images(folder, focal_px),
+                              .timing = {.frame_rate_hz = 25},
+                              .out = folder / "p.json",
+                              .overwrite = true};
   const FirstProject made = made_and_opened(options);
   const auto written_px = [&] {
     const Result<Camera> camera = read_calibration(folder / "p.calibration.xml", cv::Size(320, 240));

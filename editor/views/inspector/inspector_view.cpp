@@ -101,6 +101,8 @@ void InspectorView::refresh(const ViewContext& context) {
     sheet_revision_ = context.document.revision().number;
   }
   problems_.refresh(context);
+  if (std::optional<std::string> lost = loss_of_view_.found(context))
+    context.edits.ask(ShowMessage{*std::move(lost), true});
 }
 
 void InspectorView::follow_selection(const ViewContext& context) {

@@ -48,6 +48,7 @@ class InspectorView {
   std::optional<FieldSheet> sheet_;
   std::uint64_t sheet_revision_ = 0;
   ProblemList problems_;
+  LossOfView loss_of_view_;
   RowMemory memory_;
   LightBlock light_;
   ModelBlock model_;

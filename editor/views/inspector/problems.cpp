@@ -198,6 +198,34 @@ void ProblemList::refresh(const ViewContext& context) {
   for (const auto& [field, problem] : by_field_) ++counts_[block_of(field)];
 }
 
+std::optional<std::string> LossOfView::found(const ViewContext& context) {
+  const std::shared_ptr<const OpenedScene>& opened = context.shown.scene;
+  if (context.document.first_number() != document_) before_.clear();
+  document_ = context.document.first_number();
+  if (!opened || !opened->footage || !opened->footage->video || opened->revision == revision_) return std::nullopt;
+  const std::vector<IntruderSettings>& intruders = opened->project->intruders;
+  std::map<std::string, Visibility> now;
+  for (std::size_t i = 0; i < intruders.size(); ++i) {
+    const Survey* const survey = i < context.shown.surveys.size() ? context.shown.surveys[i].get() : nullptr;
+    const std::optional<Visibility> visibility = whole_visibility(*opened, survey);
+    if (visibility)
+      now.emplace(intruders[i].name, *visibility);
+    else if (!intruders[i].trajectory.waypoints.empty())
+      return std::nullopt;  // not all are known yet
+  }
+  revision_ = opened->revision;
+  const auto share = [](const Visibility& seen) { return double(seen.visible) / std::max(1, seen.frames); };
+  std::optional<std::string> message;
+  for (const auto& [name, visibility] : now) {
+    const auto before = before_.find(name);
+    if (message || before == before_.end() || share(visibility) >= share(before->second) / 2) continue;
+    message = fmt::format("{} is in view in {} of {} frames now, in {} before this change; Undo takes it back", name,
+                          visibility.visible, visibility.frames, before->second.visible);
+  }
+  before_ = std::move(now);
+  return message;
+}
+
 int ProblemList::count_in(const std::string& block) const {
   const auto found = counts_.find(block);
   return found == counts_.end() ? 0 : found->second;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "editor/views/inspector/field_rows.h"
+#include "scene/visibility.h"
 
 namespace sigs::editor {
 
@@ -45,6 +48,20 @@ class ProblemList {
   ProblemsByField warnings_;
   // By intruder: that it is never visible, as of the last survey that was whole. While a drag lasts none is.
   std::vector<std::optional<Problem>> never_visible_;
+};
+
+// Says at once that a change has taken an intruder out of view. While a drag lasts nothing is said: surveys are whole
+// after it.
+class LossOfView {
+ public:
+  // Once per update. A message where an intruder is in view in less than half of the share of frames that it was in
+  // before the change; none else, for another document than before, and without footage.
+  [[nodiscard]] std::optional<std::string> found(const ViewContext& context);
+
+ private:
+  std::uint64_t document_ = 0;                // Document::first_number()
+  std::uint64_t revision_ = 0;                // of the surveys that were looked at last
+  std::map<std::string, Visibility> before_;  // by the intruder's name
 };
 
 }  // namespace sigs::editor
