@@ -86,7 +86,7 @@ InitKnowledge init_knowledge_of(const Clip& clip, const std::filesystem::path& f
   const std::filesystem::path file =
       std::filesystem::absolute(folder / "init" / clip.source.name / (clip.source.name + ".json"));
   const Result<FirstProject> made =
-      make_first_project({.video = clip.source.path, .frame_rate_hz = {}, .out = file, .overwrite = true}, {});
+      make_first_project({.video = clip.source.path, .timing = {}, .out = file, .overwrite = true}, {});
   if (!made) accuracy::stop(made.error().text());
   InitKnowledge init{.cameras = {{.name = "init without lock", .project = file, .is_locked = false},
                                  {.name = "init", .project = file}},
