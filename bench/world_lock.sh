@@ -2,8 +2,8 @@
 # Slip of an intruder that is fixed in the world against the background of real clips, with the camera's attitude from the
 # footage and without: tables, strips of enlarged frames, the figure of the documentation.
 #   bench/world_lock.sh [--write] [--images FOLDER] [BUILD]     default: build/release; some ten minutes on two processors
-#   bench/world_lock.sh --init [BUILD]     instead: projects as `sigs init` makes them, with their lock and without; no table
-#                                          has a clip that is worse with it, else the exit status is 1. Five minutes
+#   bench/world_lock.sh --init [BUILD]     instead: projects as `sigs init` makes them, with their lock and without; exit
+#                                          status 1 where a clip is worse with it. Five minutes
 #   --write          draws docs/images/camera-motion-lock.png anew, from our own footage
 #   --images FOLDER  strips of the real clip `coast`, into FOLDER (not to be committed: the footage is not ours)
 # Tables (CSV), the estimates and slip.md are left in BUILD/world-lock.

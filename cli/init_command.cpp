@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/options.h"
@@ -39,18 +38,17 @@ Result<void> init(const InitOptions& options, bool has_fov) {
   for (const Warning& warning : made->warnings) print_warning(warning);
   // What the footage does not show of its look is one line: there is little to be done about it.
   std::vector<std::string> not_shown;
-  constexpr std::string_view kLook = "appearance.";
   for (const FirstProjectNote& note : made->notes) {
-    if (note.is_guess && note.field.starts_with(kLook))
-      not_shown.push_back(note.field.substr(kLook.size()));
+    if (note.is_not_shown)
+      not_shown.push_back(note.field);
     else
       std::fprintf(stderr, "%s: %s: %s\n", note.is_guess ? "guessed" : "found", note.field.c_str(),
                    told_on_terminal(note).c_str());
   }
   if (!not_shown.empty())
-    std::fprintf(stderr, "guessed: appearance: the footage does not show %s; the defaults stand (%s says why)\n",
+    std::fprintf(stderr, "guessed: %s: the footage does not show them; the defaults stand (%s says why)\n",
                  fmt::format("{}", fmt::join(not_shown, ", ")).c_str(),
-                 (made->project.file.stem().string() + ".notes.txt").c_str());
+                 notes_file_of(made->project.file).filename().c_str());
   const std::string file = made->project.file.string();
   std::printf("%s\n", file.c_str());
   std::fprintf(stderr, "next: sigs check %s; sigs export %s --out out; sigs-editor %s\n", file.c_str(), file.c_str(),

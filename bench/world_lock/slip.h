@@ -24,8 +24,7 @@ struct SlipSample {
 
 struct SlipRun {
   std::vector<SlipSample> samples;
-  double distances_differ_px =
-      0;  // largest difference between the pixels of the first distance and those of the others
+  double distances_differ_px = 0;  // largest difference between the pixels of the first distance and of the others
 };
 
 // Puts intruders at each distance in front of up to 3 points of the background and follows both until the point

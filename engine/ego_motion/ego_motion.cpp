@@ -196,7 +196,6 @@ class Estimate {
           gyro.slope));
   }
 
-  // Whether the image turns as the calibration has it.
   // A pinhole with another focal length sees the same pixels along other rays and a straight edge in another plane.
   void take_focal_length(double factor) {
     motion_.focal_factor = factor;
@@ -209,6 +208,7 @@ class Estimate {
     seen_.pixel_rad /= factor;
   }
 
+  // Whether the image turns as the calibration has it.
   void compare_with_lens() {
     motion_.focal_scale = focal_scale(seen_.rays, seen_.pixel_rad, control_.cancel);
     if (!motion_.focal_scale) return;

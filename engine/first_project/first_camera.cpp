@@ -19,7 +19,6 @@ constexpr double kMinFov_deg = 1;
 constexpr double kMaxFov_deg = 359;
 const std::string kStateFov = "--fov states it if you know it; ";
 const std::string kMeasure = "`sigs calibrate` measures the lens";
-const std::string kNothingTells = "a guess: nothing in the file tells it";
 
 double pixel_aspect(const VideoInfo& video) {
   return double(video.pixel_aspect_num) / video.pixel_aspect_den;
@@ -45,7 +44,8 @@ LensParameters plain_lens(const VideoInfo& video, double focal, bool is_fisheye)
 
 struct GuessedLens {
   LensParameters lens;
-  std::string how;  // "a pinhole of 70 degrees from side to side"
+  std::string how;          // "a pinhole of 70 degrees from side to side"
+  bool is_default = false;  // nothing tells it
 };
 
 // The lens of a field of view along a length of the image, in heights of a pixel.
@@ -90,7 +90,9 @@ GuessedLens guessed_lens(const FirstProjectOptions& options, const VideoInfo& vi
                   "by what the file states (" + logged->source + "); distortion is not known");
   }
   note.remedy = kStateFov + note.remedy;
-  return finish(default_lens(video, rad_of_deg(kGuessedFov_deg)), kNothingTells);
+  GuessedLens guessed = default_lens(video, rad_of_deg(kGuessedFov_deg));
+  guessed.is_default = true;
+  return finish(std::move(guessed), "a guess: nothing in the file tells it");
 }
 
 std::string calibration_xml(const LensParameters& lens, cv::Size size_px, const std::string& note) {
@@ -114,7 +116,8 @@ std::string calibration_xml(const LensParameters& lens, cv::Size size_px, const 
 FirstCamera camera_of(const VideoInfo& video, const GuessedLens& guessed, Lens lens, FirstProjectNote note) {
   return {.camera = {.lens = std::move(lens), .size_px = video.size_px},
           .calibration_text = calibration_xml(guessed.lens, video.size_px, note.text),
-          .note = std::move(note)};
+          .note = std::move(note),
+          .is_default = guessed.is_default};
 }
 
 }  // namespace
@@ -135,9 +138,7 @@ Result<FirstCamera> first_camera(const FirstProjectOptions& options, const Video
   const GuessedLens guessed = guessed_lens(options, video, logged, note);
   Result<Lens> lens = Lens::make(guessed.lens);
   if (!lens) return fail(lens.error());
-  FirstCamera camera = camera_of(video, guessed, *std::move(lens), note);
-  camera.is_default = note.text.ends_with(kNothingTells);
-  return camera;
+  return camera_of(video, guessed, *std::move(lens), std::move(note));
 }
 
 Result<FirstCamera> camera_by_turns(const VideoInfo& video, const FocalScale& seen) {

@@ -49,6 +49,7 @@ FirstProjectNote note_of(const NoteGroup& group, const std::vector<AppearanceQua
     (quantity.estimate.is_known ? found : missing).push_back(quantity.name + " " + text_of(quantity));
     if (quantity.estimate.is_known) note.is_guess = false;
   }
+  note.is_not_shown = note.is_guess;
   // The reason is the same for all of a group.
   if (missing.size() > 1) missing.resize(1);
   found.insert(found.end(), missing.begin(), missing.end());

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -94,25 +93,6 @@ Result<void> check_options(const FirstProjectOptions& options) {
     return fail(options.out.string(), "a project file ends in .json", ErrorKind::usage);
   const std::string wrong = options.name.empty() ? "" : wrong_with_file_name(options.name);
   return wrong.empty() ? Result<void>() : fail("name", wrong, ErrorKind::usage);
-}
-
-constexpr const char* kNotesEnding = ".notes.txt";
-constexpr std::string_view kGuessed = " (guessed)";
-constexpr std::string_view kIndent = "    ";
-constexpr std::string_view kValue = "    value: ";
-
-// As guesses_beside() reads it.
-std::string notes_text(const FirstProject& first) {
-  std::string text = fmt::format(
-      "What is in {}, and why. \"guessed\" is what to look at first; the editor lists a guess for as long as the "
-      "setting has the value below it.\n\n",
-      first.project.file.filename().string());
-  for (const FirstProjectNote& note : first.notes) {
-    text += fmt::format("{}{}\n{}{}\n", note.field, note.is_guess ? kGuessed : "", kIndent, note.text);
-    if (!note.remedy.empty()) text += fmt::format("{}to change it: {}\n", kIndent, note.remedy);
-    if (note.is_guess) text += fmt::format("{}{}\n", kValue, setting_text(first.project, note.field));
-  }
-  return text;
 }
 
 // All that is made on the way from the video to the project.
@@ -343,7 +323,7 @@ class Planning {
 
   // What was decided, as a text beside the project.
   void add_notes_file() {
-    first_.files.push_back({.path = beside(kNotesEnding), .content = notes_text(first_), .copy_of = {}});
+    first_.files.push_back({.path = notes_file_of(project().file), .content = notes_text(first_), .copy_of = {}});
   }
 
   const FirstProjectOptions& options_;
@@ -359,38 +339,6 @@ class Planning {
 };
 
 }  // namespace
-
-std::string told_on_terminal(const FirstProjectNote& note) {
-  return note.remedy.empty() ? note.text : note.text + "; " + note.remedy;
-}
-
-std::vector<FirstProjectGuess> guesses_beside(const fs::path& project_file) {
-  std::vector<FirstProjectGuess> guesses;
-  const Result<std::string> text = read_text(project_file.parent_path() / (stem_of(project_file) + kNotesEnding));
-  if (!text) return guesses;
-  std::istringstream lines(*text);
-  std::optional<FirstProjectGuess> guess;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.ends_with(kGuessed) && !line.starts_with(' ')) {
-      guess = FirstProjectGuess{.field = line.substr(0, line.size() - kGuessed.size()), .text = {}};
-    } else if (guess && line.starts_with(kValue)) {
-      guess->value = line.substr(kValue.size());
-      guesses.push_back(*std::exchange(guess, std::nullopt));
-    } else if (guess && line.starts_with(kIndent) && guess->text.empty()) {
-      guess->text = line.substr(kIndent.size());
-    } else if (!line.starts_with(' ')) {
-      guess.reset();
-    }
-  }
-  return guesses;
-}
-
-bool is_still_guessed(const Project& project, const std::string& field) {
-  const std::vector<FirstProjectGuess> guesses = guesses_beside(project.file);
-  return std::any_of(guesses.begin(), guesses.end(), [&](const FirstProjectGuess& guess) {
-    return guess.field == field && guess.value == setting_text(project, field);
-  });
-}
 
 Result<FirstProject> planned_first_project(const FirstProjectOptions& options, const FirstProjectControl& control) {
   return Planning(options, control).planned();

@@ -43,14 +43,18 @@ struct FirstProjectControl {
 
 // One thing that was decided for the user.
 struct FirstProjectNote {
-  std::string field;        // of the project: "footage.calibration", "intruders[0].model.forward"
-  std::string text;         // what and why; one line
-  bool is_guess = false;    // false: the file states it, or it was measured
-  std::string remedy = {};  // what changes it on the command line: "--fov states it"; empty: the setting alone
+  std::string field;          // of the project: "footage.calibration", "intruders[0].model.forward"
+  std::string text;           // what and why; one line
+  bool is_guess = false;      // false: the file states it, or it was measured
+  std::string remedy = {};    // what changes it on the command line: "--fov states it"; empty: the setting alone
+  bool is_not_shown = false;  // of a guess on the look of the footage: it does not show this, the default stands
 };
 
 // "text; remedy", for the terminal.
 [[nodiscard]] std::string told_on_terminal(const FirstProjectNote& note);
+
+// The file with the notes beside a project file: NAME.notes.txt.
+[[nodiscard]] std::filesystem::path notes_file_of(const std::filesystem::path& project_file);
 
 // A setting that was guessed when a project was made, and its value then.
 struct FirstProjectGuess {
@@ -80,6 +84,9 @@ struct FirstProject {
   Visibility visibility;                // of the intruder, estimated as `sigs check` does
   std::vector<Warning> warnings;        // of the files that were read
 };
+
+// The text of notes_file_of() for a project, as guesses_beside() reads it.
+[[nodiscard]] std::string notes_text(const FirstProject& first);
 
 // Plans the project; nothing is written. Reads the video's index and its log, at most 7 frames of a plain project, else
 // all up to 90 s.

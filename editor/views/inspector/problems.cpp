@@ -202,7 +202,8 @@ std::optional<std::string> LossOfView::found(const ViewContext& context) {
   const std::shared_ptr<const OpenedScene>& opened = context.shown.scene;
   if (context.document.first_number() != document_) before_.clear();
   document_ = context.document.first_number();
-  if (!opened || !opened->footage || !opened->footage->video || opened->revision == revision_) return std::nullopt;
+  if (!opened || !opened->footage || !opened->footage->video || context.shown.surveys == surveys_) return std::nullopt;
+  surveys_ = context.shown.surveys;
   const std::vector<IntruderSettings>& intruders = opened->project->intruders;
   std::map<std::string, Visibility> now;
   for (std::size_t i = 0; i < intruders.size(); ++i) {
@@ -213,7 +214,6 @@ std::optional<std::string> LossOfView::found(const ViewContext& context) {
     else if (!intruders[i].trajectory.waypoints.empty())
       return std::nullopt;  // not all are known yet
   }
-  revision_ = opened->revision;
   const auto share = [](const Visibility& seen) { return double(seen.visible) / std::max(1, seen.frames); };
   std::optional<std::string> message;
   for (const auto& [name, visibility] : now) {

@@ -59,9 +59,9 @@ class LossOfView {
   [[nodiscard]] std::optional<std::string> found(const ViewContext& context);
 
  private:
-  std::uint64_t document_ = 0;                // Document::first_number()
-  std::uint64_t revision_ = 0;                // of the surveys that were looked at last
-  std::map<std::string, Visibility> before_;  // by the intruder's name
+  std::uint64_t document_ = 0;                          // Document::first_number()
+  std::vector<std::shared_ptr<const Survey>> surveys_;  // that were looked at last
+  std::map<std::string, Visibility> before_;            // by the intruder's name
 };
 
 }  // namespace sigs::editor
