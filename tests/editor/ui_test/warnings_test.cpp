@@ -88,4 +88,27 @@ TEST_CASE("a valid project has no warnings in the inspector") {
   CHECK_FALSE(editor.has_place("inspector/problems"));
 }
 
+TEST_CASE("a camera that is turned away says that the intruder is lost, until the change is taken back") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("lost-view");
+  EditorDriver& editor = ui_test.editor();
+  editor.start({put(sample_project("head-on"), ui_test.folder() / "mine.json").string()});
+  editor.wait_for_image();
+  editor.wait_for("rest", [](const Json& now) { return !now.value("busy", true); });
+  CHECK_FALSE(editor.has_place("toast/0"));
+  ui_test.fill_in("inspector/filter", "yaw");
+  ui_test.wait_for_place("inspector/camera.attitude_deg.yaw");
+  ui_test.edit([&] {
+    ui_test.fill_in("inspector/camera.attitude_deg.yaw", "180");
+    editor.key("Return");
+  });
+  ui_test.wait_for_place("toast/0");
+  ui_test.image("said");
+  editor.click("toast/0");
+  editor.wait_for("no message", [](const Json& now) { return !shows(now, "toast/0"); });
+  ui_test.edit([&] { editor.key("ctrl+z"); });
+  editor.wait_for("rest", [](const Json& now) { return !now.value("busy", true); });
+  CHECK_FALSE(editor.has_place("toast/0"));
+}
+
 }  // namespace sigs::test
