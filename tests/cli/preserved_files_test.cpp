@@ -110,11 +110,11 @@ TEST_CASE("a frame goes into the folder or the PNG that is named, with its stage
   REQUIRE_MESSAGE(named.status == 0, named.err);
   const auto beside = files_in(out / "named");
   CHECK(beside.size() == in_folder.size());
-  for (const auto& [name, text] : in_folder) {
-    CAPTURE(name);
-    const std::string other = "shown" + name.substr(std::string("frame_3").size());
+  for (const auto& file : in_folder) {
+    CAPTURE(file.first);
+    const std::string other = "shown" + file.first.substr(std::string("frame_3").size());
     REQUIRE(beside.contains(other));
-    CHECK(beside.at(other) == text);
+    CHECK(beside.at(other) == file.second);
   }
   CHECK(run_sigs(call + (out / "named/shown.png").string()).status == 73);
   fs::create_directory(out / "folder.png");
