@@ -114,8 +114,9 @@ std::string calibration_xml(const LensParameters& lens, cv::Size size_px, const 
 }
 
 FirstCamera camera_of(const VideoInfo& video, const GuessedLens& guessed, Lens lens, FirstProjectNote note) {
+  std::string text = calibration_xml(guessed.lens, video.size_px, note.text);
   return {.camera = {.lens = std::move(lens), .size_px = video.size_px},
-          .calibration_text = calibration_xml(guessed.lens, video.size_px, note.text),
+          .calibration_text = std::move(text),
           .note = std::move(note),
           .is_default = guessed.is_default};
 }
