@@ -74,32 +74,26 @@ Result<Project> project_of_file(const fs::path& file) {
   return std::move(read->project);
 }
 
-// The video to look at, and which frames of it.
-struct Looked {
-  fs::path video;
-  SequenceTiming timing{};
-  AppearanceFrames frames;
-};
-
-Result<Looked> looked_at(const AppearanceOptions& options, const std::optional<Project>& project) {
-  Looked looked{.video = options.file, .timing = options.timing, .frames = {.every = options.every}};
+// Which frames are looked at.
+Result<AppearanceFrames> frames_of(const AppearanceOptions& options, const std::optional<Project>& project) {
+  AppearanceFrames frames{.every = options.every};
   if (project) {
-    looked.video = resolved(*project, project->footage.video);
-    looked.timing = timing_of(*project);
-    looked.frames.first = project->footage.first_frame;
-    looked.frames.last = project->footage.last_frame;
+    frames.first = project->footage.first_frame;
+    frames.last = project->footage.last_frame;
   }
-  if (options.frames.empty()) return looked;
+  if (options.frames.empty()) return frames;
   const Result<FrameRange> range = frame_range_of(options.frames);
   if (!range) return fail(range.error());
-  looked.frames.first = range->first;
-  looked.frames.last = range->last;
-  return looked;
+  frames.first = range->first;
+  frames.last = range->last;
+  return frames;
 }
 
-Result<Appearance> found_in(const Looked& looked, const std::optional<Project>& project,
+Result<Appearance> found_in(const AppearanceFrames& frames, const std::optional<Project>& project,
                             const AppearanceOptions& options) {
-  Result<FrameSource> footage = FrameSource::open(looked.video, &interrupt_flag(), Quantisers::read, looked.timing);
+  Result<FrameSource> footage =
+      project ? open_footage(*project, &interrupt_flag(), Quantisers::read)
+              : FrameSource::open(options.file, &interrupt_flag(), Quantisers::read, options.timing);
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
   AppearanceHints hints;
@@ -112,7 +106,7 @@ Result<Appearance> found_in(const Looked& looked, const std::optional<Project>& 
   Progress progress(progress_style(options.progress));
   const AppearanceControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                   .cancel = &interrupt_flag()};
-  Result<Appearance> found = estimate_appearance(*footage, looked.frames, hints, control);
+  Result<Appearance> found = estimate_appearance(*footage, frames, hints, control);
   progress.end();
   return found;
 }
@@ -235,12 +229,12 @@ Result<void> run(const AppearanceOptions& options) {
     if (!read) return fail(read.error());
     into = std::move(*read);
   }
-  const Result<Looked> looked = looked_at(options, project);
-  if (!looked) return fail(looked.error());
+  const Result<AppearanceFrames> frames = frames_of(options, project);
+  if (!frames) return fail(frames.error());
   defer_interrupts();
   Outputs outputs(options);
   if (const Result<void> free = outputs.reserve(); !free) return free;
-  const Result<Appearance> found = found_in(*looked, project, options);
+  const Result<Appearance> found = found_in(*frames, project, options);
   if (!found) return fail(found.error());
   if (const Result<void> written = outputs.write(*found); !written) return written;
   if (into) {

@@ -15,7 +15,7 @@ struct AppearanceRequest {
 };
 
 // Estimates how the footage looks (appearance/appearance.h). On the calling thread, for seconds. Errors: those of
-// FrameSource::open() and of estimate_appearance().
+// open_footage() and of estimate_appearance().
 [[nodiscard]] Result<Appearance> estimated_appearance(const AppearanceRequest& request, const JobControl& control);
 
 // The same in the background (editor/views/estimate_session.h).

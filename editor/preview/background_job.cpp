@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "scene/opened_project.h"
+
 namespace sigs::editor {
 
 namespace {
@@ -45,9 +47,10 @@ ExportJob::ExportJob(std::function<void()> wake)
       }) {}
 
 Result<OwnBody> detected(const DetectionRequest& request, const DetectionControl& control) {
-  Result<FrameSource> source = FrameSource::open(request.video, control.cancel, Quantisers::leave_out, request.timing);
+  const Project& project = request.project;
+  Result<FrameSource> source = open_footage(project, control.cancel);
   if (!source) return fail(source.error());
-  return detect_own_body(*source, request.first_frame, request.settings, control);
+  return detect_own_body(*source, project.footage.first_frame, project.own_body, control);
 }
 
 OwnBodyJob::OwnBodyJob(std::function<void()> wake, Detect detect)

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -16,7 +15,7 @@
 #include "editor/preview/worker_thread.h"
 #include "export/export_project.h"
 #include "occlusion/detect.h"
-#include "video/image_sequence.h"
+#include "project/project.h"
 
 namespace sigs::editor {
 
@@ -245,18 +244,15 @@ class ExportJob : public BackgroundJob<ExportRequest, ExportReport> {
   explicit ExportJob(std::function<void()> wake);
 };
 
-// Which video is looked through for the own body, from which frame on (counted from 0), and how.
+// Whose footage is looked through for the own body: from the first frame that the project uses on, by its settings.
 struct DetectionRequest {
-  std::filesystem::path video;
-  SequenceTiming timing;  // as for FrameSource::open()
-  int first_frame = 0;
-  OwnBodySettings settings;
+  Project project;
 
   [[nodiscard]] bool operator==(const DetectionRequest&) const = default;
 };
 
-// Opens the video and runs the engine's detection in it, with the progress and the cancellation of `control`. On the
-// calling thread, for seconds or minutes. Errors: those of FrameSource::open() and of detect_own_body().
+// Opens the footage and runs the engine's detection in it, with the progress and the cancellation of `control`. On the
+// calling thread, for seconds or minutes. Errors: those of open_footage() and of detect_own_body().
 [[nodiscard]] Result<OwnBody> detected(const DetectionRequest& request, const DetectionControl& control);
 
 // Finds the own body in footage. Images of all stages are kept with the result. The request is copied, as in ExportJob.

@@ -26,13 +26,14 @@ std::size_t bytes_of(const DecodedFrame& decoded) {
   return sum;
 }
 
-OpenedFootage opened_footage(const std::filesystem::path& video, Quantisers quantisers,
-                             const SequenceTiming& timing) {
-  if (video.empty()) return {nullptr, std::make_shared<const Footage>(Footage{.problem = "no video is chosen"})};
-  Result<FrameSource> source = FrameSource::open(video, nullptr, quantisers, timing);
-  if (!source) return {nullptr, std::make_shared<const Footage>(Footage{.problem = source.error().text()})};
-  if (source->info().frame_count() == 0)
-    return {nullptr, std::make_shared<const Footage>(Footage{.problem = video.string() + ": has no frames"})};
+OpenedFootage opened_footage(const Project& project) {
+  const auto without_video = [](std::string problem) {
+    return OpenedFootage{nullptr, std::make_shared<const Footage>(Footage{.problem = std::move(problem)})};
+  };
+  if (project.footage.video.empty()) return without_video("no video is chosen");
+  Result<FrameSource> source = open_footage(project, nullptr, quantisers_for(project));
+  if (!source) return without_video(source.error().text());
+  if (source->info().frame_count() == 0) return without_video(source->info().path.string() + ": has no frames");
   auto footage = std::make_shared<const Footage>(Footage{.shape = shape_of(source->info()), .video = source->info()});
   return {std::make_unique<FrameSource>(std::move(*source)), std::move(footage)};
 }

@@ -18,11 +18,9 @@ struct OpenedFootage {
   std::unique_ptr<FrameSource> source;  // null: could not be opened
   std::shared_ptr<const Footage> footage;
 };
-// Opens a video, which may take minutes. An empty path, a file that cannot be read and a video without frames are
-// problems of the footage, not errors.
-//   quantisers, timing  as for FrameSource::open()
-[[nodiscard]] OpenedFootage opened_footage(const std::filesystem::path& video, Quantisers quantisers,
-                                           const SequenceTiming& timing = {});
+// Opens the footage of a project, with the quantisers that its compositing needs; this may take minutes. A project that
+// names no video, a file that cannot be read and a video without frames are problems of the footage, not errors.
+[[nodiscard]] OpenedFootage opened_footage(const Project& project);
 
 // The footage itself where it is a video, else the grey frames that replace it in this project.
 [[nodiscard]] std::shared_ptr<const Footage> footage_for(const Project& project,

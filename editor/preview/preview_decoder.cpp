@@ -16,9 +16,8 @@ namespace {
 constexpr std::chrono::milliseconds kAfterFailure(100);  // memory may be had again; what is wanted is asked for anew
 
 OpenedFootage opened_or_problem(const FootageId& footage) {
-  Result<OpenedFootage> opened =
-      guarded([&]() -> Result<OpenedFootage> { return opened_footage(footage.path, footage.quantisers, footage.timing); },
-              footage.path.string());
+  Result<OpenedFootage> opened = guarded([&]() -> Result<OpenedFootage> { return opened_footage(*footage.project); },
+                                         footage.project->footage.video);
   if (opened) return std::move(*opened);
   return {nullptr, std::make_shared<const Footage>(Footage{.problem = opened.error().text()})};
 }

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.h"
 #include "base/threads.h"
 #include "editor/preview/thumbnails.h"
 #include "editor/preview/worker_thread.h"
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"
-#include "base/text.h"
 
 namespace sigs::editor {
 
@@ -125,12 +125,13 @@ void PreviewRenderer::run() {
 
 namespace {
 
-FootageId footage_id_of(const FileStamp& video, Quantisers quantisers, const SequenceTiming& timing) {
-  ContentId id = id_of(video);
-  if (quantisers == Quantisers::read) id = combined_id(id, id);
+FootageId footage_id_of(const std::shared_ptr<const Project>& project) {
+  const SequenceTiming timing = timing_of(*project);
+  ContentId id = id_of(footage_stamp_of(*project));
+  if (quantisers_for(*project) == Quantisers::read) id = combined_id(id, id);
   if (timing.frame_rate_hz > 0) id = combined_id(id, id_of(FileStamp{.path = exact_text(timing.frame_rate_hz)}));
   if (!timing.times_file.empty()) id = combined_id(id, id_of(stamp_of(timing.times_file)));
-  return {id, video.path, quantisers, timing};
+  return {id, project};
 }
 
 }  // namespace
@@ -144,10 +145,9 @@ void PreviewRenderer::check_input_files(const PreviewSnapshot& snapshot) {
   const Clock::time_point now = Clock::now();
   if (revision.number == revision_ && now - files_checked_ < kFileCheckInterval) return;
   const ContentId input_files = input_files_id_of(*revision.project);
-  const FileStamp video = footage_stamp_of(*revision.project);
   content_ = combined_id(revision.content, input_files);
   input_files_ = input_files;
-  footage_ = footage_id_of(video, quantisers_for(*revision.project), timing_of(*revision.project));
+  footage_ = footage_id_of(revision.project);
   revision_ = revision.number;
   files_checked_ = now;
   preview_state_.set_input_files(input_files, footage_);

@@ -251,12 +251,13 @@ void PreviewState::put_decoded(FrameKey key, std::shared_ptr<const DecodedFrame>
 std::optional<PreviewSnapshot> PreviewState::snapshot() {
   const std::lock_guard lock(mutex_);
   if (stop_) return std::nullopt;
-  PreviewSnapshot snapshot{.version = version_,
-                           .wanted = wanted_,
-                           .footage = footage_,
-                           .opened_footage = opened_footage_,
-                           .ahead = may_prefetch()};
-  if (last_decoded_.value) snapshot.fresh = last_decoded_.key;
+  std::optional<PreviewSnapshot> snapshot(std::in_place);
+  snapshot->version = version_;
+  snapshot->wanted = wanted_;
+  snapshot->footage = footage_;
+  snapshot->opened_footage = opened_footage_;
+  snapshot->ahead = may_prefetch();
+  if (last_decoded_.value) snapshot->fresh = last_decoded_.key;
   return snapshot;
 }
 

@@ -17,15 +17,13 @@
 
 namespace sigs::editor {
 
-// A video file in one of its versions: the same path with another stamp on disk is other footage.
+// The footage of a project in one version of its files: the same path with another stamp on disk is other footage.
 struct FootageId {
-  // id_of() the file's stamp; ContentId(): none is known yet.
+  // Of the file's stamp, of whether frames are read with their quantisers, and of the times of footage in images;
+  // ContentId(): none is known yet.
   ContentId id;
-  std::filesystem::path path;
-  // Whether frames are read with their quantisers; another id with than without.
-  Quantisers quantisers = Quantisers::leave_out;
-  // Of footage in images; another id with other times.
-  SequenceTiming timing = {};
+  // A project with this footage, to open it by. Null where the id is that of nothing.
+  std::shared_ptr<const Project> project;
 };
 
 // What the rendering thread works by: a copy of the state at one moment. It may be out of date at any time after; what

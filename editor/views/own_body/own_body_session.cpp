@@ -8,7 +8,6 @@
 #include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
 #include "occlusion/mask_geometry.h"
-#include "scene/opened_project.h"
 #include "scene/scene_files.h"
 
 namespace sigs::editor {
@@ -166,7 +165,7 @@ void OwnBodySession::take_project_mask(const Project& project, const cv::Mat& ow
 
 void OwnBodySession::take_found() {
   taken_ = detection_.value;
-  taken_edge_px_ = detection_.value_request.settings.soft_edge_px;
+  taken_edge_px_ = detection_.value_request.project.own_body.soft_edge_px;
   if (taken_->mask.size() != painting_.mask().size() || taken_->mask.type() != CV_8UC1) return;
   replace(with_edge(taken_->mask, taken_edge_px_, edge_px_), "detected mask", "detected");
   found_state_ = feathered_state_ = painting_.state();
@@ -194,11 +193,7 @@ bool OwnBodySession::edge_waits() const {
 }
 
 bool OwnBodySession::start(const Document& document) {
-  const Project& project = document.project();
-  const bool started = job_.start({.video = resolved(project, project.footage.video),
-                                   .timing = timing_of(project),
-                                   .first_frame = project.footage.first_frame,
-                                   .settings = project.own_body});
+  const bool started = job_.start({document.project()});
   detection_ = job_.state();
   return started;
 }

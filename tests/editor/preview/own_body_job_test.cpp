@@ -26,8 +26,8 @@ OwnBody body_of(int frames) {
 
 // Goes through its frames at once.
 Result<OwnBody> quick(const DetectionRequest& request, const DetectionControl& control) {
-  for (int i = 1; i <= request.settings.frames; ++i) control.progress(i, request.settings.frames);
-  return body_of(request.settings.frames);
+  for (int i = 1; i <= request.project.own_body.frames; ++i) control.progress(i, request.project.own_body.frames);
+  return body_of(request.project.own_body.frames);
 }
 
 // Goes on until it is stopped.
@@ -41,12 +41,12 @@ Result<OwnBody> endless(const DetectionRequest&, const DetectionControl& control
 
 // Endless where all of the footage is asked for.
 Result<OwnBody> either(const DetectionRequest& request, const DetectionControl& control) {
-  return request.settings.frames > 1000 ? endless(request, control) : quick(request, control);
+  return request.project.own_body.frames > 1000 ? endless(request, control) : quick(request, control);
 }
 
 DetectionRequest of(int frames) {
   DetectionRequest request;
-  request.settings.frames = frames;
+  request.project.own_body.frames = frames;
   return request;
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("the detection runs at low priority, the calling thread keeps its own"
 TEST_CASE("footage that cannot be opened is reported by its name") {
   OwnBodyJob job([] {});
   DetectionRequest request = of(10);
-  request.video = "nowhere.mp4";
+  request.project.footage.video = "nowhere.mp4";
   REQUIRE(job.start(request));
   const DetectionState state = finished(job);
   CHECK(state.phase == JobPhase::failed);
