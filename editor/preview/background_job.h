@@ -241,7 +241,9 @@ class BackgroundJob {
 using ExportState = JobState<ExportRequest, ExportReport>;
 class ExportJob : public BackgroundJob<ExportRequest, ExportReport> {
  public:
+  // Without `work` it exports; tests give work that writes nothing.
   explicit ExportJob(std::function<void()> wake);
+  ExportJob(std::function<void()> wake, Work work) : BackgroundJob(std::move(wake), std::move(work)) {}
 };
 
 // Whose footage is looked through for the own body: from the first frame that the project uses on, by its settings.

@@ -270,7 +270,7 @@ void draw_result(const ViewContext& context, const ExportState& state) {
 }
 
 void draw_warnings(const ExportState& state) {
-  constexpr std::size_t kMax = 6;
+  constexpr std::size_t kMax = 100;
   const std::size_t count = state.warnings.size();
   for (std::size_t i = 0; i < std::min(kMax, count); ++i)
     note_line(Icon::warning, color::kPartly, state.warnings[i].text());

@@ -31,6 +31,34 @@ int usual_jobs() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 
+// Of the whole dialog, before an export and from its start on. What there is to say is scrolled where it needs more
+// room than is left.
+constexpr double kSetupHeight = 660;
+constexpr double kReportHeight = 340;
+constexpr int kCommandLines = 3;
+
+float button_row_height() {
+  return scaled(28) + scaled(6) + 2 * ImGui::GetStyle().ItemSpacing.y;
+}
+
+// A label, then a plate for the command's lines, with the room between them and after them.
+float command_height() {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  return ImGui::GetFrameHeight() + 2 * style.ItemSpacing.y + 2 * style.WindowPadding.y +
+         kCommandLines * ImGui::GetTextLineHeightWithSpacing();
+}
+
+// A plate from here to `below` pixels above the dialog's lower edge, for texts of any number. Call ImGui::EndChild()
+// after it.
+void begin_plate(const char* id, float below) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float least = 2 * (ImGui::GetTextLineHeightWithSpacing() + style.WindowPadding.y);
+  const float room = ImGui::GetContentRegionAvail().y - below - style.ItemSpacing.y;
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, color::kPanel);
+  ImGui::BeginChild(id, {0, std::max(least, room)}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::PopStyleColor();
+}
+
 }  // namespace
 
 void ExportView::open(const Document& document) {
@@ -49,11 +77,11 @@ ExportRequest ExportView::request_of(const ViewContext& context) const {
 
 void ExportView::draw(const ViewContext& context, ExportJob& job) {
   closed_ = false;
-  if (!begin_dialog("Export###export", 620, 0, closed_)) {
+  const ExportState state = job.state();
+  if (!begin_dialog("Export###export", 620, state.phase == JobPhase::none ? kSetupHeight : kReportHeight, closed_)) {
     open_ = open_ && !closed_;
     return;
   }
-  const ExportState state = job.state();
   if (state.phase == JobPhase::none)
     draw_setup(context, job);
   else if (state.is_running())
@@ -127,26 +155,30 @@ void ExportView::draw_command(const ViewContext& context) {
   request.overwrite = !there_.empty();
   const std::string command =
       export_command(request, assignments(context.document).value_or(std::vector<std::string>()));
+  ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("The same from the command line:");
-  const float copy = icon_button_width() + ImGui::GetStyle().ItemSpacing.x;
-  ImGui::PushFont(font(Font::mono));
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
-  const ImVec2 place = ImGui::GetCursorPos();
-  ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - copy);
-  ImGui::TextUnformatted(shortened(command).c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
-  const ImVec2 after = ImGui::GetCursorPos();
-  ImGui::SetCursorPos({ImGui::GetContentRegionMax().x - icon_button_width(), place.y});
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - icon_button_width());
   if (icon_button("copy command", Icon::copy, "Copy")) {
     ImGui::SetClipboardText(command.c_str());
     context.edits.ask(ShowMessage{"Copied"});
   }
-  ImGui::SetCursorPosY(std::max(after.y, ImGui::GetCursorPosY()));
+  context.ui_probe.note_item("export/copy command");
+  begin_plate("command", button_row_height());
+  ImGui::PushFont(font(Font::mono));
+  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
+  ImGui::TextWrapped("%s", shortened(command).c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+  ImGui::EndChild();
 }
 
 void ExportView::draw_notes(const ViewContext& context) {
+  const float before = ImGui::GetCursorPosY();
+  if (overwrite_asked_ && !there_.empty()) {
+    std::string names;
+    for (const fs::path& path : there_) names += (names.empty() ? "" : ", ") + path.filename().string();
+    note_line(Icon::warning, color::kPartly, fmt::format("Already there: {}. Replace?", names));
+  }
   if (!assignments(context.document))
     note_line(Icon::info, color::kAccent,
               "There are unsaved changes. They are exported; the command below takes the project as it was last saved. "
@@ -160,11 +192,7 @@ void ExportView::draw_notes(const ViewContext& context) {
               fmt::format("Labels {} name numbered images, which a video does not have: choose png, tiff or jpeg as "
                           "Video, or make them with FFmpeg afterwards.",
                           names));
-  if (overwrite_asked_ && !there_.empty()) {
-    std::string names;
-    for (const fs::path& path : there_) names += (names.empty() ? "" : ", ") + path.filename().string();
-    note_line(Icon::warning, color::kPartly, fmt::format("Already there: {}. Replace?", names));
-  }
+  if (ImGui::GetCursorPosY() == before) ImGui::TextDisabled("No warnings.");
 }
 
 void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
@@ -175,8 +203,9 @@ void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
     ImGui::EndTable();
   }
   if (!overwrite_asked_) there_.clear();
+  begin_plate("notes", command_height() + button_row_height());
   draw_notes(context);
-  ImGui::Dummy({0, scaled(2)});
+  ImGui::EndChild();
   draw_command(context);
   ImGui::Dummy({0, scaled(6)});
   const bool replace = overwrite_asked_ && !there_.empty();
@@ -212,7 +241,10 @@ void ExportView::draw_running(const ViewContext& context, ExportJob& job, const 
   const double share = state.total > 0 ? double(state.done) / state.total : 0;
   ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
   ImGui::TextDisabled("%s", progress_text(state).c_str());
+  begin_plate("notes", button_row_height());
+  if (state.warnings.empty()) ImGui::TextDisabled("No warnings so far.");
   draw_warnings(state);
+  ImGui::EndChild();
   ImGui::Dummy({0, scaled(6)});
   const char* const labels[] = {"Cancel export", "Go on in the background"};
   align_buttons_right(labels, 2);
@@ -224,8 +256,10 @@ void ExportView::draw_running(const ViewContext& context, ExportJob& job, const 
 }
 
 void ExportView::draw_done(const ViewContext& context, ExportJob& job, const ExportState& state) {
+  begin_plate("notes", button_row_height());
   draw_result(context, state);
   draw_warnings(state);
+  ImGui::EndChild();
   ImGui::Dummy({0, scaled(6)});
   const char* const labels[] = {"Export again", "Close"};
   align_buttons_right(labels, 2);
