@@ -101,7 +101,7 @@ std::string label_of(std::string_view key) {
 std::string advice_on_guess(std::string_view key) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kAdvice{{
       {"footage.calibration", "A calibration of this camera is chosen here."},
-      {"camera.attitude_deg", "Horizon... shows where it is level, to be dragged into place."},
+      {"camera.attitude_deg", "Horizon, above the footage, shows where it is level, to be dragged into place."},
       {"camera.speed_mps", "A flight log is chosen in Camera log."},
       {"model.file", "Change model... shows the others."},
       {"model.forward", "The image of the model shows whether it is right."},

@@ -47,12 +47,24 @@ constexpr std::array<Preset, 4> kPresets{{
     {"Right", "30 degrees high to the right", 90, 30},
 }};
 
+double wrapped_deg(double angle_deg) {
+  return angle_deg - 360 * std::ceil((angle_deg - 180) / 360);
+}
+
 void put_light(const ViewContext& context, const LightDirection& direction, const glm::dvec3& camera_m,
                const std::string& gesture) {
   // Centimetres are enough for a light, and keep numbers short.
   const glm::dvec3 position_m = glm::round(position_of(direction, camera_m) * 100.0) / 100.0;
   context.edits.change(
       "move light", [=](Project& project) { put_value(project, "light.position_m", position_m); }, gesture);
+}
+
+// Its azimuth is from world X, as bearings are here; tenths of a degree are enough.
+void put_sun(const ViewContext& context, double bearing_deg, double elevation_deg) {
+  const double azimuth_deg = std::round(10 * wrapped_deg(bearing_deg)) / 10;
+  context.edits.change("turn sun", [=](Project& project) {
+    project.light.sun = {.azimuth_deg = azimuth_deg, .elevation_deg = elevation_deg};
+  });
 }
 
 bool slider(FieldRows& rows, const char* label, double& value, double low, double high, const char* format,
@@ -64,10 +76,6 @@ bool slider(FieldRows& rows, const char* label, double& value, double low, doubl
                                          flags | ImGuiSliderFlags_AlwaysClamp);
   ImGui::PopID();
   return moved;
-}
-
-double wrapped_deg(double angle_deg) {
-  return angle_deg - 360 * std::ceil((angle_deg - 180) / 360);
 }
 
 }  // namespace
@@ -107,9 +115,13 @@ void LightBlock::draw_direction(const ViewContext& context, FieldRows& rows, con
 
 void LightBlock::draw_presets(const ViewContext& context, const Viewpoint& viewpoint) const {
   const double now_m = direction_of(context.project().light.position_m, viewpoint.camera_m).distance_m;
+  const bool is_sun = context.project().light.kind == LightKind::sun;
   ButtonFlow flow;
   for (const Preset& preset : kPresets) {
-    if (flow.button(preset.label, preset.tooltip))
+    const bool is_pressed = flow.button(preset.label, preset.tooltip);
+    if (is_pressed && is_sun)
+      put_sun(context, deg_of_rad(viewpoint.camera_bearing_rad) + preset.bearing_deg, preset.elevation_deg);
+    else if (is_pressed)
       put_light(context,
                 {.bearing_rad = viewpoint.camera_bearing_rad + rad_of_deg(preset.bearing_deg),
                  .elevation_rad = rad_of_deg(preset.elevation_deg),
@@ -122,9 +134,9 @@ void LightBlock::draw_presets(const ViewContext& context, const Viewpoint& viewp
 namespace {
 
 constexpr std::array<const char*, 4> kPointKeys{"light.kind", "light.position_m", "light.color", "light.ambient"};
-constexpr std::array<const char*, 7> kSunKeys{"light.kind",    "light.sun.azimuth_deg", "light.sun.elevation_deg",
-                                              "light.color",   "light.sky_color",       "light.ground_color",
-                                              "light.exposure"};
+constexpr std::array<const char*, 3> kSunKeys{"light.kind", "light.sun.azimuth_deg", "light.sun.elevation_deg"};
+constexpr std::array<const char*, 4> kSunColorKeys{"light.color", "light.sky_color", "light.ground_color",
+                                                   "light.exposure"};
 
 RowOptions look_of_light(std::string_view key) {
   RowOptions look;
@@ -148,7 +160,12 @@ void note_sun(const ViewContext& context) {
 void LightBlock::draw(const ViewContext& context, FieldRows& rows) {
   if (context.project().light.kind == LightKind::sun) {
     for (const char* const key : kSunKeys) rows.row(key, look_of_light(key));
-    return note_sun(context);
+    note_sun(context);
+    note("As seen from the camera");
+    draw_presets(context, viewpoint_of(context));
+    ImGui::Spacing();
+    for (const char* const key : kSunColorKeys) rows.row(key, look_of_light(key));
+    return;
   }
   for (const char* const key : kPointKeys) rows.row(key, look_of_light(key));
   ImGui::Spacing();

@@ -22,7 +22,8 @@ class LightBlock {
   };
   [[nodiscard]] static Viewpoint viewpoint_of(const ViewContext& context);
   void draw_direction(const ViewContext& context, FieldRows& rows, const Viewpoint& viewpoint);
-  // Buttons that put the light behind, above or beside the camera, at the distance that it has.
+  // Buttons that put the light behind, above or beside the camera: the sun's direction, or a point light at the
+  // distance that it has.
   void draw_presets(const ViewContext& context, const Viewpoint& viewpoint) const;
 
   // While it is dragged: a light overhead has no bearing to read back.

@@ -57,8 +57,13 @@ void draw_box(const ImageCanvas& canvas, const ViewContext& context, const Intru
   const double height = label_size(text).y;
   const double above = outer.low.y - scaled(4);
   const double below = outer.high.y + scaled(4) + height;
-  const std::array places{glm::dvec2(outer.low.x, above), glm::dvec2(outer.low.x, below),
-                          glm::dvec2(outer.low.x, above - height - 1), glm::dvec2(outer.low.x, below + height + 1)};
+  const double beyond = outer.size().x / 2 + scaled(4);  // of the diamond of a waypoint in this frame
+  const std::array places{glm::dvec2(outer.low.x, above),
+                          glm::dvec2(outer.low.x, below),
+                          glm::dvec2(outer.low.x, above - height - 1),
+                          glm::dvec2(outer.low.x, below + height + 1),
+                          glm::dvec2(outer.low.x, above - beyond),
+                          glm::dvec2(outer.low.x, below + beyond)};
   draw_label(canvas, labels, places, text, selected ? color::kAccent : color::kBox, true);
 }
 
@@ -99,8 +104,9 @@ void draw_frame(const ImageCanvas& canvas, const glm::dvec2& at, double frame, c
                 LabelPlacer& labels) {
   const std::string text = frame_text(frame);
   const glm::dvec2 size = label_size(text);
-  const double right = at.x + scaled(9);
-  const double left = at.x - scaled(9) - size.x;
+  const double aside = std::max<double>(scaled(9), style.around_px + scaled(3));
+  const double right = at.x + aside;
+  const double left = at.x - aside - size.x;
   const double below = at.y + scaled(4) + size.y;
   const double above = at.y - scaled(4);
   const std::array places{glm::dvec2(right, below), glm::dvec2(left, below), glm::dvec2(right, above),
@@ -120,6 +126,10 @@ double around_intruder_px(const ImageCanvas& canvas, const ViewContext& context,
     return half <= scaled(kMaxSize_px) ? half : 0;
   }
   return 0;
+}
+
+bool is_in_frame(const WaypointMark& mark, int frame) {
+  return std::abs(mark.frame - frame) < 0.5;
 }
 
 constexpr int kFramesBetweenCorners = 25;  // the path's own corners are not known here where speed is constant
@@ -182,11 +192,14 @@ void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, 
                          LabelPlacer& labels) {
   const std::optional<int> current = current_intruder(context);
   const double radius = scaled(kMark_px) - 1;
+  const int frame = context.shown.image ? context.shown.image->frame : -1;
   int kept = 0;
   for (const WaypointMark& mark : marks) {
     const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
     if (mark.intruder != current || !canvas.rect.contains(at) || ++kept > kMaxLabels) continue;
-    labels.keep_free({at - radius, at + radius});
+    const double around = is_in_frame(mark, frame) ? around_intruder_px(canvas, context, mark.intruder) : 0;
+    const double reach = std::max<double>(radius, around);
+    labels.keep_free({at - reach, at + reach});
   }
 }
 
@@ -205,7 +218,7 @@ void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::
     if (thinning.leaves_out(at) && !is_selected) continue;
     context.ui_probe.note(fmt::format("viewport/waypoint/{}/{}", mark.intruder, mark.waypoint),
                           {at - radius, at + radius});
-    const bool is_here = std::abs(mark.frame - eye.frame) < 0.5;
+    const bool is_here = is_in_frame(mark, eye.frame);
     const MarkStyle style{.around_px = is_here ? around_intruder_px(canvas, context, mark.intruder) : 0,
                           .selected = is_selected,
                           .worked_on = current == mark.intruder,
