@@ -37,7 +37,7 @@ ffmpeg -v error -y -i "$work/frame_100.png" -vf "crop=900:420:200:150,scale=1350
   docs/images/models.jpg
 
 # The editor, as a test drives it.
-"$build"/test_editor_ui_test --test-case='a person authors*,a person makes a project*,a person finds the own body*,a person loads trackers*,the footage is matched*,a click on an entry*' >"$work/ui_test.log" || {
+"$build"/test_editor_ui_test --test-case='the ten steps*,a person authors*,a person makes a project*,a person finds the own body*,a person loads trackers*,the footage is matched*,a click on an entry*' >"$work/ui_test.log" || {
   cat "$work/ui_test.log"
   exit 1
 }
@@ -47,10 +47,10 @@ editor_image() {  # NAME SCREENSHOT
 }
 editor_image open ui_test-open
 editor_image new-project new-project-dialog
-editor_image footage ui_test-footage
-editor_image world ui_test-world
-editor_image light ui_test-light
-editor_image stages ui_test-stages-classic
+editor_image footage 'tutorial-5 dragged'
+editor_image world 'tutorial-7 handle'
+editor_image light 'tutorial-8 light'
+editor_image stages 'tutorial-9 classic'
 editor_image own-body own-body-found
 editor_image results results-loaded
 editor_image appearance appearance-matched

@@ -130,8 +130,11 @@ void GizmoHandle::probe_places(UiProbe& ui_probe, const glm::dvec3& at_m, const 
     ui_probe.note(std::string("gizmo/") + name, {at - 4.0, at + 4.0});
   };
   constexpr std::array<const char*, 3> kPlaces{"x", "y", "z"};
-  for (std::size_t i = 0; i < 3; ++i)
+  constexpr std::array<const char*, 3> kPlanePlaces{"xy", "yz", "zx"};
+  for (std::size_t i = 0; i < 3; ++i) {
     if (shape->tips[i]) note(kPlaces[i], glm::mix(shape->center, *shape->tips[i], 0.85));
+    if (shape->planes[i]) note(kPlanePlaces[i], ((*shape->planes[i])[0] + (*shape->planes[i])[2]) / 2.0);
+  }
   note("middle", shape->center);
 }
 

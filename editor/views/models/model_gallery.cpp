@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "editor/widgets/icons.h"
+#include "editor/widgets/screen_vec.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
@@ -46,11 +47,13 @@ bool ModelGallery::draw_tile(const ViewContext& context, const std::string& name
                      rounding);
   list.AddRectFilled(place, image_end, kSky, rounding, ImDrawFlags_RoundCornersTop);
   const auto image = file.empty() ? nullptr : images_.of(file);
-  if (image && !image->empty())
+  if (image && !image->empty()) {
     list.AddImage(context.textures.of(*image, Filter::smooth), place, image_end);
-  else
+    context.ui_probe.note("gallery image/" + name, {dv(place), dv(image_end)});
+  } else {
     draw_icon(list, file.empty() ? Icon::folder : Icon::aircraft, {(place.x + end.x) / 2, (place.y + image_end.y) / 2},
               scaled(20), faded(color::kText, 0.7));
+  }
   if (is_chosen || is_hovered)
     list.AddRect(place, end, is_chosen ? color::kAccent : faded(color::kAccent, 0.5), rounding, 0, scaled(1.5));
   ImGui::PushFont(font(Font::small));

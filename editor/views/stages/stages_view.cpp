@@ -148,8 +148,11 @@ std::vector<StageTile> StagesView::tiles(const ViewContext& context) {
   return made;
 }
 
-ToolbarItem StagesView::look_button(const char* label, const char* tooltip, Mode look) {
-  return choice_item({.id = label, .label = label, .tooltip = tooltip}, look_, look, [this] { grid_.show_all(); });
+ToolbarItem StagesView::look_button(const ViewContext& context, const char* label, const char* tooltip, Mode look) {
+  ToolbarItem item =
+      choice_item({.id = label, .label = label, .tooltip = tooltip}, look_, look, [this] { grid_.show_all(); });
+  item.drawn = [&context, label] { context.ui_probe.note_item(std::string("stages/") + label); };
+  return item;
 }
 
 std::string StagesView::own_label(const ViewContext& context) const {
@@ -217,9 +220,9 @@ void StagesView::zoom_to_intruder(const ViewContext& context) {
 
 void StagesView::draw_toolbar_of(const ViewContext& context) {
   std::vector<ToolbarItem> items{
-      look_button("Stages", "Every image on the way to the finished frame", Mode::stages),
-      look_button("Against input", "What compositing changed in the footage", Mode::against_input),
-      look_button("Between methods", "The frame by two methods, and where they differ", Mode::against_method),
+      look_button(context, "Stages", "Every image on the way to the finished frame", Mode::stages),
+      look_button(context, "Against input", "What compositing changed in the footage", Mode::against_input),
+      look_button(context, "Between methods", "The frame by two methods, and where they differ", Mode::against_method),
       {.is_gap = true},
       {.width = method_choice_width(), .content = [&] { draw_method_choice(context); }}};
   if (look_ != Mode::stages) items.push_back({.width = scaled(110), .content = [this] { draw_gain(); }});

@@ -37,7 +37,7 @@ class StagesView {
   void zoom_to_intruder(const ViewContext& context);
   // Why something is missing or of another frame, over the images.
   void draw_notice(const ViewContext& context, const ScreenRect& rect) const;
-  [[nodiscard]] ToolbarItem look_button(const char* label, const char* tooltip, Mode look);
+  [[nodiscard]] ToolbarItem look_button(const ViewContext& context, const char* label, const char* tooltip, Mode look);
   [[nodiscard]] MethodChoice own_method(const ViewContext& context) const;
   // The method that is looked at, or compared with; never the project's own where two are compared.
   [[nodiscard]] MethodChoice other_method(const ViewContext& context) const;

@@ -2,12 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <set>
 #include <sstream>
 
-#include "editor/ui_test/ui_test.h"
+#include "editor/ui_test/authoring_steps.h"
 #include "support/files.h"
-#include "support/process.h"
 
 namespace sigs::test {
 
@@ -16,47 +14,15 @@ using Json = nlohmann::json;
 
 namespace {
 
-constexpr double kMouse_px = 1.6;  // the mouse is at whole pixels, places are rounded outwards
-
 // Where the head-on sample's camera is: 22 m/s along X, footage of 25 frames a second.
 glm::dvec3 camera_m(int frame) {
   return {22.0 * frame / 25, 0, -150};
-}
-
-double apart_px(const ScreenPlace& place, double x, double y) {
-  return std::hypot(place.center_x() - x, place.center_y() - y);
 }
 
 bool all_finite(const std::vector<glm::dvec3>& points) {
   for (const glm::dvec3& p : points)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
   return true;
-}
-
-// Picks a waypoint in the world view and drags one arrow of its handle, outwards by half its length.
-void drag_arrow(UiTest& ui_test, const std::string& waypoint, const std::string& axis) {
-  EditorDriver& editor = ui_test.editor();
-  const ScreenPlace there = editor.place(waypoint);
-  editor.click(waypoint);
-  editor.wait_for("the handle at " + waypoint, [&](const Json&) {
-    return editor.has_place("gizmo/" + axis) &&
-           apart_px(editor.place("gizmo/middle"), there.center_x(), there.center_y()) < kMouse_px;
-  });
-  const ScreenPlace middle = editor.place("gizmo/middle");
-  const ScreenPlace tip = editor.place("gizmo/" + axis);
-  ui_test.edit([&] {
-    editor.drag("gizmo/" + axis, (tip.center_x() - middle.center_x()) / 2, (tip.center_y() - middle.center_y()) / 2);
-  });
-}
-
-// The world's point moved along one axis alone.
-void check_moved_along(const glm::dvec3& from_m, const glm::dvec3& to_m, int axis) {
-  for (int i = 0; i < 3; ++i) {
-    if (i == axis)
-      CHECK(std::abs(to_m[i] - from_m[i]) > 0.5);
-    else
-      CHECK(to_m[i] == doctest::Approx(from_m[i]).epsilon(1e-12));
-  }
 }
 
 // Opens the sample from the start page and saves it under another name, by the file browser.
@@ -90,25 +56,18 @@ void check_files_still_meant(const fs::path& project, const Json& saved) {
 }
 
 // Adds one over the footage at frame 60 and drags it over the footage, at constant distance.
-void add_over_footage(UiTest& ui_test, const fs::path& project) {
+void place_over_footage(UiTest& ui_test, const fs::path& project) {
   EditorDriver& editor = ui_test.editor();
   ui_test.scrub_to(60);
   const ScreenPlace image = editor.place("viewport/image");
   const double x = std::round(image.x + image.width * 0.62);
   const double y = std::round(image.y + image.height * 0.4);
-  ui_test.edit([&] {
-    const int revision = revision_of(editor.state());
-    // Again where it may have come as two clicks, which only select.
-    while (!editor.double_click(x, y) && revision_of(editor.state()) == revision) {
-    }
-  });
-  CHECK(apart_px(editor.place("viewport/waypoint/0/1"), x, y) < kMouse_px);
+  add_over_footage(ui_test, x, y, 1);
   const Json before = ui_test.saved(project);
   REQUIRE(waypoint_frames(before) == std::vector<double>{0, 60, 150, 199});
 
   ui_test.edit([&] { editor.drag(x, y, x - 90, y + 40); });
   CHECK(apart_px(editor.place("viewport/waypoint/0/1"), x - 90, y + 40) < kMouse_px);
-  ui_test.image("footage");
   const Json after = ui_test.saved(project);
   const glm::dvec3 from_m = waypoints_m(before)[1];
   const glm::dvec3 to_m = waypoints_m(after)[1];
@@ -117,28 +76,25 @@ void add_over_footage(UiTest& ui_test, const fs::path& project) {
 }
 
 // Adds one in the world view at frame 110, by the menu of a place beside the trajectory.
-void add_in_world(UiTest& ui_test, const fs::path& project) {
+void place_in_world(UiTest& ui_test, const fs::path& project) {
   EditorDriver& editor = ui_test.editor();
   ui_test.scrub_to(110);
   const ScreenPlace near = editor.place("world/waypoint/0/2");
-  const double x = std::round(near.center_x() + 45);
-  const double y = std::round(near.center_y() - 30);
-  editor.click(x, y, 3);
-  ui_test.edit([&] { editor.click("world/menu/add waypoint"); });
-  CHECK(apart_px(editor.place("world/waypoint/0/2"), x, y) < kMouse_px);
+  add_in_world(ui_test, std::round(near.center_x() + 45), std::round(near.center_y() - 30), 2);
   CHECK(waypoint_frames(ui_test.saved(project)) == std::vector<double>{0, 60, 110, 150, 199});
 }
 
 // Picks both that were added in the world view and moves each by an arrow.
 void drag_by_arrows(UiTest& ui_test, const fs::path& project) {
   const std::vector<glm::dvec3> before = waypoints_m(json_of(project));
-  drag_arrow(ui_test, "world/waypoint/0/1", "z");
-  ui_test.image("world");
+  pick_in_world(ui_test, "world/waypoint/0/1");
+  drag_handle(ui_test, "z");
   const std::vector<glm::dvec3> between = waypoints_m(ui_test.saved(project));
   check_moved_along(before[1], between[1], 2);
   CHECK(between[2] == before[2]);
 
-  drag_arrow(ui_test, "world/waypoint/0/2", "y");
+  pick_in_world(ui_test, "world/waypoint/0/2");
+  drag_handle(ui_test, "y");
   const std::vector<glm::dvec3> after = waypoints_m(ui_test.saved(project));
   check_moved_along(between[2], after[2], 1);
   CHECK(after[1] == between[1]);
@@ -178,7 +134,6 @@ void change_light(UiTest& ui_test, const fs::path& project) {
   editor.click("inspector/Light");
   editor.settle();
   ui_test.edit([&] { editor.click("inspector/light preset Left"); });
-  ui_test.image("light");
   const Json after = ui_test.saved(project)["light"];
   CHECK(after["position_m"] != before["position_m"]);
   // To the left of a camera that looks along X: no nearer to ahead than to behind, and Y negative.
@@ -186,49 +141,15 @@ void change_light(UiTest& ui_test, const fs::path& project) {
   CHECK(after["position_m"][0].get<double>() == doctest::Approx(camera_m(140).x).epsilon(0.001));
 }
 
-void look_at_stages(UiTest& ui_test) {
-  EditorDriver& editor = ui_test.editor();
-  const int revision = revision_of(editor.state());
-  editor.click("tab/stages");
-  (void)editor.place("stages/ready");
-  ui_test.image("stages-direct");
-  editor.click("stages/method");
-  editor.click("stages/method/classic");
-  editor.settle();
-  (void)editor.place("stages/ready");
-  ui_test.image("stages-classic");
-  CHECK(revision_of(editor.state()) == revision);  // looking changes nothing
-  editor.click("tab/footage");
-  (void)editor.place("viewport");
-}
-
 void export_both_ways(UiTest& ui_test, const fs::path& project) {
-  EditorDriver& editor = ui_test.editor();
   const fs::path here = ui_test.folder() / "from editor";
   const fs::path there = ui_test.folder() / "from command line";
-  editor.key("ctrl+e");
-  ui_test.fill_in("export/folder", here.string());
-  ui_test.image("export");
-  editor.click("export/go");
-  (void)editor.place("export/hide");
-  editor.settle();
-  ui_test.image("exporting");
-  // It reports its progress some ten times a second; the probe does not show it.
-  editor.wait_for("the export's end", [&](const Json& now) { return now["places"].contains("export/again"); });
-  ui_test.image("exported");
-  editor.click("export/close");
+  export_in_window(ui_test, here);
   std::ostringstream command;  // paths come quoted
   command << build_dir() / "sigs"
           << " export " << project << " --out " << there << " --progress none";
-  const Run finished = run_together(command.str());
-  REQUIRE_MESSAGE(finished.status == 0, finished.out);
-  REQUIRE(files_below(here) == std::vector<std::string>{"head-on.masks.mkv", "head-on.mkv", "head-on.xml"});
-  REQUIRE(files_below(there) == files_below(here));
-  for (const std::string& file : files_below(here)) {
-    const std::string bytes = text_of(here / file);
-    CHECK(bytes.size() > 1000);
-    CHECK_MESSAGE(bytes == text_of(there / file), file << " differs");
-  }
+  run_well(command.str());
+  check_same_files(here, there, {"head-on.masks.mkv", "head-on.mkv", "head-on.xml"});
 }
 
 }  // namespace
@@ -243,14 +164,14 @@ TEST_CASE("a person authors an encounter, and the command line exports the same 
   // The model's image comes after those of the frames that are made ahead.
   editor.wait_for("rest", [](const Json& now) { return !now.value("busy", true); });
   (void)editor.place("inspector/model image");
+  ui_test.dismiss_messages();
   ui_test.image("open");
-  add_over_footage(ui_test, project);
-  add_in_world(ui_test, project);
+  place_over_footage(ui_test, project);
+  place_in_world(ui_test, project);
   drag_by_arrows(ui_test, project);
   undo_and_redo_all(ui_test, project, first_revision, 5);
   ui_test.scrub_to(140);
   change_light(ui_test, project);
-  look_at_stages(ui_test);
   check_files_still_meant(project, ui_test.saved(project));
   export_both_ways(ui_test, project);
   editor.key("ctrl+q");

@@ -61,6 +61,7 @@ TEST_CASE("a person makes a project of a video in one dialog, and the intruder i
   const fs::path project = ui_test.folder() / "flights/over the fields.json";
   editor.start({});
   begin(ui_test, video);
+  ui_test.wait_for_place("gallery image/Quadcopter");  // the last of them
   ui_test.image("dialog");
   CHECK_FALSE(fs::exists(project));
   editor.key("Return");

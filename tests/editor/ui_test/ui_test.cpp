@@ -51,6 +51,10 @@ void UiTest::image(const std::string& what) {
   editor_.screenshot(build_dir() / "screenshots" / (name_ + "-" + what + ".png"));
 }
 
+void UiTest::dismiss_messages() {
+  while (editor_.has_place("toast/0")) editor_.click("toast/0");
+}
+
 void UiTest::wait_for_place(const std::string& place) {
   editor_.wait_for(place, [&](const nlohmann::json& now) { return shows(now, place); });
 }

@@ -26,6 +26,9 @@ class UiTest {
   // Into the build folder's screenshots/, with the mouse away from anything it would highlight.
   void image(const std::string& what);
 
+  // Closes the messages, which would cover what is looked at.
+  void dismiss_messages();
+
   // Until the interface shows the element of this name.
   void wait_for_place(const std::string& place);
 
