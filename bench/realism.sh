@@ -2,6 +2,7 @@
 # Whether inserted aircraft can be told from real ones: realism/README.md.
 #   bench/realism.sh [--init] [--matched] [--best] [BUILD]             the clips, at the defaults; some minutes on two processors
 #   bench/realism.sh stills|trackers [--matched] [--best] [BUILD]
+#   bench/realism.sh lit --init [BUILD]     how bright the intruder is beside a real one, before and after `sigs appearance --lit-like`
 #   --steps    trackers: what each equality of the real and the inserted target changes, of the last settings; some minutes more
 #   --views N  of each inserted target, of which the one with the silhouette as large as the real one's is taken
 #   --matched  also by the settings that `sigs appearance` finds in each clip
@@ -12,7 +13,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 what=clips
-case "${1:-}" in clips | stills | trackers) what=$1 && shift ;; esac
+case "${1:-}" in clips | stills | trackers | lit) what=$1 && shift ;; esac
 matched= best= init= further=()
 while [[ "${1:-}" == --* ]]; do
   case "$1" in
@@ -32,6 +33,7 @@ folder=$build/realism
 mkdir -p "$folder/init"
 options=(--shake "${further[@]}")
 [ $what = clips ] || options+=("--$what")
+[ $what != lit ] || options+=(--frames 2)
 if [ -n "$init" ]; then
   for clip in "$data"/track/V_{AIRPLANE,HELICOPTER}_*.mp4; do
     to=$folder/init/$(basename "${clip%.*}").json
@@ -53,4 +55,5 @@ if [ -n "$matched" ]; then
 fi
 if [ -n "$best" ]; then options+=(--settings-from "best=$folder/matched,bench/realism/best.json"); fi
 "$build/bench_realism" "$folder" "${options[@]}"
+[ $what != lit ] || exit 0
 if [ $what = trackers ]; then cat "$folder/trackers.md"; else cat "$folder/auc.md" "$folder/medians.md"; fi

@@ -21,6 +21,7 @@
 #include "cli/output_files.h"
 #include "cli/process.h"
 #include "cli/progress.h"
+#include "comparison/lit_like.h"
 #include "first_project/first_project.h"
 #include "project/json.h"
 #include "scene/opened_project.h"
@@ -36,7 +37,8 @@ constexpr const char* kAppearanceFooter =
     "Examples:\n"
     "  sigs appearance flight.mp4\n"
     "  sigs appearance flight.mp4 --out settings.json --plot appearance.png\n"
-    "  sigs appearance encounter.json --into encounter.json";
+    "  sigs appearance encounter.json --into encounter.json\n"
+    "  sigs appearance encounter.json --lit-like 312,204,36,24 --frame 100 --into encounter.json";
 
 struct AppearanceOptions {
   fs::path file;
@@ -46,6 +48,8 @@ struct AppearanceOptions {
   fs::path out;   // empty: not written
   fs::path plot;  // likewise
   fs::path into;
+  std::string lit_like;  // "X,Y,W,H"; empty: the look of the footage is found
+  std::optional<int> frame;
   bool json = false;
   bool force = false;
   std::string progress = "auto";
@@ -120,7 +124,8 @@ Json::json_pointer place_of(const std::string& key) {
 }
 
 // What apply() sets, by its keys, nested as in a project file.
-Json settings_of(const Appearance& found) {
+template <class Found>
+Json settings_of(const Found& found) {
   Project project;
   apply(found, project);
   const Json all = Json::parse(text_of(project));
@@ -132,8 +137,39 @@ Json settings_of(const Appearance& found) {
   return settings;
 }
 
+std::string settings_lines(const Json& settings, const std::vector<std::string>& keys) {
+  std::string text = "\nsettings:\n";
+  for (const std::string& key : keys) text += fmt::format("{} = {}\n", key, settings.at(place_of(key)).dump());
+  return text;
+}
+
 Json number_or_null(bool is_there, double number) {
   return is_there ? Json(number) : Json();
+}
+
+Json quantities_json(const std::vector<AppearanceQuantity>& quantities) {
+  Json all = Json::array();
+  for (const AppearanceQuantity& quantity : quantities) {
+    const Estimate& estimate = quantity.estimate;
+    all.push_back({{"name", quantity.name},
+                   {"unit", quantity.unit},
+                   {"value", estimate.value},
+                   {"sd", number_or_null(estimate.is_known, estimate.sd)},
+                   {"is_known", estimate.is_known},
+                   {"why", estimate.why},
+                   {"how", quantity.how},
+                   {"setting", quantity.setting.empty() ? Json() : Json(quantity.setting)}});
+  }
+  return all;
+}
+
+std::string lines_of(const std::vector<AppearanceQuantity>& quantities) {
+  std::size_t widest = 0;
+  for (const AppearanceQuantity& quantity : quantities) widest = std::max(widest, quantity.name.size());
+  std::string text;
+  for (const AppearanceQuantity& quantity : quantities)
+    text += fmt::format("{:{}}  {}\n", quantity.name, widest, text_of(quantity));
+  return text;
 }
 
 // Everything, for programs.
@@ -144,17 +180,7 @@ std::string json_text(const Appearance& found) {
   report["height_px"] = found.footage.size_px.height;
   report["codec"] = found.footage.codec;
   report["frames_used"] = found.frames_used;
-  for (const AppearanceQuantity& quantity : quantities_of(found)) {
-    const Estimate& estimate = quantity.estimate;
-    report["quantities"].push_back({{"name", quantity.name},
-                                    {"unit", quantity.unit},
-                                    {"value", estimate.value},
-                                    {"sd", number_or_null(estimate.is_known, estimate.sd)},
-                                    {"is_known", estimate.is_known},
-                                    {"why", estimate.why},
-                                    {"how", quantity.how},
-                                    {"setting", quantity.setting.empty() ? Json() : Json(quantity.setting)}});
-  }
+  report["quantities"] = quantities_json(quantities_of(found));
   report["settings"] = settings_of(found);
   return report.dump(2) + "\n";
 }
@@ -163,16 +189,8 @@ std::string table_text(const Appearance& found) {
   std::string text =
       fmt::format("{}: {}, {}, {} used\n", found.footage.path.string(), image_size_text(found.footage.size_px),
                   found.footage.codec, count_text(found.frames_used, "frame"));
-  std::size_t widest = 0;
-  const std::vector<AppearanceQuantity> quantities = quantities_of(found);
-  for (const AppearanceQuantity& quantity : quantities) widest = std::max(widest, quantity.name.size());
-  for (const AppearanceQuantity& quantity : quantities)
-    text += fmt::format("{:{}}  {}\n", quantity.name, widest, text_of(quantity));
-  text += "\nsettings:\n";
-  const Json settings = settings_of(found);
-  for (const std::string& key : applied_settings(found))
-    text += fmt::format("{} = {}\n", key, settings.at(place_of(key)).dump());
-  return text;
+  text += lines_of(quantities_of(found));
+  return text + settings_lines(settings_of(found), applied_settings(found));
 }
 
 // The names are taken before the footage is read, so that what stands in their way shows at once.
@@ -192,13 +210,14 @@ class Outputs {
     return {};
   }
 
-  Result<void> write(const Appearance& found) {
+  // The settings, and what --plot draws.
+  Result<void> write(const Json& settings, const std::vector<Panel>& panels) {
     if (!out_.empty())
-      if (const Result<void> done = write_bytes(out_, settings_of(found).dump(2) + "\n"); !done)
+      if (const Result<void> done = write_bytes(out_, settings.dump(2) + "\n"); !done)
         return fail(staged_.with_final_names(done.error()));
     if (!plot_.empty()) {
       std::vector<uchar> bytes;
-      image_codecs::imencode(".png", panel_page(panels_of(found)), bytes);
+      image_codecs::imencode(".png", panel_page(panels), bytes);
       if (const Result<void> done = write_bytes(plot_, std::string(bytes.begin(), bytes.end())); !done)
         return fail(staged_.with_final_names(done.error()));
     }
@@ -212,8 +231,64 @@ class Outputs {
   fs::path plot_;
 };
 
+// Puts what was found into the project of --into, where there is one.
+template <class Found>
+Result<void> write_into(const Found& found, std::optional<Project>& into, const AppearanceOptions& options) {
+  if (!into) return {};
+  apply(found, *into);
+  if (const Result<void> saved = write_project(*into, options.into, true); !saved) return saved;
+  std::fprintf(stderr, "written into %s\n", options.into.c_str());
+  return {};
+}
+
+Result<void> find_light(const Project& project, std::optional<Project>& into, const AppearanceOptions& options,
+                        Outputs& outputs) {
+  const Result<Box> box = box_of_option("--lit-like", options.lit_like);
+  if (!box) return fail(box.error());
+  if (!options.frame) return fail("--lit-like", "is in one frame; name it with --frame", ErrorKind::usage);
+  Progress progress(progress_style(options.progress));
+  const LitLikeControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+                               .cancel = &interrupt_flag()};
+  const Result<LitLike> lit = lit_like(project, *options.frame, *box, control);
+  progress.end();
+  if (!lit) return fail(lit.error());
+  const Json settings = settings_of(*lit);
+  if (const Result<void> written = outputs.write(settings, {}); !written) return written;
+  if (const Result<void> written = write_into(*lit, into, options); !written) return written;
+  const Json report{{"quantities", quantities_json(quantities_of(*lit))}, {"settings", settings}};
+  const std::string text = options.json
+                               ? report.dump(2) + "\n"
+                               : lines_of(quantities_of(*lit)) + settings_lines(settings, applied_settings(*lit));
+  std::fputs(text.c_str(), stdout);
+  return {};
+}
+
+Result<void> find_look(const std::optional<Project>& project, std::optional<Project>& into,
+                       const AppearanceOptions& options, Outputs& outputs) {
+  const Result<AppearanceFrames> frames = frames_of(options, project);
+  if (!frames) return fail(frames.error());
+  const Result<Appearance> found = found_in(*frames, project, options);
+  if (!found) return fail(found.error());
+  if (const Result<void> written = outputs.write(settings_of(*found), panels_of(*found)); !written) return written;
+  if (const Result<void> written = write_into(*found, into, options); !written) return written;
+  std::fputs((options.json ? json_text(*found) : table_text(*found)).c_str(), stdout);
+  return {};
+}
+
+// What --lit-like does not go with.
+Result<void> check_lit_like(const AppearanceOptions& options) {
+  if (options.lit_like.empty())
+    return options.frame ? fail("--frame", "goes with --lit-like", ErrorKind::usage) : Result<void>();
+  if (!is_project_file(options.file))
+    return fail("--lit-like", "needs a project, whose intruder is to be lit", ErrorKind::usage);
+  if (!options.plot.empty() || !options.frames.empty() || options.every != 0)
+    return fail("--lit-like", "looks at one frame; leave --plot, --frames and --every out", ErrorKind::usage);
+  return {};
+}
+
 Result<void> run(const AppearanceOptions& options) {
   if (const Result<void> named = check_names(options); !named) return named;
+  if (const Result<void> fits = check_lit_like(options); !fits) return fits;
   std::optional<Project> project;
   if (is_project_file(options.file)) {
     if (options.timing != SequenceTiming{})
@@ -229,21 +304,11 @@ Result<void> run(const AppearanceOptions& options) {
     if (!read) return fail(read.error());
     into = std::move(*read);
   }
-  const Result<AppearanceFrames> frames = frames_of(options, project);
-  if (!frames) return fail(frames.error());
   defer_interrupts();
   Outputs outputs(options);
   if (const Result<void> free = outputs.reserve(); !free) return free;
-  const Result<Appearance> found = found_in(*frames, project, options);
-  if (!found) return fail(found.error());
-  if (const Result<void> written = outputs.write(*found); !written) return written;
-  if (into) {
-    apply(*found, *into);
-    if (const Result<void> saved = write_project(*into, options.into, true); !saved) return saved;
-    std::fprintf(stderr, "written into %s\n", options.into.c_str());
-  }
-  std::fputs((options.json ? json_text(*found) : table_text(*found)).c_str(), stdout);
-  return {};
+  return options.lit_like.empty() ? find_look(project, into, options, outputs)
+                                  : find_light(*project, into, options, outputs);
 }
 
 }  // namespace
@@ -265,6 +330,14 @@ Command add_appearance_command(CLI::App& program) {
   command->add_option("--into", options->into, "put the settings into this project, which is rewritten")
       ->option_text("PROJECT")
       ->check(not_empty());
+  command
+      ->add_option(
+          "--lit-like", options->lit_like,
+          "instead: the exposure with which the project's intruder is as bright as what is in this box of --frame")
+      ->option_text("X,Y,W,H");
+  command->add_option("--frame", options->frame, "the frame of --lit-like, from 0")
+      ->option_text("N")
+      ->check(CLI::Range(0, 10'000'000));
   command->add_option("--plot", options->plot, "draw why; a PNG")->option_text("FILE")->check(output_path());
   command->add_flag("--json", options->json, "print all of it as JSON");
   command->add_flag("--force", options->force, "overwrite what is there");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <memory>
 #include <opencv2/imgproc.hpp>
@@ -62,21 +61,6 @@ struct CompareColumn {
   std::optional<MeasuredTarget> target;  // none: not to be told from the background
 };
 
-// Numbers separated by commas, as many as `count`.
-template <std::size_t count>
-std::optional<std::array<double, count>> numbers_of(const std::string& text) {
-  const auto fields = csv_fields(text);
-  std::array<double, count> numbers{};
-  if (fields.size() != count) return std::nullopt;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string_view field = fields[i];
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), numbers[i]);
-    if (error != std::errc() || end != field.data() + field.size() || !(std::abs(numbers[i]) < 1e6))
-      return std::nullopt;
-  }
-  return numbers;
-}
-
 using Boxes = std::vector<std::optional<Box>>;
 
 Result<Boxes> boxes_of(const CompareOptions& options) {
@@ -85,11 +69,10 @@ Result<Boxes> boxes_of(const CompareOptions& options) {
                 ErrorKind::usage);
   if (!options.boxes.empty()) return read_target_boxes(options.boxes);
   if (!options.frame) return fail("--box", "is the aircraft in one frame; name it with --frame", ErrorKind::usage);
-  const auto numbers = numbers_of<4>(options.box);
-  if (!numbers || (*numbers)[2] <= 0 || (*numbers)[3] <= 0)
-    return fail("--box " + options.box, "expected X,Y,W,H in pixels, with width and height above 0", ErrorKind::usage);
+  const Result<Box> box = box_of_option("--box", options.box);
+  if (!box) return fail(box.error());
   Boxes boxes(static_cast<std::size_t>(*options.frame) + 1);
-  boxes.back() = Box{(*numbers)[0] - 0.5, (*numbers)[1] - 0.5, (*numbers)[2], (*numbers)[3]};
+  boxes.back() = *box;
   return boxes;
 }
 
@@ -136,7 +119,7 @@ Result<RealTarget> real_target(const CompareOptions& options) {
 
 Result<cv::Point2d> place_of(const CompareOptions& options, const RealTarget& real) {
   if (!options.at.empty()) {
-    const auto numbers = numbers_of<2>(options.at);
+    const auto numbers = numbers_of(options.at, 2);
     if (!numbers) return fail("--at " + options.at, "expected X,Y in pixels", ErrorKind::usage);
     return cv::Point2d((*numbers)[0], (*numbers)[1]);
   }

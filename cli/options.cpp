@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "base/csv.h"
 #include "base/ensure.h"
 #include "base/paths.h"
 #include "base/text.h"
@@ -159,6 +161,24 @@ CLI::Validator output_path() {
                                : "";
           },
           ""};
+}
+
+std::optional<std::vector<double>> numbers_of(const std::string& text, std::size_t count) {
+  std::vector<double> numbers;
+  for (const std::string_view field : csv_fields(text)) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
+    if (error != std::errc() || end != field.data() + field.size() || !(std::abs(number) < 1e6)) return std::nullopt;
+    numbers.push_back(number);
+  }
+  return numbers.size() == count ? std::optional(numbers) : std::nullopt;
+}
+
+Result<Box> box_of_option(const std::string& option, const std::string& text) {
+  const auto numbers = numbers_of(text, 4);
+  if (!numbers || (*numbers)[2] <= 0 || (*numbers)[3] <= 0)
+    return fail(option + " " + text, "expected X,Y,W,H in pixels, with width and height above 0", ErrorKind::usage);
+  return Box{(*numbers)[0] - 0.5, (*numbers)[1] - 0.5, (*numbers)[2], (*numbers)[3]};
 }
 
 CLI::Validator from_to(double low, double high) {

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <map>
 #include <opencv2/core/types.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "base/result.h"
 #include "export/export_project.h"
 #include "project/project.h"
@@ -56,6 +58,13 @@ void add_setting_option(CLI::App& command, const SettingOption& option, OptionSe
 
 // The value of --size, as in "1280x960". Error usage.
 [[nodiscard]] Result<cv::Size> size_of_option(const std::string& text);
+
+// Numbers separated by commas, as many as `count`, each below a million in size; none where the text says anything
+// else.
+[[nodiscard]] std::optional<std::vector<double>> numbers_of(const std::string& text, std::size_t count);
+
+// The value of --box, X,Y,W,H: the first column and row, the width and height in pixels. Error usage.
+[[nodiscard]] Result<Box> box_of_option(const std::string& option, const std::string& text);
 
 // A number of this range. CLI::Range lets NaN through.
 [[nodiscard]] CLI::Validator from_to(double low, double high);

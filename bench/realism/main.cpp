@@ -8,6 +8,7 @@
 
 #include "accuracy/csv.h"
 #include "base/threads.h"
+#include "realism/lit.h"
 #include "realism/report.h"
 #include "realism/samples.h"
 #include "realism/sheets.h"
@@ -30,6 +31,7 @@ struct Options {
   bool stills = false;
   bool trackers = false;
   bool steps = false;
+  bool lit = false;
 };
 
 std::vector<LookSettings> settings_of(const Options& options) {
@@ -114,6 +116,8 @@ int main(int count, char** arguments) {
   app.add_flag("--tuning", options.tuning_only, "the tuning clips alone");
   app.add_flag("--stills", options.stills, "the stills in place of the clips");
   app.add_flag("--trackers", options.trackers, "instead: how OpenCV's trackers follow real and inserted targets");
+  app.add_flag("--lit", options.lit,
+               "instead: how bright the intruder is beside a real target before and after lit_like()");
   app.add_option("--views", options.views, "of each sample, of which the one as large as the real target is taken")
       ->check(CLI::Range(1, 100));
   app.add_flag("--steps", options.steps, "with --trackers: what each equality of real and inserted target changes");
@@ -132,6 +136,10 @@ int main(int count, char** arguments) {
                                .frames_per_clip = options.frames,
                                .views = options.views,
                                .steps = options.steps};
+  if (options.lit) {
+    compare_lit(clips, sampling, options.jobs);
+    return 0;
+  }
   if (options.trackers) {
     compare_trackers(clips, sampling, options.jobs, folder);
     return 0;

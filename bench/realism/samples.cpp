@@ -53,9 +53,9 @@ std::vector<ModelSettings> models_of(bool is_helicopter) {
     return {at(ours / "helicopter/helicopter.obj"), as_flight_gear("helicopter-dauphin/helicopter-dauphin.obj")};
   return {at(ours / "airliner/airliner.obj"),
           at(ours / "light-aircraft/light-aircraft.obj"),
-          at(ours / "airliner-grey/airliner.obj"),
-          at(ours / "light-aircraft-grey/light-aircraft.obj"),
-          at(ours / "light-aircraft-dark/light-aircraft.obj"),
+          at(ours / "airliner-grey/airliner-grey.obj"),
+          at(ours / "light-aircraft-grey/light-aircraft-grey.obj"),
+          at(ours / "light-aircraft-dark/light-aircraft-dark.obj"),
           as_flight_gear("boeing737-300/boeing737-300.obj"),
           as_flight_gear("cessna172p-hires/cessna172p-hires.obj")};
 }

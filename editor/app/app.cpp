@@ -113,6 +113,7 @@ App::App(Window& window, Settings settings, ProbeWriter probe)
       ego_motion_(edits_, [] { Window::wake(); }),
       horizon_watch_([] { Window::wake(); }),
       appearance_(edits_, [] { Window::wake(); }),
+      light_(edits_, [] { Window::wake(); }),
       scoring_([] { Window::wake(); }),
       shell_(document_, settings_,
              {.samples = resource_file("projects").value_or(std::filesystem::path()),
@@ -200,6 +201,7 @@ void App::draw(const PreviewOutput& shown) {
                             .scored = scored_.get(),
                             .ego_motion = &ego_motion_.state(),
                             .appearance = &appearance_.state(),
+                            .light = &light_.state(),
                             .horizons = horizon_watch_.seen(),
                             .guesses = &shell_.guesses()};
   ask_scores(context);
@@ -280,6 +282,9 @@ void App::handle(const Request& request) {
   if (std::holds_alternative<StopCameraMotion>(request)) ego_motion_.stop();
   if (std::holds_alternative<MatchFootage>(request)) appearance_.start(document_);
   if (std::holds_alternative<StopMatchingFootage>(request)) appearance_.stop();
+  if (std::holds_alternative<ShowLightLike>(request)) layout_.show_light_like();
+  if (const auto* wanted = std::get_if<LightLike>(&request)) light_.start(document_, *wanted);
+  if (std::holds_alternative<StopLightLike>(request)) light_.stop();
   if (std::holds_alternative<ShowHorizon>(request)) layout_.show_horizon();
   if (const auto* wanted = std::get_if<Play>(&request)) play(wanted->speed);
   if (std::holds_alternative<TogglePlay>(request)) play(playback_.playing() ? 0 : 1);
@@ -318,6 +323,7 @@ void App::update(double now_s, bool something_happened) {
   ego_motion_.follow(document_);
   horizon_watch_.follow(shown.scene);
   appearance_.follow(document_);
+  light_.follow(document_);
   window_.begin(settings_);
   draw(shown);
   window_.end();
@@ -343,6 +349,7 @@ void App::update(double now_s, bool something_happened) {
     own_body_.forget();
     ego_motion_.forget();
     appearance_.forget();
+    light_.forget();
     results_.clear();
     scored_.reset();
     scoring_.want({});

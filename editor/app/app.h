@@ -131,6 +131,7 @@ class App {
   EgoMotionSession ego_motion_;
   HorizonWatch horizon_watch_;
   AppearanceSession appearance_;
+  LightSession light_;
   ResultFiles results_;
   Scoring scoring_;
   // Of this update; null: no results are loaded.

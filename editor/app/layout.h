@@ -23,11 +23,16 @@ class Layout {
   // Height of the timeline in screen pixels where the panels have room_px of height in all: what the settings want, as
   // far as the images above keep some room.
   [[nodiscard]] static float timeline_height_px(const Settings& settings, float room_px);
-  // Brings the own-body view to the front, or the footage with the horizon line over it, in the next update.
+  // Brings the own-body view to the front, or the footage with the horizon line over it or ready for a box around
+  // something lit, in the next update.
   void show_own_body() { wants_own_body_ = true; }
   void show_horizon() {
     wants_footage_ = true;
     viewport_.show_horizon();
+  }
+  void show_light_like() {
+    wants_footage_ = true;
+    viewport_.ask_for_lit_box();
   }
 
  private:

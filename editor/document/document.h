@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/image.h"
 #include "base/result.h"
 #include "editor/document/content_id.h"
 #include "project/project.h"
@@ -121,6 +122,15 @@ struct StopCameraMotion {};
 // Begins to find how the footage looks, in the background, to make the intruders look like it; stops that.
 struct MatchFootage {};
 struct StopMatchingFootage {};
+// Over the footage a box is drawn around something that the sun lights, and LightLike is asked for.
+struct ShowLightLike {};
+// Begins to find the light on what is in a box of a frame of the footage (continuous pixels), in the background; stops
+// that.
+struct LightLike {
+  int frame = 0;
+  Box box;
+};
+struct StopLightLike {};
 // Whether the inspector shows every setting, or those that most projects need.
 struct ShowAllSettings {
   bool all = true;
@@ -154,11 +164,12 @@ struct ShowMessage {
 };
 
 // What the program does, and the document does not know of: App and what it owns handle them.
-using Request = std::variant<OpenProject, NewProject, ShowNewProject, SaveProject, SaveProjectAs, CloseProject, Quit,
-                             AskForFile, Play, TogglePlay, SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp,
-                             ShowSettings, ShowAbout, ShowMissingFiles, ToggleFullScreen, EstimateCameraMotion,
-                             StopCameraMotion, MatchFootage, StopMatchingFootage, LoadResults, RemoveResults,
-                             ShowResults, ShowAllSettings, ShowModels, ClearMessages, ShowMessage>;
+using Request =
+    std::variant<OpenProject, NewProject, ShowNewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile,
+                 Play, TogglePlay, SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp, ShowSettings, ShowAbout,
+                 ShowMissingFiles, ToggleFullScreen, EstimateCameraMotion, StopCameraMotion, MatchFootage,
+                 StopMatchingFootage, ShowLightLike, LightLike, StopLightLike, LoadResults, RemoveResults, ShowResults,
+                 ShowAllSettings, ShowModels, ClearMessages, ShowMessage>;
 
 // Views queue here what they want while they draw, so that the project does not change under the views that are drawn
 // after them. After that the document applies the edits and the program handles the requests, in the order in which

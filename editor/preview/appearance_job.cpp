@@ -18,4 +18,9 @@ Result<Appearance> estimated_appearance(const AppearanceRequest& request, const 
                              {.progress = control.progress, .cancel = control.cancel});
 }
 
+Result<LitLike> found_light(const LightRequest& request, const JobControl& control) {
+  return lit_like(request.project, request.frame, request.box,
+                  {.progress = control.progress, .cancel = control.cancel});
+}
+
 }  // namespace sigs::editor

@@ -62,6 +62,8 @@ struct ViewContext {
   const EgoMotionState* ego_motion = nullptr;
   // Of how the footage looks, likewise.
   const AppearanceState* appearance = nullptr;
+  // Of the light on something in the footage, likewise.
+  const LightState* light = nullptr;
   // The horizon in the shown scene's footage. Null: not known, or not yet.
   std::shared_ptr<const SeenHorizons> horizons = {};
   // What was guessed of this project when it was made, by setting. Null: nothing.

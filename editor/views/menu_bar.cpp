@@ -82,6 +82,9 @@ void draw_edit_menu(const ViewContext& context, bool has_project) {
   const bool matches_footage = context.appearance != nullptr && context.appearance->is_running();
   if (item(context, "Match the footage", "", has_project && !matches_footage)) context.edits.ask(MatchFootage{});
   if (matches_footage && item(context, "Stop matching the footage", "")) context.edits.ask(StopMatchingFootage{});
+  const bool looks_at_light = context.light != nullptr && context.light->is_running();
+  if (item(context, "Lit like this...", "", has_project && !looks_at_light)) context.edits.ask(ShowLightLike{});
+  if (looks_at_light && item(context, "Stop finding the light", "")) context.edits.ask(StopLightLike{});
   ImGui::Separator();
   if (item(context, "Add waypoint here", "Enter", has_project && !context.project().intruders.empty()))
     add_waypoint_here(context);
@@ -222,6 +225,7 @@ void draw_menu_bar(const ViewContext& context, const MenuBarContent& content, Se
   right.show_export(content.exporting);
   right.show_estimate("camera motion progress", "Camera motion", context.ego_motion);
   right.show_estimate("matching progress", "Matching the footage", context.appearance);
+  right.show_estimate("light progress", "Finding the light", context.light);
   if (content.has_project) {
     if (context.shown.scene) right.show_problems(context.shown.scene->draft.problems);
     right.show_name();

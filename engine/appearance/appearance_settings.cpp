@@ -37,10 +37,6 @@ const char* unit_of(QuantiserKind kind) {
   return "";
 }
 
-Estimate in_degrees(const Estimate& rad) {
-  return {deg_of_rad(rad.value), deg_of_rad(rad.sd), rad.is_known, rad.why};
-}
-
 void add_color(std::vector<AppearanceQuantity>& list, const std::string& name, const std::array<Estimate, 3>& color,
                const std::string& setting) {
   const char* const kParts[] = {", red", ", green", ", blue"};

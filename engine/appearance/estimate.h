@@ -17,4 +17,7 @@ struct Estimate {
 // "0.45 +- 0.03 px", or "not known: blank sky; 0.45 px is taken".
 [[nodiscard]] std::string estimate_text(const Estimate& estimate, std::string_view unit);
 
+// The same of an angle, value and deviation in degrees.
+[[nodiscard]] Estimate in_degrees(const Estimate& rad);
+
 }  // namespace sigs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -95,6 +97,52 @@ TEST_CASE("a height that init guessed tells no visibility, the same height state
   write_file(project, changed.dump(2));
   REQUIRE(run_sigs("appearance " + project + " --frames 0-40 --into " + project).status == 0);
   CHECK(json_of(project)["appearance"]["haze"]["visibility_m"].is_number());
+}
+
+TEST_CASE("--lit-like finds the exposure that an aircraft in the footage was drawn with, and --into sets it") {
+  const TemporaryFolder folder;
+  const std::string out = folder.path().string();
+  // An airliner in a plain part of the sky, in light that is weak.
+  const auto at = [&](const char* path) { return (source_dir() / path).string(); };
+  nlohmann::json json = json_of(at("projects/crossing/crossing.json"));
+  json["name"] = "drawn";
+  json["footage"] = {{"video", at("assets/footage/sample.mp4")}, {"calibration", at("assets/calibrations/sample.xml")}};
+  json["light"] = {{"kind", "sun"}, {"exposure", 0.5}, {"sun", {{"azimuth_deg", 150}, {"elevation_deg", 30}}}};
+  json["intruders"][0]["model"]["file"] = at("assets/models/airliner/airliner.obj");
+  json["intruders"][0]["trajectory"]["waypoints"] = {{{"frame", 0}, {"position_m", {500, -200, -330}}},
+                                                     {{"frame", 199}, {"position_m", {640, 300, -330}}}};
+  write_file(folder / "drawn.json", json.dump());
+  const Run drawn = run_sigs("export " + (folder / "drawn.json").string() + " --out " + out +
+                             " --frames 136-138 --masks none --labels coco");
+  if (drawn.status == 69) return say_skipped(drawn.err);
+  REQUIRE_MESSAGE(drawn.status == 0, drawn.err);
+  const nlohmann::json drawn_box = json_of(folder / "drawn.coco.json")["annotations"][0]["bbox"];
+  // A project over that footage, in which the airliner is now real, with another aircraft and twice the light.
+  const std::string project = (folder / "over.json").string();
+  json["footage"] = {{"video", "drawn.mkv"}, {"calibration", at("assets/calibrations/sample.xml")}};
+  json["intruders"][0]["model"]["file"] = at("assets/models/light-aircraft/light-aircraft.obj");
+  json["light"]["exposure"] = 1;
+  write_file(project, json.dump());
+  const std::string box =
+      fmt::format(" --lit-like {},{},{},{} --frame 0", drawn_box[0].get<double>() - 6, drawn_box[1].get<double>() - 6,
+                  drawn_box[2].get<double>() + 12, drawn_box[3].get<double>() + 12);
+  const Run lit = run_sigs("appearance " + project + box + " --json --into " + project);
+  REQUIRE_MESSAGE(lit.status == 0, lit.err);
+  const nlohmann::json report = nlohmann::json::parse(lit.out);
+  const double exposure = json_of(project)["light"]["exposure"].get<double>();
+  CHECK(report["settings"]["light"]["exposure"] == exposure);
+  CHECK(exposure < 0.8);  // from 1 to about 0.5; paint and view are not known
+  CHECK(exposure > 0.3);
+
+  CHECK(run_sigs("appearance " + sample() + box).status == 64);
+  CHECK(run_sigs("appearance " + project + " --lit-like 760,362,60,34").status == 64);
+  CHECK(run_sigs("appearance " + project + " --frame 0").status == 64);
+  CHECK(run_sigs("appearance " + project + " --lit-like 760,362,60 --frame 0").status == 64);
+  CHECK(run_sigs("appearance " + project + " --lit-like 760,362,60,34 --frame 99").status == 64);
+  CHECK(run_sigs("appearance " + project + box + " --every 2").status == 64);
+  const Run empty = run_sigs("appearance " + project + " --lit-like 100,40,40,30 --frame 0");
+  CHECK(empty.status == 65);
+  CHECK_MESSAGE(has(empty.err, "nothing in the box"), empty.err);
 }
 
 TEST_CASE("a wrong request of appearance is refused and nothing is written") {

@@ -16,6 +16,24 @@ std::string summary_of(const Appearance& appearance) {
   return fmt::format("{} of {} quantities found in {} frames", found, quantities.size(), appearance.frames_used);
 }
 
+LightSession::LightSession(Edits& edits, std::function<void()> wake, Work work)
+    : EstimateSession(edits, std::move(wake), std::move(work), "The light could not be found") {}
+
+void LightSession::start(const Document& document, const LightLike& wanted) {
+  if (document.project().intruders.empty()) {
+    edits().ask(ShowMessage{"There is no intruder to be lit: add one first.", true});
+    return;
+  }
+  begin(document, {document.project(), wanted.frame, wanted.box});
+}
+
+void LightSession::use(const Document&, const std::shared_ptr<const LitLike>& found) {
+  edits().change("light like this", [found](Project& project) { apply(*found, project); });
+  edits().ask(ShowMessage{
+      fmt::format("As bright as what is in the box: exposure {:.2f} \u00b1 {:.2f}. The sun's direction stays.",
+                  found->exposure.value, found->exposure.sd)});
+}
+
 AppearanceSession::AppearanceSession(Edits& edits, std::function<void()> wake, Work work)
     : EstimateSession(edits, std::move(wake), std::move(work), "The footage could not be matched") {}
 

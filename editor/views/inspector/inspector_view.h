@@ -11,6 +11,7 @@
 #include "editor/views/inspector/appearance_block.h"
 #include "editor/views/inspector/encounter_block.h"
 #include "editor/views/inspector/problems.h"
+#include "editor/views/inspector/light_block.h"
 #include "editor/views/inspector/scene_blocks.h"
 #include "editor/views/inspector/trajectory.h"
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "editor/views/inspector/scene_blocks.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -8,172 +10,17 @@
 #include <filesystem>
 #include <numbers>
 #include <optional>
-#include <string_view>
 
-#include "base/pose.h"
 #include "base/text.h"
 #include "editor/document/field_edits.h"
 #include "editor/preview/thumbnails.h"
-#include "editor/views/inspector/scene_blocks.h"
-
-#include <fmt/format.h>
-
 #include "editor/views/shown_camera.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
-#include "scene/scene_at.h"
-#include "scene/scene_light.h"
 
 namespace sigs::editor {
-
-namespace {
-
-constexpr double kMinDistance_m = 1;
-constexpr double kMaxDistance_m = 1e7;
-constexpr double kUsualDistance_m = 4000;  // where the light was at the camera itself
-
-struct Preset {
-  const char* label;
-  const char* tooltip;
-  double bearing_deg;
-  double elevation_deg;
-};
-constexpr std::array<Preset, 4> kPresets{{
-    {"Behind", "30 degrees high in the camera's back: what it sees is lit from the front", 180, 30},
-    {"Overhead", "Straight above the camera", 0, 90},
-    {"Left", "30 degrees high to the left", -90, 30},
-    {"Right", "30 degrees high to the right", 90, 30},
-}};
-
-double wrapped_deg(double angle_deg) {
-  return angle_deg - 360 * std::ceil((angle_deg - 180) / 360);
-}
-
-void put_light(const ViewContext& context, const LightDirection& direction, const glm::dvec3& camera_m,
-               const std::string& gesture) {
-  // Centimetres are enough for a light, and keep numbers short.
-  const glm::dvec3 position_m = glm::round(position_of(direction, camera_m) * 100.0) / 100.0;
-  context.edits.change(
-      "move light", [=](Project& project) { put_value(project, "light.position_m", position_m); }, gesture);
-}
-
-// Its azimuth is from world X, as bearings are here; tenths of a degree are enough.
-void put_sun(const ViewContext& context, double bearing_deg, double elevation_deg) {
-  const double azimuth_deg = std::round(10 * wrapped_deg(bearing_deg)) / 10;
-  context.edits.change("turn sun", [=](Project& project) {
-    project.light.sun = {.azimuth_deg = azimuth_deg, .elevation_deg = elevation_deg};
-  });
-}
-
-bool slider(FieldRows& rows, const char* label, double& value, double low, double high, const char* format,
-            ImGuiSliderFlags flags) {
-  const float width = rows.begin_row(label);
-  ImGui::SetNextItemWidth(width);
-  ImGui::PushID(label);
-  const bool moved = ImGui::SliderScalar("##slider", ImGuiDataType_Double, &value, &low, &high, format,
-                                         flags | ImGuiSliderFlags_AlwaysClamp);
-  ImGui::PopID();
-  return moved;
-}
-
-}  // namespace
-
-LightBlock::Viewpoint LightBlock::viewpoint_of(const ViewContext& context) {
-  const CameraPose camera = camera_pose_at(context, time_of(context, context.document.playhead()));
-  return {camera.translation_m, attitude_of(camera.rotation).yaw_rad};
-}
-
-void LightBlock::draw_direction(const ViewContext& context, FieldRows& rows, const Viewpoint& viewpoint) {
-  LightDirection light = dragged_.value_or(direction_of(context.project().light.position_m, viewpoint.camera_m));
-  double bearing_deg = wrapped_deg(deg_of_rad(light.bearing_rad - viewpoint.camera_bearing_rad));
-  double elevation_deg = deg_of_rad(light.elevation_rad);
-  bool is_held = false;
-  bool has_moved = false;
-  const auto one = [&](const char* label, double& value, double low, double high, const char* format,
-                       ImGuiSliderFlags flags, const char* tooltip) {
-    has_moved |= slider(rows, label, value, low, high, format, flags);
-    context.ui_probe.note_item(std::string("inspector/light ") + label);
-    is_held |= ImGui::IsItemActive();
-    if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
-    tooltip_for_item(tooltip);
-  };
-  one("Bearing", bearing_deg, -180, 180, "%.0f°", 0,
-      "From the camera's heading, in the playhead's frame; to the right is positive. Ctrl+click to type.");
-  one("Elevation", elevation_deg, -90, 90, "%.0f°", 0, "Above the horizon. Ctrl+click to type.");
-  one("Distance", light.distance_m, kMinDistance_m, kMaxDistance_m, light.distance_m < 100 ? "%.1f m" : "%.0f m",
-      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat,
-      "From the camera. A light far away shines from one direction on everything.");
-  if (has_moved) {
-    light.bearing_rad = rad_of_deg(bearing_deg) + viewpoint.camera_bearing_rad;
-    light.elevation_rad = rad_of_deg(elevation_deg);
-    put_light(context, light, viewpoint.camera_m, "light direction");
-  }
-  dragged_ = is_held ? std::optional(light) : std::nullopt;
-}
-
-void LightBlock::draw_presets(const ViewContext& context, const Viewpoint& viewpoint) const {
-  const double now_m = direction_of(context.project().light.position_m, viewpoint.camera_m).distance_m;
-  const bool is_sun = context.project().light.kind == LightKind::sun;
-  ButtonFlow flow;
-  for (const Preset& preset : kPresets) {
-    const bool is_pressed = flow.button(preset.label, preset.tooltip);
-    if (is_pressed && is_sun)
-      put_sun(context, deg_of_rad(viewpoint.camera_bearing_rad) + preset.bearing_deg, preset.elevation_deg);
-    else if (is_pressed)
-      put_light(context,
-                {.bearing_rad = viewpoint.camera_bearing_rad + rad_of_deg(preset.bearing_deg),
-                 .elevation_rad = rad_of_deg(preset.elevation_deg),
-                 .distance_m = now_m >= kMinDistance_m ? now_m : kUsualDistance_m},
-                viewpoint.camera_m, "");
-    context.ui_probe.note_item(std::string("inspector/light preset ") + preset.label);
-  }
-}
-
-namespace {
-
-constexpr std::array<const char*, 4> kPointKeys{"light.kind", "light.position_m", "light.color", "light.ambient"};
-constexpr std::array<const char*, 3> kSunKeys{"light.kind", "light.sun.azimuth_deg", "light.sun.elevation_deg"};
-constexpr std::array<const char*, 4> kSunColorKeys{"light.color", "light.sky_color", "light.ground_color",
-                                                   "light.exposure"};
-
-RowOptions look_of_light(std::string_view key) {
-  RowOptions look;
-  look.is_color = key.ends_with("color");
-  return look;
-}
-
-// Where the sun stands in the playhead's frame, wherever that comes from.
-void note_sun(const ViewContext& context) {
-  const OpenedScene* const opened = context.shown.scene.get();
-  if (opened == nullptr || opened->draft.scene.light.kind != LightKind::sun) return;
-  const Sunlight sun = sunlight_at(opened->draft.scene, time_of(context, context.document.playhead()));
-  const double bearing_deg = deg_of_rad(std::atan2(sun.to_sun.y, sun.to_sun.x));
-  const double elevation_deg = deg_of_rad(std::asin(std::clamp(-sun.to_sun.z, -1.0, 1.0)));
-  note(fmt::format("In the playhead's frame the sun stands {:.1f} deg from world X to the right, {:.1f} deg high{}",
-                   bearing_deg, elevation_deg, sun.visible_share > 0 ? "." : ": it has set."));
-}
-
-}  // namespace
-
-void LightBlock::draw(const ViewContext& context, FieldRows& rows) {
-  if (context.project().light.kind == LightKind::sun) {
-    for (const char* const key : kSunKeys) rows.row(key, look_of_light(key));
-    note_sun(context);
-    note("As seen from the camera");
-    draw_presets(context, viewpoint_of(context));
-    ImGui::Spacing();
-    for (const char* const key : kSunColorKeys) rows.row(key, look_of_light(key));
-    return;
-  }
-  for (const char* const key : kPointKeys) rows.row(key, look_of_light(key));
-  ImGui::Spacing();
-  note("As seen from the camera");
-  const Viewpoint viewpoint = viewpoint_of(context);
-  draw_direction(context, rows, viewpoint);
-  draw_presets(context, viewpoint);
-}
 
 namespace {
 

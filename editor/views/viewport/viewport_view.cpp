@@ -80,6 +80,7 @@ void ViewportView::draw_canvas(const ViewContext& context, const ScreenRect& rec
   draw_image_layers(context, canvas);
   draw_overlays(context, canvas, tools, marks);
   if (tools != nullptr) tool_.draw(*tools);
+  draw_lit_box(context, canvas);
   wipe_.draw_line(canvas, grip_ == Grip::line || (hovered_ && wipe_.is_at(canvas, dv(ImGui::GetMousePos()))));
   banner_.draw(canvas.draw);
 }
@@ -134,7 +135,10 @@ void ViewportView::handle_press(const ImageCanvas& canvas, const ToolContext* to
     grip_ = Grip::ground;
   } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     const bool on_waypoint = tool != nullptr && waypoint_at(*tool) != nullptr;
-    if (!on_waypoint && wipe_.is_at(canvas, mouse))
+    if (lit_box_) {
+      grip_ = Grip::lit_box;
+      lit_box_->from_px = lit_box_->to_px = canvas.view.image_of(mouse);
+    } else if (!on_waypoint && wipe_.is_at(canvas, mouse))
       grip_ = Grip::line;
     else
       grip_ = grip_of_press(tool);
@@ -162,6 +166,7 @@ void ViewportView::handle_mouse(const ViewContext& context, const ImageCanvas& c
   if (tool_.is_active() && tool != nullptr && down) tool_.drag(*tool);
   if (horizon_.is_active() && tool != nullptr && down) horizon_.drag(*tool);
   if (grip_ == Grip::line) wipe_.drag_to(canvas, mouse);
+  if (lit_box_) drag_lit_box(context, canvas, down);
   const bool drags = glm::distance(mouse, grip_mouse_) >= scaled(3) || !look_.is_fitted();
   if (grip_ == Grip::ground && down && drags && mouse != grip_mouse_) look_.pan(mouse - grip_mouse_);
   if (down) return;
@@ -170,8 +175,39 @@ void ViewportView::handle_mouse(const ViewContext& context, const ImageCanvas& c
   grip_ = Grip::nothing;
 }
 
+void ViewportView::drag_lit_box(const ViewContext& context, const ImageCanvas& canvas, bool down) {
+  context.needs.own_escape = true;
+  if (hovered_) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (pressed(Key::escape)) {
+    lit_box_.reset();
+    return;
+  }
+  if (grip_ != Grip::lit_box) return;
+  lit_box_->to_px = canvas.view.image_of(dv(ImGui::GetMousePos()));
+  if (down) return;
+  const glm::dvec2 low = glm::min(*lit_box_->from_px, *lit_box_->to_px);
+  const glm::dvec2 size = glm::abs(*lit_box_->to_px - *lit_box_->from_px);
+  lit_box_.reset();
+  if (size.x >= 3 && size.y >= 3)
+    context.edits.ask(LightLike{context.document.playhead(), {low.x, low.y, size.x, size.y}});
+}
+
+void ViewportView::draw_lit_box(const ViewContext& context, const ImageCanvas& canvas) const {
+  if (!lit_box_) return;
+  const glm::dvec2 at = canvas.rect.low + glm::dvec2(scaled(12), scaled(12) + label_size("A").y);
+  draw_label(canvas, at, "Drag a box around something lit in the footage, such as a real aircraft; Esc ends this",
+             color::kText);
+  context.ui_probe.note("viewport/lit box", canvas.rect);
+  if (!lit_box_->from_px) return;
+  const glm::dvec2 a = canvas.view.screen_of(*lit_box_->from_px), b = canvas.view.screen_of(*lit_box_->to_px);
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  canvas.draw.AddRect(im(glm::min(a, b)), im(glm::max(a, b)), color::kAccent, 0, 0, scaled(1.5F));
+  canvas.draw.PopClipRect();
+}
+
 void ViewportView::handle_double_click(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool) {
-  if (grip_ == Grip::line || grip_ == Grip::horizon || (tool != nullptr && waypoint_at(*tool) != nullptr)) return;
+  if (lit_box_ || grip_ == Grip::line || grip_ == Grip::horizon || (tool != nullptr && waypoint_at(*tool) != nullptr))
+    return;
   const glm::dvec2 mouse = dv(ImGui::GetMousePos());
   if (tool == nullptr || !overlays_.waypoints || !current_intruder(context) || !canvas.pixel_at(mouse)) {
     look_.fit();
@@ -227,6 +263,8 @@ void ViewportView::draw_image_menu(const ViewContext& context, const ToolContext
   if (ImGui::MenuItem("Add waypoint here", "double click", false, can_add)) add_waypoint_at(*tool, menu_pixel_);
   if (intruders.empty() && ImGui::MenuItem("Add intruder")) add_intruder(context);
   ImGui::Separator();
+  if (ImGui::MenuItem("Lit like something here...")) ask_for_lit_box();
+  context.ui_probe.note_item("viewport/menu/lit like");
   if (ImGui::MenuItem("Wipe against the footage", nullptr, wipe_.is_on())) wipe_.toggle();
   if (ImGui::MenuItem("Fit", "F")) look_.fit();
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr double kHandleReach_px = 10;
 constexpr glm::dvec3 kUp{0, 0, -1};
 
-double rounded_to(double value, double step) {
+double snapped_to(double value, double step) {
   return step > 0 ? std::round(value / step) * step : value;
 }
 
@@ -95,8 +95,8 @@ void ApproachHandle::drag(const ViewContext& context, const WorldCanvas& canvas,
   if (gesture_.is_moving && ImGui::IsMousePosValid()) {
     const glm::dvec2 by_m = dragged_in_plane_m(plane_, mouse, canvas.eye(), canvas.rect());
     const PlannedApproach& from = start_->present.approach;
-    if (by_m.x != 0) wish_.miss_m = rounded_to(from.miss_m + by_m.x, snap_m);
-    if (by_m.y != 0) wish_.vertical_miss_m = rounded_to(from.vertical_miss_m + by_m.y, snap_m);
+    if (by_m.x != 0) wish_.miss_m = snapped_to(from.miss_m + by_m.x, snap_m);
+    if (by_m.y != 0) wish_.vertical_miss_m = snapped_to(from.vertical_miss_m + by_m.y, snap_m);
     reason_ = change_approach(context, *start_, wish_, gesture_.name);
   }
   if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;

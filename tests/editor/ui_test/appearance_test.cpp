@@ -3,8 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <sstream>
+#include <vector>
 
 #include "editor/ui_test/ui_test.h"
+#include "support/files.h"
+#include "support/process.h"
 
 namespace sigs::test {
 
@@ -70,6 +74,57 @@ TEST_CASE("the menu matches the footage too, and what was found comes into sight
   editor.click("menu/Edit");
   ui_test.edit([&] { editor.click("menu/Match the footage"); });
   ui_test.wait_for_place("inspector/found in the footage");
+}
+
+TEST_CASE("a box around an aircraft in the footage sets the light, in one step that is undone") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("lit-like");
+  EditorDriver& editor = ui_test.editor();
+  // Footage with an airliner in it, in light that is weak; the project's own is twice as strong.
+  Json json = sample_project("crossing");
+  json["name"] = "drawn";
+  json["footage"].erase("own_body_mask");
+  json["light"] = {{"kind", "sun"}, {"exposure", 0.5}, {"sun", {{"azimuth_deg", 150}, {"elevation_deg", 30}}}};
+  json["intruders"][0]["trajectory"]["waypoints"] = {{{"frame", 0}, {"position_m", {500, -200, -330}}},
+                                                     {{"frame", 199}, {"position_m", {640, 300, -330}}}};
+  std::ostringstream command;
+  command << build_dir() / "sigs"
+          << " export " << put(json, ui_test.folder() / "drawn.json")
+          << " --frames 136-138 --masks none --labels coco --progress none --out " << ui_test.folder();
+  const Run exported = run_together(command.str());
+  REQUIRE_MESSAGE(exported.status == 0, exported.out);
+  const auto box = json_of(ui_test.folder() / "drawn.coco.json")["annotations"][0]["bbox"].get<std::vector<double>>();
+  json["footage"]["video"] = "drawn.mkv";
+  json["intruders"][0]["model"]["file"] = source_dir() / "assets/models/light-aircraft/light-aircraft.obj";
+  json["light"]["exposure"] = 1;
+  json["intruders"][0]["trajectory"]["waypoints"] = {{{"frame", 0}, {"position_m", {300, -60, -200}}}};
+  const fs::path project = put(json, ui_test.folder() / "mine.json");
+  editor.start({project.string()});
+  editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
+  editor.wait_for_image();
+  const int revision = revision_of(editor.state());
+
+  // Escape ends it; nothing is looked at, and the next drag does something else.
+  editor.click("menu/Edit");
+  editor.click("menu/Lit like this...");
+  ui_test.wait_for_place("viewport/lit box");
+  editor.key("Escape");
+  editor.wait_for("no box", [](const Json& now) { return !shows(now, "viewport/lit box"); });
+
+  editor.click("menu/Edit");
+  editor.click("menu/Lit like this...");
+  ui_test.wait_for_place("viewport/lit box");
+  const ScreenPlace image = editor.place("viewport/image");
+  const double scale = image.width / 1280;
+  editor.hold(image.x + (box[0] - 8) * scale, image.y + (box[1] - 8) * scale);
+  editor.move(image.x + (box[0] + box[2] + 8) * scale, image.y + (box[1] + box[3] + 8) * scale);
+  editor.screenshot(build_dir() / "screenshots/lit-like-box.png");
+  ui_test.edit([&] { editor.release(); });
+  const Json after = ui_test.saved(project);
+  CHECK(after["light"]["exposure"].get<double>() < 0.8);
+  CHECK(after["light"]["exposure"].get<double>() > 0.3);
+  ui_test.edit([&] { editor.key("ctrl+z"); });
+  CHECK(revision_of(editor.state()) == revision);
 }
 
 }  // namespace sigs::test
