@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "base/statistics.h"
 #include "compositor/codec_match.h"
 #include "video/frame_source.h"
 
@@ -47,12 +48,6 @@ std::map<int, cv::Rect> boxes_in(const fs::path& path) {
   return boxes;
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return NAN;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 // What stands out of the sky in a box, by more than `contrast` codes.
 cv::Mat silhouette(const cv::Mat& luma, const cv::Rect& box, double contrast) {
   const cv::Rect around = cv::Rect(box.x - 12, box.y - 12, box.width + 24, box.height + 24) & cv::Rect({}, luma.size());
@@ -61,7 +56,7 @@ cv::Mat silhouette(const cv::Mat& luma, const cv::Rect& box, double contrast) {
     for (int x = around.x; x < around.br().x; ++x)
       if (!box.contains({x, y})) sky.push_back(luma.at<uchar>(y, x));
   cv::Mat off;
-  cv::absdiff(luma, cv::Scalar(median_of(sky)), off);
+  cv::absdiff(luma, cv::Scalar(median(sky)), off);
   cv::Mat mask = cv::Mat::zeros(luma.size(), CV_8UC1);
   cv::Mat(off(box & around) > contrast).copyTo(mask(box & around));
   return mask;
@@ -194,7 +189,7 @@ void print(const char* name, const Way& way) {
   };
   const double mse = way.background_mse.empty() ? NAN : mean(way.background_mse);
   std::printf("%-14s %4zu %10.3f %10.3f %10.3f %14.1f\n", name, way.near.size(), mean(way.near), mean(way.excess),
-              median_of(way.excess), 10 * std::log10(255 * 255 / mse));
+              median(way.excess), 10 * std::log10(255 * 255 / mse));
 }
 
 }  // namespace

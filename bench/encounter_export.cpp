@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/statistics.h"
 #include "export/encounter_files.h"
 #include "labels/labels.h"
 #include "project/json.h"
@@ -64,11 +65,6 @@ void write_labels(const std::filesystem::path& folder, const LabelSequence& clip
       if (!writer->write(frame)) std::exit(1);
     if (!writer->finish({})) std::exit(1);
   }
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace

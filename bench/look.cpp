@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/statistics.h"
 #include "frame/compose_frame.h"
 #include "project/fields.h"
 #include "project/json.h"
@@ -65,12 +66,6 @@ double processor_ms() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
 std::vector<Case> all_cases() {

@@ -13,6 +13,7 @@
 
 #include "accuracy/csv.h"
 #include "accuracy/timing.h"
+#include "base/statistics.h"
 #include "frame/compose_frame.h"
 #include "project/fields.h"
 #include "project/json.h"
@@ -21,7 +22,6 @@
 namespace {
 
 using namespace sigs;
-using accuracy::median;
 using accuracy::stop;
 
 constexpr int kFirstFrame = 60, kFrames = 4, kMiddleFrame = 61;

@@ -14,6 +14,7 @@
 
 #include "base/csv.h"
 #include "base/ensure.h"
+#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "project/fields.h"
@@ -24,10 +25,8 @@ namespace sigs::cli {
 namespace {
 
 std::optional<int> whole_number(std::string_view text) {
-  int number = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text.empty() || code != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
-  return number;
+  const std::optional<int> number = parsed_number<int>(text);
+  return number && *number >= 0 ? number : std::nullopt;
 }
 
 Field field_of(Project& project, const std::string& key) {
@@ -166,10 +165,9 @@ CLI::Validator output_path() {
 std::optional<std::vector<double>> numbers_of(const std::string& text, std::size_t count) {
   std::vector<double> numbers;
   for (const std::string_view field : csv_fields(text)) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-    if (error != std::errc() || end != field.data() + field.size() || !(std::abs(number) < 1e6)) return std::nullopt;
-    numbers.push_back(number);
+    const std::optional<double> number = finite_number(field);
+    if (!number || std::abs(*number) >= 1e6) return std::nullopt;
+    numbers.push_back(*number);
   }
   return numbers.size() == count ? std::optional(numbers) : std::nullopt;
 }

@@ -8,6 +8,7 @@
 
 #include "accuracy/csv.h"
 #include "accuracy/timing.h"
+#include "base/statistics.h"
 #include "frame/compose_frame.h"
 
 namespace sigs::accuracy {
@@ -131,7 +132,7 @@ CodeErrors code_errors(const Standard& standard, const cv::Mat& codes) {
         squares += errors.back() * errors.back();
       }
   return {.root_mean_square = std::sqrt(squares / static_cast<double>(errors.size())),
-          .of_999 = percentile(errors, 0.999),
+          .of_999 = quantile(errors, 0.999),
           .largest = *std::ranges::max_element(errors)};
 }
 

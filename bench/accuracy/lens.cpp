@@ -15,6 +15,7 @@
 #include "accuracy/lenses.h"
 #include "accuracy/timing.h"
 #include "base/pose.h"
+#include "base/statistics.h"
 
 namespace {
 
@@ -85,7 +86,7 @@ GaussianWeights errors_of(const Rays& rays, const std::vector<Known>& known) {
     const bool is_ray = std::isfinite(rays[i].x + rays[i].y + rays[i].z) && glm::length(rays[i]) > 0;
     errors_px.push_back(is_ray ? angle_rad(rays[i], known[i].ray) * known[i].px_per_rad : HUGE_VAL);
   }
-  return {median(errors_px), percentile(errors_px, 0.99), *std::ranges::max_element(errors_px)};
+  return {median(errors_px), quantile(errors_px, 0.99), *std::ranges::max_element(errors_px)};
 }
 
 }  // namespace

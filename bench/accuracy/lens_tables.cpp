@@ -6,6 +6,7 @@
 
 #include "accuracy/lenses.h"
 #include "accuracy/timing.h"
+#include "base/statistics.h"
 #include "camera/lens_table.h"
 #include "reference/exact_lens.h"
 
@@ -63,7 +64,7 @@ void measure(const NamedLens& named, double tolerance_px, const std::vector<Corn
   const double pixels = (named.size_px.width + 1.0) * (named.size_px.height + 1.0);
   const std::vector<double> errors = errors_px(table, corners);
   csv.row(named.name, tolerance_px, 1e9 * first_s / pixels, 1e9 * kept_s / pixels, evaluations / pixels,
-          static_cast<double>(table.bytes()) / 1024, median(errors), percentile(errors, 0.99),
+          static_cast<double>(table.bytes()) / 1024, median(errors), quantile(errors, 0.99),
           *std::ranges::max_element(errors));
 }
 

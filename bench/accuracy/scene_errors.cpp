@@ -8,6 +8,7 @@
 #include "accuracy/runner.h"
 #include "accuracy/scenes.h"
 #include "accuracy/timing.h"
+#include "base/statistics.h"
 
 namespace sigs::accuracy {
 

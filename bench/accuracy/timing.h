@@ -5,12 +5,6 @@
 
 namespace sigs::accuracy {
 
-// Middle of the values; the mean of both middle ones where their number is even. At least one value.
-[[nodiscard]] double median(std::vector<double> values);
-
-// The value at or below which this share (0..1) of the values lies. At least one value.
-[[nodiscard]] double percentile(std::vector<double> values, double share);
-
 // Seconds since some moment: of the clock on the wall, and of all this process' threads.
 [[nodiscard]] double wall_s();
 [[nodiscard]] double cpu_s();

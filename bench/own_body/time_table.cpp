@@ -4,6 +4,7 @@
 #include <map>
 
 #include "accuracy/timing.h"
+#include "base/statistics.h"
 #include "occlusion/mask_geometry.h"
 #include "own_body/finding.h"
 #include "own_body/measures.h"
@@ -56,7 +57,7 @@ void run_once(std::vector<Way>& all, const Clip& clip) {
 double ratio(const std::vector<double>& ours, const std::vector<double>& theirs) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < ours.size(); ++i) ratios.push_back(ours[i] / theirs[i]);
-  return accuracy::median(ratios);
+  return median(ratios);
 }
 
 void report(const Way& way, const Clip& clip, const cv::Mat& whole, accuracy::Csv& table) {
@@ -64,12 +65,11 @@ void report(const Way& way, const Clip& clip, const cv::Mat& whole, accuracy::Cs
   const double with_truth = agreement(way.finding, clip);
   const double with_whole = told && !whole.empty() ? intersection_over_union(way.finding.body.mask, whole) : 0;
   table.row(name_of(way.settings.method), way.settings.frames, way.settings.every, way.settings.settled_percent,
-            way.finding.body.frames_passed, way.finding.body.frames_used, with_truth, with_whole,
-            accuracy::median(way.wall_s), accuracy::median(way.cpu_s), ratio(way.wall_s, way.decode_wall_s),
-            ratio(way.cpu_s, way.decode_cpu_s));
+            way.finding.body.frames_passed, way.finding.body.frames_used, with_truth, with_whole, median(way.wall_s),
+            median(way.cpu_s), ratio(way.wall_s, way.decode_wall_s), ratio(way.cpu_s, way.decode_cpu_s));
   std::printf("%-6s %4d frames, every %2d, settled %.1f %%: IoU %.4f, %.2f s, %.2f of decoding\n",
               name_of(way.settings.method), way.settings.frames, way.settings.every, way.settings.settled_percent,
-              with_truth, accuracy::median(way.wall_s), ratio(way.wall_s, way.decode_wall_s));
+              with_truth, median(way.wall_s), ratio(way.wall_s, way.decode_wall_s));
   std::fflush(stdout);
 }
 

@@ -10,6 +10,7 @@
 
 #include "accuracy/csv.h"
 #include "appearance/similar_place.h"
+#include "base/statistics.h"
 #include "base/threads.h"
 #include "comparison/inserted_target.h"
 #include "comparison/lit_like.h"
@@ -79,12 +80,6 @@ std::vector<LitTarget> lit_targets_of(const RealClip& clip, const SampleOptions&
   return all;
 }
 
-double median_off(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 void print_row(const char* name, const std::vector<LitTarget>& all, bool is_tuning) {
   std::vector<double> before, after;
   int better = 0;
@@ -94,7 +89,7 @@ void print_row(const char* name, const std::vector<LitTarget>& all, bool is_tuni
     after.push_back(one.after);
     better += one.after < one.before ? 1 : 0;
   }
-  fmt::print("| {} | {} | {:.3f} | {:.3f} | {} |\n", name, before.size(), median_off(before), median_off(after), better);
+  fmt::print("| {} | {} | {:.3f} | {:.3f} | {} |\n", name, before.size(), median(before), median(after), better);
 }
 
 }  // namespace

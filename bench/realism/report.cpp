@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "accuracy/csv.h"
+#include "base/statistics.h"
 #include "base/text.h"
 #include "base/threads.h"
 #include "realism/classifier.h"
@@ -124,12 +125,6 @@ void write_auc_table(const std::vector<Row>& rows, const std::vector<std::string
   }
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 }  // namespace
 
 void write_measures(const std::vector<Sample>& samples, const std::filesystem::path& file) {
@@ -197,7 +192,7 @@ void write_medians(const std::vector<Sample>& samples, const std::vector<std::st
           if (target == nullptr) continue;
           if (const auto value = target->look.*measure.value) values.push_back(*value);
         }
-        out << ' ' << fixed_text(median_of(values), 3) << " |";
+        out << ' ' << fixed_text(median(values), 3) << " |";
       }
       out << '\n';
     }

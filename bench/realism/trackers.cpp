@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 
+#include "base/statistics.h"
 #include "base/threads.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/overlap.h"
@@ -119,13 +120,6 @@ Difference difference_of(const std::vector<Followed>& all, const std::string& tr
   return difference;
 }
 
-double middle_one(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // How like the real targets those of a kind are, apart from trackers: one line of a table. Ratios to the real one:
 // median, and median of the deviation either way, as a factor.
 std::string line_of_likeness(const std::vector<Followed>& all, const std::string& kind) {
@@ -140,7 +134,7 @@ std::string line_of_likeness(const std::vector<Followed>& all, const std::string
     std::vector<double> logs, sizes;
     for (const auto& [clip, pair] : by_clip) logs.push_back(std::log(pair.second.*figure / pair.first.*figure));
     for (const double value : logs) sizes.push_back(std::abs(value));
-    line += fmt::format(" {:.2f} ({:.2f}) |", std::exp(middle_one(logs)), std::exp(middle_one(sizes)));
+    line += fmt::format(" {:.2f} ({:.2f}) |", std::exp(median(logs)), std::exp(median(sizes)));
   }
   std::vector<double> growths;
   int cut = 0;
@@ -148,7 +142,7 @@ std::string line_of_likeness(const std::vector<Followed>& all, const std::string
     growths.push_back(std::abs(pair.second.growth_per_s));
     cut += pair.second.frames_cut;
   }
-  return line + fmt::format(" {:.3f} | {} |\n", middle_one(growths), cut);
+  return line + fmt::format(" {:.3f} | {} |\n", median(growths), cut);
 }
 
 void write_tables(const std::vector<Followed>& all, const std::vector<std::string>& kinds,

@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video.hpp>
 
+#include "base/statistics.h"
+
 namespace sigs::bench {
 
 namespace {
@@ -17,18 +19,11 @@ constexpr std::size_t kLeastCorners = 8;
 constexpr double kLeastCorrelation = 0.9;
 constexpr double kFarFromKey_px = 1.5;  // a match that far from where the corners lead is a wrong one
 
-double middle(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 // Median and its standard deviation.
 std::pair<double, double> middle_of_axis(const std::vector<cv::Point2f>& moves, float cv::Point2f::*axis) {
   std::vector<double> values;
   for (const cv::Point2f& move : moves) values.push_back(static_cast<double>(move.*axis));
-  const double median = middle(values);
-  for (double& value : values) value = std::abs(value - median);
-  return {median, 1.253 * 1.4826 * middle(values) / std::sqrt(static_cast<double>(moves.size()))};
+  return {median(values), 1.253 * robust_standard_deviation(values) / std::sqrt(static_cast<double>(moves.size()))};
 }
 
 std::vector<cv::Point2f> followed(const Pyramid& from, const Pyramid& to, const std::vector<cv::Point2f>& points,

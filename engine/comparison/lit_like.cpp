@@ -11,6 +11,7 @@
 
 #include "appearance/similar_place.h"
 #include "appearance/target_silhouette.h"
+#include "base/statistics.h"
 #include "comparison/inserted_target.h"
 #include "frame/compose_context.h"
 #include "scene/opened_project.h"
@@ -32,12 +33,6 @@ constexpr double kUsualAzimuth_deg = 165, kUsualElevation_deg = 25;  // SunEstim
 
 // Logarithms of linear luminance at kQuantiles, over a target's pixels.
 using LogLight = std::array<double, kQuantiles.size()>;
-
-double quantile_of(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto i = static_cast<std::size_t>(at);
-  return std::lerp(sorted[i], sorted[std::min(i + 1, sorted.size() - 1)], at - static_cast<double>(i));
-}
 
 // The silhouette's pixels that are not mixed with the background, or all where few are left.
 cv::Mat inner_of(const TargetSilhouette& target) {
@@ -64,9 +59,8 @@ std::optional<LogLight> log_light(const Frame& any_frame, const Box& box) {
       const double display = map.to_rgb(0, 0) * (code - static_cast<double>(map.offset[0]));
       lights.push_back(std::log(linear_of_display(function, std::clamp(display, 0.0, 1.0)) + kBlackLight));
     }
-  std::sort(lights.begin(), lights.end());
   LogLight log;
-  for (std::size_t q = 0; q < log.size(); ++q) log[q] = quantile_of(lights, kQuantiles[q]);
+  for (std::size_t q = 0; q < log.size(); ++q) log[q] = quantile(lights, kQuantiles[q]);
   return log;
 }
 
@@ -90,11 +84,7 @@ std::optional<Ratio> ratio_over(const std::vector<LogLight>& drawn, const LogLig
   for (const LogLight& one : drawn)
     for (std::size_t q = 0; q < one.size(); ++q) off.push_back(real[q] - one[q]);
   if (off.empty()) return std::nullopt;
-  std::sort(off.begin(), off.end());
-  const double median = quantile_of(off, 0.5);
-  for (double& one : off) one = std::abs(one - median);
-  std::sort(off.begin(), off.end());
-  return Ratio{median, 1.4826 * quantile_of(off, 0.5)};
+  return Ratio{median(off), robust_standard_deviation(off)};
 }
 
 // Draws the intruder's views.

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "base/csv.h"
 #include "base/input_file.h"
+#include "base/parsing.h"
 #include "base/text.h"
 
 namespace sigs {
@@ -18,13 +18,6 @@ namespace {
 
 constexpr double kMaxFrame = 1e7;
 constexpr double kMaxPixel = 1e6;
-
-std::optional<double> number_of(std::string_view field) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
-  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
 
 struct Line {
   std::size_t frame = 0;
@@ -39,7 +32,7 @@ Result<Line> line_of(std::string_view line, const std::string& where) {
                 ErrorKind::bad_data);
   std::array<double, 6> numbers{};
   for (const std::size_t i : {0U, 2U, 3U, 4U, 5U}) {
-    const auto number = number_of(fields[i]);
+    const auto number = finite_number(fields[i]);
     if (!number || std::abs(*number) > (i == 0 ? kMaxFrame : kMaxPixel))
       return fail(where, fmt::format("field {} is no number in its range", i + 1), ErrorKind::bad_data);
     numbers[i] = *number;

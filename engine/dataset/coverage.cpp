@@ -9,6 +9,7 @@
 #include <pugixml.hpp>
 #include <string_view>
 
+#include "base/parsing.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
@@ -67,7 +68,7 @@ bool is_set(const std::atomic<bool>* cancel) {
 
 // A number of an annotation; not a number where it is missing.
 double attribute_of(pugi::xml_node node, const char* name) {
-  const std::optional<double> number = number_of(trimmed(node.attribute(name).value()));
+  const std::optional<double> number = parsed_number(trimmed(node.attribute(name).value()));
   return number.value_or(std::nan(""));
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "encounter/file_columns.h"
+#include "base/parsing.h"
 #include "encounter/units.h"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "base/text.h"
@@ -72,12 +72,7 @@ std::optional<FileUnit> file_unit(std::string_view text) {
 }
 
 std::optional<double> file_number(std::string_view text) {
-  text = trimmed(text);
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return {};
-  return number;
+  return finite_number(trimmed(text));
 }
 
 std::optional<double> file_time_s(std::string_view text) {

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "base/parsing.h"
 #include "base/text.h"
 #include "base/xml_text.h"
 
@@ -23,14 +23,12 @@ std::string shown(std::string_view text) {
 }
 
 Result<double> number_of(std::string_view word, const std::string& place, double low, double high) {
-  double number = 0;
-  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (code != std::errc() || end != word.data() + word.size() || !std::isfinite(number))
-    return fail(place, fmt::format("\"{}\" is not a finite number", shown(word)));
-  if (number < low || number > high)
+  const std::optional<double> number = finite_number(word);
+  if (!number) return fail(place, fmt::format("\"{}\" is not a finite number", shown(word)));
+  if (*number < low || *number > high)
     return fail(place,
                 fmt::format("{} lies outside {} to {}", shown(word), short_number_text(low), short_number_text(high)));
-  return number;
+  return *number;
 }
 
 }  // namespace

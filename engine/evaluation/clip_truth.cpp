@@ -10,6 +10,7 @@
 #include <pugixml.hpp>
 #include <utility>
 
+#include "base/parsing.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "evaluation/text_parsing.h"
@@ -103,7 +104,7 @@ class AttributeReader {
 
   double number(pugi::xml_node node, const char* name) {
     const std::string_view value = text(node, name);
-    const std::optional<double> number = number_of(trimmed(value));
+    const std::optional<double> number = parsed_number(trimmed(value));
     if (!number || !std::isfinite(*number))
       wrong(node, fmt::format("{} {}: {} is no number", node.name(), name, in_quotes(value)));
     return number.value_or(0);

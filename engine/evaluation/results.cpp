@@ -9,6 +9,7 @@
 
 #include "base/csv.h"
 #include "base/input_file.h"
+#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "evaluation/results_formats.h"
@@ -48,7 +49,7 @@ Result<ResultsFormat> detected_format(const ResultsFile& file) {
   const std::vector<std::string_view> columns = csv_fields(first.text);
   if (std::ranges::find(columns, "frame") != columns.end()) return ResultsFormat::csv;
   const std::vector<std::string_view> fields = number_fields(first.text);
-  const auto is_number = [](std::string_view field) { return number_of(field).has_value(); };
+  const auto is_number = [](std::string_view field) { return parsed_number(field).has_value(); };
   const auto wrong = std::ranges::find_if_not(fields, is_number);
   if (wrong != fields.end())
     return file.wrong(
@@ -56,7 +57,7 @@ Result<ResultsFormat> detected_format(const ResultsFile& file) {
         fmt::format(
             "is of no known layout: {} is neither a number nor the name of a csv column (frame,x,y,width,height)",
             in_quotes(*wrong)));
-  if (number_of(fields.front()) != number_of(fields.front())) return ResultsFormat::vot;  // nan
+  if (parsed_number(fields.front()) != parsed_number(fields.front())) return ResultsFormat::vot;  // nan
   if (fields.size() == 1 || fields.size() == 8) return ResultsFormat::vot;
   if (fields.size() == 4)
     return lower_case(file.path.filename().string()) == "groundtruth.txt" ? ResultsFormat::vot : ResultsFormat::otb;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/csv.h"
+#include "base/parsing.h"
 #include "base/text.h"
 #include "evaluation/results_formats.h"
 #include "evaluation/text_parsing.h"
@@ -55,7 +56,7 @@ Result<std::vector<double>> numbers_in(const ResultsFile& file, const TextLine& 
                                        std::span<const std::string_view> fields) {
   std::vector<double> numbers;
   for (const std::string_view field : fields) {
-    const std::optional<double> number = number_of(field);
+    const std::optional<double> number = parsed_number(field);
     if (!number) return file.wrong(line.number, in_quotes(field) + " is no number");
     numbers.push_back(*number);
   }
@@ -224,7 +225,7 @@ Result<void> add_csv_line(const ResultsFile& file, const CsvHeader& header, cons
   for (std::size_t i = 0; i < kColumns; ++i) {
     if (header.place[i] == kNoColumn) continue;
     const std::string_view field = fields[header.place[i]];
-    const std::optional<double> number = number_of(field);
+    const std::optional<double> number = parsed_number(field);
     if (!number) return file.wrong(line.number, fmt::format("{} {} is no number", kColumnNames[i], in_quotes(field)));
     values[i] = *number;
   }

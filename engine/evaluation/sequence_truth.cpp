@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/input_file.h"
+#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "evaluation/results_formats.h"
@@ -47,7 +48,7 @@ Result<std::vector<double>> numbers_of(std::string_view line) {
   std::vector<double> numbers;
   for (const std::string_view field : number_fields(line)) {
     // MATLAB writes NaN.
-    const std::optional<double> number = number_of(lower_case(field));
+    const std::optional<double> number = parsed_number(lower_case(field));
     if (!number) return fail("", fmt::format("{} is no number", in_quotes(field)));
     numbers.push_back(*number);
   }
@@ -114,7 +115,7 @@ Result<std::vector<double>> read_values(const fs::path& path, std::size_t count)
   if (!text) return fail(text.error());
   TextLines lines(*text);
   while (const std::optional<TextLine> line = lines.next()) {
-    const std::optional<double> value = number_of(line->text);
+    const std::optional<double> value = parsed_number(line->text);
     if (!value)
       return fail(fmt::format("{}: line {}", path.string(), line->number), in_quotes(line->text) + " is no number");
     values.push_back(*value);
@@ -148,7 +149,7 @@ Result<void> add_properties(const fs::path& path, ClipTruth& truth) {
     const std::string_view key = trimmed(line->text.substr(0, equals));
     const std::string_view value = trimmed(line->text.substr(equals + 1));
     if (key == "fps") {
-      const std::optional<double> rate = number_of(value);
+      const std::optional<double> rate = parsed_number(value);
       if (!rate || !(*rate > 0 && *rate <= 1e6))
         return fail(fmt::format("{}: line {}", path.string(), line->number), "fps is no rate");
       truth.footage.frame_rate_num = std::max(1, static_cast<int>(std::lround(*rate * 1000)));

@@ -2,10 +2,10 @@
 #include "evaluation/text_parsing.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "base/parsing.h"
 #include "base/text.h"
 
 namespace sigs {
@@ -40,14 +40,6 @@ std::vector<std::string_view> number_fields(std::string_view line) {
   return fields;
 }
 
-std::optional<double> number_of(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);  // from_chars takes no plus sign
-  double number = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
 std::optional<int> integer_of(double number) {
   if (!(number >= std::numeric_limits<int>::min() && number <= std::numeric_limits<int>::max())) return std::nullopt;
   if (number != std::floor(number)) return std::nullopt;
@@ -55,7 +47,7 @@ std::optional<int> integer_of(double number) {
 }
 
 std::optional<int> integer_of(std::string_view text) {
-  const std::optional<double> number = number_of(text);
+  const std::optional<double> number = parsed_number(text);
   return number ? integer_of(*number) : std::nullopt;
 }
 

@@ -33,11 +33,7 @@ class TextLines {
 // at the end adds no field. The fields are views into the line.
 [[nodiscard]] std::vector<std::string_view> number_fields(std::string_view line);
 
-// The whole text as a number, with a point as decimal separator whatever the locale; "nan" and "inf" are numbers.
-// nullopt: it is not a number, or outside the range of a double.
-[[nodiscard]] std::optional<double> number_of(std::string_view text);
-
-// The same for a whole number, which may be written as 7, 7.0 or 7e0. nullopt also outside the range of an int.
+// The whole text as a whole number, which may be written as 7, 7.0 or 7e0. nullopt also outside the range of an int.
 [[nodiscard]] std::optional<int> integer_of(std::string_view text);
 [[nodiscard]] std::optional<int> integer_of(double number);
 

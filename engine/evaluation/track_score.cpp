@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "base/ensure.h"
+#include "base/statistics.h"
 #include "evaluation/overlap.h"
 
 namespace sigs {
@@ -55,27 +55,6 @@ FrameScore frame_score(int frame, double time_s, const TargetFrame& truth, const
   if (box && reported) compare(score, *box, reported->box);
   score.is_lost = score.is_scored && !exceeds(score.overlap, 0);
   return score;
-}
-
-double mean(const std::vector<double>& values) {
-  if (values.empty()) return kNaN;
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-// Linear between neighbours of the sorted values: their first is quantile 0, their last 1.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return kNaN;
-  std::ranges::sort(values);
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto low = static_cast<std::size_t>(place);
-  const std::size_t high = std::min(low + 1, values.size() - 1);
-  const double part = place - static_cast<double>(low);
-  return part == 0 ? values[low] : values[low] + part * (values[high] - values[low]);
-}
-
-template <std::size_t kSteps>
-double mean(const std::array<double, kSteps>& curve) {
-  return std::accumulate(curve.begin(), curve.end(), 0.0) / static_cast<double>(kSteps);
 }
 
 template <std::size_t kSteps, class Meets>

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/input_file.h"
+#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "evaluation/results_formats.h"
@@ -32,8 +33,8 @@ tl::unexpected<Error> wrong_at(const fs::path& path, int line, const std::string
 // "25" or "30000/1001"; 0: neither.
 double rate_of(std::string_view text) {
   const std::size_t slash = text.find('/');
-  const double num = number_of(trimmed(text.substr(0, slash))).value_or(0);
-  const double den = slash == std::string_view::npos ? 1 : number_of(trimmed(text.substr(slash + 1))).value_or(0);
+  const double num = parsed_number(trimmed(text.substr(0, slash))).value_or(0);
+  const double den = slash == std::string_view::npos ? 1 : parsed_number(trimmed(text.substr(slash + 1))).value_or(0);
   const double rate_hz = den > 0 ? num / den : 0;
   return rate_hz > 0 && rate_hz <= 1e6 ? rate_hz : 0;
 }
@@ -80,7 +81,7 @@ Result<MotRow> row_of(const fs::path& path, const TextLine& line) {
         fmt::format("has {} columns; frame,id,left,top,width,height,flag,class,visibility are 6 to 10", fields.size()));
   std::array<double, 10> numbers{0, 0, 0, 0, 0, 0, 1, -1, -1, -1};
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    const std::optional<double> number = number_of(fields[i]);
+    const std::optional<double> number = parsed_number(fields[i]);
     if (!number || !std::isfinite(*number))
       return wrong_at(path, line.number, fmt::format("column {}: {} is no number", i + 1, in_quotes(fields[i])));
     numbers[i] = *number;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/input_file.h"
+#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "evaluation/results_formats.h"
@@ -62,7 +63,7 @@ Result<TrueBox> box_of_line(std::string_view text, cv::Size size_px) {
                                 fields.size()));
   std::vector<double> numbers;
   for (const std::string_view field : fields) {
-    const std::optional<double> number = number_of(field);
+    const std::optional<double> number = parsed_number(field);
     if (!number || !std::isfinite(*number)) return fail("", fmt::format("{} is no number", in_quotes(field)));
     if (!numbers.empty() && (*number < -0.01 || *number > 1.01))
       return fail("", fmt::format("{} is no share of the image, 0 to 1; are these pixels?", in_quotes(field)));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -21,6 +20,7 @@
 #include "base/image.h"
 #include "base/image_file.h"
 #include "base/input_file.h"
+#include "base/parsing.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
@@ -50,20 +50,13 @@ bool is_header(std::string_view line) {
   return std::equal(cells.begin(), cells.end(), kColumns.begin(), kColumns.end());
 }
 
-std::optional<double> number_of(std::string_view text) {
-  double number = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
-
 Result<AttitudeAtFrame> attitude_in(std::string_view line, const std::string& where) {
   const std::vector<std::string_view> cells = cells_of(line);
   if (cells.size() != kColumns.size())
     return fail(where, fmt::format("expected 4 numbers between commas, found {}", cells.size()));
   std::array<double, kColumns.size()> numbers{};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const std::optional<double> number = number_of(cells[i]);
+    const std::optional<double> number = finite_number(cells[i]);
     const std::string cell = fmt::format("{}: {}", where, kColumns[i]);
     if (!number) return fail(cell, "is not a number such as -0.25");
     if (i == 0 && std::abs(*number) > kMaxFrame) return fail(cell, "must lie between -1e9 and 1e9");

@@ -5,12 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <system_error>
 
 #include "base/numbered_files.h"
+#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "editor/document/dropped_file.h"
@@ -43,10 +43,7 @@ bool can_write_into(const fs::path& folder) {
 std::optional<double> typed_number(const std::string& text) {
   std::string number(trimmed(text));
   std::ranges::replace(number, ',', '.');
-  double value = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  return finite_number(number);
 }
 
 // A file that has to be there; "" where it is.
