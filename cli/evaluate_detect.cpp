@@ -131,7 +131,6 @@ void print(const DetectionReport& report) {
 Result<void> write(EvaluationFolder& folder, const DetectionReport& report) {
   const Result<WrittenReport> written = write_report(folder.staging_path(), report);
   if (!written) return fail(written.error());
-  for (const Warning& warning : written->warnings) print_warning(warning);
   const Result<std::vector<fs::path>> kept = folder.commit(written->files);
   if (!kept) return fail(kept.error());
   for (const fs::path& file : *kept) std::printf("%s\n", file.c_str());

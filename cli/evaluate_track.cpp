@@ -117,7 +117,6 @@ Result<std::vector<fs::path>> write_results(const fs::path& folder, const std::v
 Result<void> write(EvaluationFolder& folder, const TrackReport& report, const TrackedClip& clip) {
   Result<WrittenReport> written = write_report(folder.staging_path(), report);
   if (!written) return fail(written.error());
-  for (const Warning& warning : written->warnings) print_warning(warning);
   const Result<std::vector<fs::path>> results = write_results(folder.staging_path() / "results", clip.results);
   if (!results) return fail(results.error());
   written->files.insert(written->files.end(), results->begin(), results->end());

@@ -219,7 +219,6 @@ Result<std::vector<fs::path>> write_set_results(const fs::path& folder, const Tr
 Result<void> write_set(EvaluationFolder& folder, const TrackSetReport& report, const TrackRuns& all) {
   Result<WrittenReport> written = write_report(folder.staging_path(), report);
   if (!written) return fail(written.error());
-  for (const Warning& warning : written->warnings) print_warning(warning);
   const Result<std::vector<fs::path>> results = write_set_results(folder.staging_path() / "results", all);
   if (!results) return fail(results.error());
   // The results are many; their folder stands for them.

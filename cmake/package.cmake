@@ -42,7 +42,7 @@ if(TARGET sigs_python)
   list(APPEND runtime_depends python3-numpy)
 endif()
 list(JOIN runtime_depends ", " CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "gnuplot-nox, ffmpeg")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "ffmpeg")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libsigs-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)

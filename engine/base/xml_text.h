@@ -15,4 +15,8 @@ namespace sigs {
 // The same on one line: line breaks, tabs and DEL become blanks too.
 [[nodiscard]] std::string line_text(std::string_view text);
 
+// Text for an element or a quoted attribute of XML or HTML (XML 1.0 section 2.4): & < > " become entities, and each
+// character in `also` a numeric reference, as &#39;. The text itself must be allowed (xml_text, line_text).
+[[nodiscard]] std::string escaped_text(std::string_view text, std::string_view also = {});
+
 }  // namespace sigs

@@ -8,10 +8,11 @@
 #include <string_view>
 #include <utility>
 
+#include "base/image_codecs.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "evaluation/gnuplot.h"
 #include "evaluation/report_files.h"
+#include "plot/plot.h"
 
 namespace sigs {
 
@@ -44,27 +45,17 @@ class ReportFolder {
     return written;
   }
 
-  // A plot that cannot be drawn is a warning; where gnuplot is missing, one for all plots. "": not drawn.
-  [[nodiscard]] Result<std::string> draw(const Plot& plot, PlotFormat kind) {
-    if (!has_gnuplot_) return std::string();
-    const std::string name = plot.name + (kind == PlotFormat::svg ? ".svg" : ".png");
-    Result<std::string> image = gnuplot_output(gnuplot_program(plot, kind));
-    if (!image) {
-      has_gnuplot_ = image.error().kind != ErrorKind::unavailable;
-      report_.warnings.push_back({has_gnuplot_ ? name : "plots", image.error().text()});
-      return std::string();
-    }
-    if (const Result<void> written = put(name, *image); !written) return fail(written.error());
-    return image;
-  }
-
-  [[nodiscard]] Result<std::vector<ReportPlot>> render_all(const std::vector<Plot>& plots) {
+  // Each plot as SVG and PNG.
+  [[nodiscard]] Result<std::vector<ReportPlot>> draw_all(const std::vector<Plot>& plots) {
     std::vector<ReportPlot> images;
     for (const Plot& plot : plots) {
-      Result<std::string> svg = draw(plot, PlotFormat::svg);
-      if (!svg) return fail(svg.error());
-      if (const Result<std::string> png = draw(plot, PlotFormat::png); !png) return fail(png.error());
-      if (!svg->empty()) images.push_back({plot.name, plot.title, std::move(*svg)});
+      images.push_back({plot.name, plot.title, svg_of(plot)});
+      if (const Result<void> written = put(plot.name + ".svg", images.back().svg); !written)
+        return fail(written.error());
+      std::vector<uchar> png;
+      image_codecs::imencode(".png", image_of(plot), png);
+      if (const Result<void> written = put(plot.name + ".png", std::string(png.begin(), png.end())); !written)
+        return fail(written.error());
     }
     return images;
   }
@@ -74,7 +65,6 @@ class ReportFolder {
  private:
   fs::path folder_;
   WrittenReport report_;
-  bool has_gnuplot_ = true;
 };
 
 // A file's name and text.
@@ -88,7 +78,7 @@ Result<WrittenReport> write_all(const fs::path& folder, const Report& report, co
     if (step) step = out.put(name, text);
   if (step) step = out.put("evaluation.json", evaluation_json(report));
   if (!step) return fail(step.error());
-  const Result<std::vector<ReportPlot>> images = out.render_all(plots_of(report));
+  const Result<std::vector<ReportPlot>> images = out.draw_all(plots_of(report));
   if (!images) return fail(images.error());
   if (step = out.put("report.html", report_html(report, *images)); !step) return fail(step.error());
   return out.written();

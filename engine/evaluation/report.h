@@ -63,12 +63,11 @@ struct DetectionReport {
 // What write_report() has written.
 struct WrittenReport {
   std::vector<std::filesystem::path> files;
-  std::vector<Warning> warnings;  // gnuplot is missing: no plots
 };
 
 // Writes into a folder, which must exist; files of the same name are replaced. The files are summary.csv, frames.csv
 // and evaluation.json; the plots center_error, x_error, y_error, precision, success and normalized_precision as .svg
-// and .png where gnuplot is installed; and report.html, a page that needs no other file. The same report gives the same
+// and .png; and report.html, a page that needs no other file. The same report gives the same
 // bytes; measured speeds in it differ from run to run. Errors cannot_create, write_failed.
 [[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const TrackReport& report);
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/gnuplot.h"
 #include "evaluation/report.h"
+#include "plot/plot.h"
 
 namespace sigs {
 

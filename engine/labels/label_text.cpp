@@ -39,25 +39,6 @@ std::string word_name(std::string_view text) {
   return word;
 }
 
-std::string escaped_text(std::string_view text, std::string_view also) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (also.find(c) != std::string_view::npos)
-      out += fmt::format("&#{};", static_cast<int>(c));
-    else
-      out += c;
-  }
-  return out;
-}
-
 // A double-quoted scalar of YAML has JSON's escapes, except for surrogate pairs of \u, which YAML does not join. So
 // other characters are written as they are, except for those that YAML forbids: what XML forbids, DEL, the C1 controls.
 std::string yaml_text(std::string_view text) {

@@ -35,10 +35,6 @@ inline constexpr int kLabelPixelDecimals = 4;
 // The same with underscores for blanks, for columns separated by blanks: "light aircraft" becomes light_aircraft.
 [[nodiscard]] std::string word_name(std::string_view text);
 
-// Text for an element or a quoted attribute of XML or HTML (XML 1.0 section 2.4): & < > " become entities, and each
-// character in `also` a numeric reference, as &#39;. The text itself must be allowed (xml_text, line_text).
-[[nodiscard]] std::string escaped_text(std::string_view text, std::string_view also = {});
-
 // A text as a double-quoted scalar of YAML 1.2, with its quotes. Characters that XML forbids become U+FFFD, as in
 // xml_text.
 [[nodiscard]] std::string yaml_text(std::string_view text);

@@ -61,8 +61,6 @@ class Workplace {
 
  private:
   void make_inputs() const;
-  // gnuplot, another program, met the same fault: a report without plots is one, with a warning for each of them.
-  void check_without_plots(const Job& job);
 
   TinyProject tiny_;
   std::vector<Job> jobs_;

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-
 namespace sigs {
-
-// Plots of a report and the program gnuplot that draws them. It runs as a process of its own.
 
 // In the units of the axes; NaN and infinity are not allowed.
 struct PlotPoint {
@@ -44,16 +41,15 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-// The file format of a drawn plot: vector graphics for the page, pixels for documents.
-enum class PlotFormat { svg, png };
+// The diagram, 960 pixels wide and 500 high but for more than one row of the key. Series differ in colour
+// (distinguishable with colour blindness) and in dashes or marks; each has its entry in the key, whether or not it has
+// points. Texts may contain any characters. What lies outside of the ranges is cut off.
+[[nodiscard]] std::string svg_of(const Plot& plot);
 
-// The plot as a program for gnuplot 5.2 or later that writes the image to its standard output. Texts of the plot may
-// contain any characters; none is executed. Series differ in colour (distinguishable with colour blindness) and in
-// dashes or marks.
-[[nodiscard]] std::string gnuplot_program(const Plot& plot, PlotFormat kind);
+// The same 1.5 times as large, BGR, 8 bits. Its letters are those of ASCII; others are shown as question marks.
+[[nodiscard]] cv::Mat image_of(const Plot& plot);
 
-// Runs gnuplot without the user's own settings and returns what it writes to its standard output. Errors: unavailable,
-// it is not installed or no temporary folder can be created; bad_data with its message, it fails or draws nothing.
-[[nodiscard]] Result<std::string> gnuplot_output(const std::string& program);
+// Labelled places of an axis with this scale, at most 12, from first to last.
+[[nodiscard]] std::vector<double> ticks_of(const PlotSpan& range, PlotScale scale);
 
 }  // namespace sigs
