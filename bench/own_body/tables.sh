@@ -1,4 +1,4 @@
-# The tables of docs/own-body.md from the bench's own. Sourced by own_body.sh; each function prints one, as Markdown.
+# The tables of docs/research/own-body.md from the bench's own. Sourced by own_body.sh; each function prints one, as Markdown.
 # folder: where the CSV files are.
 
 table_machine() {
