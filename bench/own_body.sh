@@ -35,7 +35,7 @@ awk -F, -f bench/own_body/claims.awk "$folder"/{flights,limits,real,time,early,r
 
 if [ -n "$write" ] && [ "$mode" != quick ]; then
   for table in flights limits time early real machine reliability; do bench/fill.sh docs/research/own-body.md "$table" "$folder/$table.md"; done
-  bench/fill.sh docs/accuracy.md own_body "$folder/by_frames.md"
+  bench/fill.sh docs/research/accuracy.md own_body "$folder/by_frames.md"
   cp "$folder/time.png" docs/images/own-body-time.png
   for image in flights stages-paper stages-stable; do
     cp "$folder/$image.jpg" "docs/images/own-body-$image.jpg"
