@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Error against run time: measures everything, draws the plots and makes the tables of docs/accuracy.md.
+# Error against run time: measures everything, draws the plots and makes the tables of docs/research/accuracy.md.
 #   bench/accuracy.sh [BUILD] [quick|draw]    default: build/release
 #   quick   one repetition, coarse truth; page and plots go into the build folder, docs/ is unchanged
 #   draw    measures nothing: plots and tables of the last whole run
@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 build=${1:-build/release}
 mode=${2:-whole}
 folder=$build/accuracy
-page=docs/accuracy.md
+page=docs/research/accuracy.md
 images=docs/images
 if [ "$mode" = quick ]; then
   folder=$build/accuracy-quick
@@ -33,7 +33,7 @@ for plot in frames sizes lens lens_table spline; do
     "bench/accuracy/$plot.gp"
 done
 
-with_tables docs/accuracy.md >"$folder/page.md"
+with_tables docs/research/accuracy.md >"$folder/page.md"
 mv "$folder/page.md" "$page"
 if ! awk -F, -f bench/accuracy/claims.awk "$folder"/{machine,frames,chroma,sizes,tolerance,lens,lens_table,spline,condition}.csv &&
   [ "$mode" != quick ]; then

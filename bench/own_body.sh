@@ -34,8 +34,8 @@ broken=
 awk -F, -f bench/own_body/claims.awk "$folder"/{flights,limits,real,time,early,reliability}.csv || broken=1
 
 if [ -n "$write" ] && [ "$mode" != quick ]; then
-  for table in flights limits time early real machine reliability; do bench/fill.sh docs/own-body.md "$table" "$folder/$table.md"; done
-  bench/fill.sh docs/accuracy.md own_body "$folder/by_frames.md"
+  for table in flights limits time early real machine reliability; do bench/fill.sh docs/research/own-body.md "$table" "$folder/$table.md"; done
+  bench/fill.sh docs/research/accuracy.md own_body "$folder/by_frames.md"
   cp "$folder/time.png" docs/images/own-body-time.png
   for image in flights stages-paper stages-stable; do
     cp "$folder/$image.jpg" "docs/images/own-body-$image.jpg"
@@ -44,6 +44,6 @@ if [ -n "$write" ] && [ "$mode" != quick ]; then
   if [ -e "$folder/real-masks.png" ]; then cp "$folder/real-masks.png" docs/images/own-body-real-masks.png; fi
 fi
 if [ -n "$broken" ] && [ "$mode" != quick ]; then
-  echo "error: docs/own-body.md says what the figures do not" >&2
+  echo "error: docs/research/own-body.md says what the figures do not" >&2
   exit 1
 fi

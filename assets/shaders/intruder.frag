@@ -110,7 +110,7 @@ vec3 surroundings(vec3 direction) {
   return mix(ground_color, sky_color, smoothstep(-0.1, 0.1, dot(direction, up)));
 }
 
-// Premultiplied colour and opacity. docs/how-a-frame-is-made.md has the formulas.
+// Premultiplied colour and opacity. docs/formulas.md has the formulas.
 vec4 sunlit(vec4 texel, float opacity, vec3 n, vec3 to_eye, float lit) {
   bool is_glass = opacity < 1.0;
   vec3 straight = 0.25 * surface_gloss.rgb;

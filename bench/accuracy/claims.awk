@@ -1,4 +1,4 @@
-# Checks the statements of docs/accuracy.md against the tables: prints each one that the figures no longer support.
+# Checks the statements of docs/accuracy.md and docs/research/accuracy.md against the tables: prints each one that the figures no longer support.
 #   awk -F, -f claims.awk machine.csv frames.csv chroma.csv sizes.csv tolerance.csv lens.csv lens_table.csv spline.csv condition.csv
 function claim(holds, text) { if (!holds) { print "no longer so: " text; broken = 1 } }
 FNR == 1 { next }

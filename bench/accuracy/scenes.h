@@ -33,7 +33,7 @@ struct Recipe {
 [[nodiscard]] LensParameters tangential_lens();
 [[nodiscard]] LensParameters pincushion_lens();
 
-// The scenes of docs/accuracy.md.
+// The scenes of docs/research/accuracy.md.
 [[nodiscard]] std::vector<Recipe> recipes();
 
 // The recipe as a project in the folder, from the sample assets, opened; placed so that it is as large as wanted.

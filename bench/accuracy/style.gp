@@ -1,4 +1,4 @@
-# The look of every plot of docs/accuracy.md: an opaque light card, which reads on a light page and on a dark one.
+# The look of every plot of docs/research/accuracy.md: an opaque light card, which reads on a light page and on a dark one.
 set terminal pngcairo enhanced size width, height font "DejaVu Sans,11" background rgb "#fcfcfa" linewidth 1.4
 set datafile separator ","
 ink = "#30363d"

@@ -1,4 +1,4 @@
-# The tables of docs/accuracy.md from the benches' own. Sourced by accuracy.sh; each function prints one, as Markdown.
+# The tables of docs/research/accuracy.md from the benches' own. Sourced by accuracy.sh; each function prints one, as Markdown.
 # folder: where the CSV files are.
 
 # For awk: the defaults, as machine.csv has them; two significant digits, without exponents where possible; "none" where the method shows nothing.

@@ -1,4 +1,4 @@
-# Checks the statements of docs/own-body.md against the tables: prints each one that the figures no longer support.
+# Checks the statements of docs/research/own-body.md against the tables: prints each one that the figures no longer support.
 #   awk -F, -f claims.awk flights.csv limits.csv real.csv time.csv early.csv
 function claim(holds, text) { if (!holds) { print "no longer so: " text; broken = 1 } }
 FNR == 1 { next }

@@ -1,4 +1,4 @@
-# The tables of docs/own-body.md from the bench's own. Sourced by own_body.sh; each function prints one, as Markdown.
+# The tables of docs/research/own-body.md from the bench's own. Sourced by own_body.sh; each function prints one, as Markdown.
 # folder: where the CSV files are.
 
 table_machine() {
@@ -66,7 +66,7 @@ table_real() {
   ' "$folder/real.csv"
 }
 
-# By the number of frames, for docs/accuracy.md.
+# By the number of frames, for docs/research/accuracy.md.
 table_by_frames() {
   awk -F, '
     FNR == 1 { print "| frames | `stable`: 1 - IoU | s | `paper`: 1 - IoU | s |"; print "|---|---|---|---|---|"; next }

@@ -15,7 +15,7 @@ namespace sigs {
 
 namespace {
 
-// Error against run time: docs/appearance.md.
+// Error against run time: docs/research/appearance.md.
 constexpr int kSamples = 24;
 constexpr int kSurroundings = 12;  // samples for haze, tone, light and sun, which change little from one to the next
 constexpr int kTraces = 4;         // for traces of the codec, likewise

@@ -13,7 +13,7 @@ namespace sigs {
 
 namespace {
 
-// Chosen with the clips that are kept for tuning (docs/realism.md): more change little.
+// Chosen with the clips that are kept for tuning (docs/research/realism.md): more change little.
 constexpr int kCarriedFrames = 12;
 
 // To three digits; more would not be honest, and settings are read by people.

@@ -173,7 +173,7 @@ LightEstimate LightEstimator::finish(std::optional<double> sun_elevation_rad) co
 namespace {
 
 // Least share of what falls on the ground that comes from below. Chosen with the clips that are kept for tuning
-// (docs/realism.md).
+// (docs/research/realism.md).
 constexpr double kFromBelow = 0.2;
 constexpr double kUsualSunElevation_rad = 0.436;  // 25 degrees, where the direction is not known
 

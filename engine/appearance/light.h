@@ -61,7 +61,8 @@ class LightEstimator {
 
 // The settings of a light of the kind `sun`; what is not known has the estimate's default. The sun's direction stays.
 // exposure is 1.8 times the estimate where that is known: so bright is paint in the sun in real clips. From below comes
-// at least a fifth of what sun and sky give the ground. Both were chosen by the tuning clips (docs/realism.md).
+// at least a fifth of what sun and sky give the ground. Both were chosen by the tuning clips
+// (docs/research/realism.md).
 //   white  ToneEstimate::white. Where it shows that something white is in the footage, such as clouds in the sun, white
 //          paint in the sun is as bright as that and no brighter
 void apply(const LightEstimate& light, const Estimate& white, LightSettings& settings);

@@ -27,7 +27,7 @@ enum class FlightKind {
 [[nodiscard]] std::optional<FlightKind> flight_kind_of(std::string_view name);
 [[nodiscard]] std::span<const FlightKind> all_flight_kinds();
 
-// One of the numbers that describe a flight. Reading, planning and docs/dataset.md all use this list.
+// One of the numbers that describe a flight. Reading, planning and docs/dataset-recipe.md all use this list.
 struct FlightQuantity {
   std::string_view name;  // with its unit: "miss_distance_m"
   double low = 0;         // minimum and maximum; a flight with a value outside them is impossible

@@ -99,7 +99,7 @@ constexpr int kMaxFrames = 1'000'000'000;
 constexpr int kResamples = 100;  // of sampled groups without one
 constexpr int kMaxResamples = 10'000;
 
-// The flights of a sampled group without any. docs/dataset.md shows them.
+// The flights of a sampled group without any. docs/dataset-recipe.md shows them.
 constexpr const char* kRandomEncounter = R"([{"kind": "encounter",
   "miss_distance_m": {"uniform": [0, 150]}, "miss_angle_deg": {"uniform": [-180, 180]},
   "bearing_deg": {"uniform": [-45, 45]}, "elevation_deg": {"uniform": [-10, 10]},

@@ -8,7 +8,7 @@
 
 namespace sigs {
 
-// A number that is fixed, or sampled for each video. docs/dataset.md shows how recipes write it.
+// A number that is fixed, or sampled for each video. docs/dataset-recipe.md shows how recipes write it.
 struct Quantity {
   enum class Kind { fixed, uniform, log_uniform, normal, choice };
   Kind kind = Kind::fixed;

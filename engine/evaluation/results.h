@@ -42,8 +42,8 @@ struct Results {
   [[nodiscard]] const ReportedBox* best_at(int frame) const;  // highest score, first of equals; nullptr: none
 };
 
-// Layouts of result files. docs/evaluation.md defines them: which frame a line belongs to, and whether pixels and
-// frames count from 0 or 1.
+// Layouts of result files. docs/evaluation-reference.md defines them: which frame a line belongs to, and whether pixels
+// and frames count from 0 or 1.
 enum class ResultsFormat { automatic, otb, vot, mot, csv, aot, coco };
 [[nodiscard]] std::span<const std::string_view> results_format_names();  // in the order of the enum
 

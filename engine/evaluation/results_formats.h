@@ -13,7 +13,7 @@
 namespace sigs {
 
 // The readers of the layouts of results, one function for each, which read_results() (results.cpp) chooses from. They
-// give every box to a ResultsBuilder. docs/evaluation.md defines the layouts.
+// give every box to a ResultsBuilder. docs/evaluation-reference.md defines the layouts.
 
 // A file of results that is being read.
 struct ResultsFile {

@@ -11,8 +11,8 @@
 
 namespace sigs {
 
-// The truth in files that other programs have written, or SIGS in their layouts. docs/evaluation.md says what is read
-// of each, which boxes are ignored, and which figures need what a layout does not have.
+// The truth in files that other programs have written, or SIGS in their layouts. docs/evaluation-reference.md says what
+// is read of each and which boxes are ignored, docs/evaluation.md which figures need what a layout does not have.
 
 // A clip of such a file or folder.
 struct TruthClip {

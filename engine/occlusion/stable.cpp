@@ -71,7 +71,7 @@ constexpr double kUnsureBorder = 3;  // pixels beside the border where its posit
 constexpr double kPlainWorld = 0.5;  // certainty of world that does not move
 
 // From odds to likelihood: fitted to the parts of the synthetic flights and of reflections. Reflections that stay in
-// the image are mostly kept with odds below 3, bodies with 3 and more (docs/own-body.md).
+// the image are mostly kept with odds below 3, bodies with 3 and more (docs/research/own-body.md).
 constexpr double kEvenOdds = 2.6;  // as often body as not
 constexpr double kOddsUnit = 0.5;  // more odds by which its likelihood grows e-fold
 

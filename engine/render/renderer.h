@@ -47,7 +47,7 @@ class Renderer {
 
   // Renders the mesh as a layer that covers the whole view (layer.rect = {0, 0, size}): premultiplied, linear light,
   // several samples for each pixel. Solid parts come first, then glass from far to near. In the sun the body casts
-  // shadows on itself; docs/how-a-frame-is-made.md has the formulas of both lights.
+  // shadows on itself; docs/formulas.md has the formulas of both lights.
   // The mesh is uploaded at its first use and stays on the GPU until forget(). It is recognized by its address, so
   // meshes must neither move nor be destroyed before. A mesh that has changed is uploaded again; the change is
   // recognized by some thousand of its vertices and texels. Depth and position are computed relative to the camera, so

@@ -31,7 +31,8 @@ Rows rows_in_code(FlightKind kind) {
   return rows;
 }
 
-// A plan of the page's n-th recipe, with the sample's files under the names that it uses.
+// A plan of the pages' n-th recipe, the guide's before the reference's, with the sample's files under the names that it
+// uses.
 Plan plan_of_example(std::size_t n) {
   const TemporaryFolder folder;
   const std::filesystem::path assets = source_dir() / "assets";
@@ -39,7 +40,7 @@ Plan plan_of_example(std::size_t n) {
   std::filesystem::create_symlink(assets / "calibrations/sample.xml", folder / "camera.xml");
   std::filesystem::create_symlink(assets / "footage/sample_own_body.png", folder / "own_body.png");
   std::filesystem::create_symlink(assets / "models/airliner/airliner.obj", folder / "airliner.obj");
-  const std::vector<std::string> examples = blocks(page("dataset.md"), "json");
+  const std::vector<std::string> examples = blocks(page("dataset.md") + page("dataset-recipe.md"), "json");
   REQUIRE(examples.size() == 3);
   const Result<ReadRecipe> read = parse_recipe(examples.at(n), folder / "recipe.json");
   REQUIRE_MESSAGE(read, read.error().text());
@@ -52,16 +53,16 @@ Plan plan_of_example(std::size_t n) {
 
 }  // namespace
 
-TEST_CASE("the dataset's page has the quantities of the flights as the program has them") {
+TEST_CASE("the recipe's page has the quantities of the flights as the program has them") {
   for (const FlightKind kind : {FlightKind::left_right, FlightKind::approaching, FlightKind::encounter,
                                 FlightKind::encounter_model, FlightKind::recorded, FlightKind::image_position}) {
     CAPTURE(name_of(kind));
-    CHECK(table_rows(page("dataset.md"), "| " + std::string(name_of(kind)) + " | range | default | meaning |") ==
+    CHECK(table_rows(page("dataset-recipe.md"), "| " + std::string(name_of(kind)) + " | range | default | meaning |") ==
           rows_in_code(kind));
   }
 }
 
-TEST_CASE("the flights that the dataset's page calls alike differ only as it states") {
+TEST_CASE("the flights that the recipe's page calls alike differ only as it states") {
   Rows right_left = rows_in_code(FlightKind::right_left);
   right_left[2][2] = std::string("5");
   right_left[3][2] = std::string("95");
@@ -76,11 +77,11 @@ TEST_CASE("the recipe on the dataset's page makes its videos") {
   CHECK(plan_of_example(0).videos.size() == 48);
 }
 
-TEST_CASE("the recipe of balanced places and sizes on the dataset's page makes all its videos") {
+TEST_CASE("the recipe of balanced places and sizes on the recipe's page makes all its videos") {
   CHECK(plan_of_example(2).videos.size() == 60);
 }
 
-TEST_CASE("the recipe of random encounters on the dataset's page makes all its videos") {
+TEST_CASE("the recipe of random encounters on the recipe's page makes all its videos") {
   const Plan plan = plan_of_example(1);
   CHECK(plan.videos.size() == 30);
   std::map<std::string, int> of_tag;

@@ -102,7 +102,7 @@ truth::ReferenceImage exposed(const Scene& scene, const Sight& sight, const trut
   return mean;
 }
 
-// Tones and haze as the formulas of docs/how-a-frame-is-made.md have them. BT.709's luminance.
+// Tones and haze as the formulas of docs/formulas.md have them. BT.709's luminance.
 void put_behind_haze(truth::ReferenceImage& image, const AppearanceSettings& look, double distance_m) {
   const double through = look.haze.visibility_m ? std::exp(-3 * distance_m / *look.haze.visibility_m) : 1;
   image.color.forEach<cv::Vec4d>([&](cv::Vec4d& color, const int*) {

@@ -64,8 +64,8 @@ BLOCK = re.compile(r"^```(?:json|jsonc|xml|csv|yaml)\n(.*?)^```", re.S | re.M)
 
 def add_examples(seeds: Seeds) -> None:
     pages = {"annotation-format.md": "truth", "project-format.md": "project", "dataset.md": "recipe",
-             "calibration-files.md": "calibration", "frames-and-units.md": "text_log", "encounters.md": "encounter",
-             "evaluation.md": "results"}
+             "dataset-recipe.md": "recipe", "calibration-files.md": "calibration", "frames-and-units.md": "text_log",
+             "encounters.md": "encounter", "evaluation-reference.md": "results"}
     for page, target in pages.items():
         for block in BLOCK.findall((ROOT / "docs" / page).read_text()):
             seeds.add(target, block.encode())

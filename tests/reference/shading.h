@@ -38,7 +38,7 @@ struct SurfacePoint {
 };
 
 // The shading model of assets/shaders/intruder.frag, in doubles: Lambert and Blinn-Phong in linear light; in the sun
-// the radiance of a surface by its reflectance (BRDF), which docs/how-a-frame-is-made.md describes. Images are
+// the radiance of a surface by its reflectance (BRDF), which docs/formulas.md describes. Images are
 // read by bilinear interpolation of premultiplied linear light at full size; many rays a pixel do the rest.
 class Shader {
  public:
