@@ -72,7 +72,10 @@ AppShell::AppShell(Document& document, Settings& settings, Setup setup)
       new_project_(document, settings, session_, gallery_, setup_.wake),
       change_model_(gallery_, setup_.wake),
       start_page_(setup_.samples, setup_.wake) {
-  const fs::path usual = settings.recent.empty() ? setup_.samples : settings.recent.front().parent_path();
+  // The samples are among the places that the browser offers.
+  const char* const home = std::getenv("HOME");
+  const fs::path first = home != nullptr ? fs::path(home) : setup_.samples;
+  const fs::path usual = settings.recent.empty() ? first : settings.recent.front().parent_path();
   const fs::path last = settings.last_folder.empty() ? usual : settings.last_folder;
   browser_.set_folder(started_in().value_or(last));
 }

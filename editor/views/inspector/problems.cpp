@@ -46,20 +46,20 @@ bool wrapped_line(const std::string& text) {
   return is_clicked;
 }
 
-std::string line_of(const ViewContext& context, const std::string& field, const Problem& problem) {
-  return shortened(place_of(context.project(), field) + ": " + problem.what, kMaxLine);
+std::string line_of(const ViewContext& context, const Problem& problem) {
+  return shortened(place_of(context.project(), problem.field) + ": " + problem.what, kMaxLine);
 }
 
 // The field whose line was clicked.
-std::optional<std::string> draw_lines(const ViewContext& context, const ProblemsByField& problems,
+std::optional<std::string> draw_lines(const ViewContext& context, const std::vector<Problem>& problems,
                                       const std::string& name) {
   std::optional<std::string> clicked;
   int shown = 0;
-  for (const auto& [field, problem] : problems) {
+  for (const Problem& problem : problems) {
     if (++shown > kMaxShown) break;
     ImGui::PushID(shown);
-    if (wrapped_line(line_of(context, field, problem))) clicked = field;
-    context.ui_probe.note_item(fmt::format("inspector/{}/{}", name, field));
+    if (wrapped_line(line_of(context, problem))) clicked = problem.field;
+    context.ui_probe.note_item(fmt::format("inspector/{}/{}", name, problem.field));
     ImGui::PopID();
   }
   if (problems.size() > kMaxShown) note(fmt::format("{} more", problems.size() - kMaxShown), true);
@@ -67,17 +67,16 @@ std::optional<std::string> draw_lines(const ViewContext& context, const Problems
 }
 
 // Of all lines, or as much of the panel as a list may take; the rest is scrolled to.
-float height_of_lines(const ViewContext& context, const ProblemsByField& problems) {
+float height_of_lines(const ViewContext& context, const std::vector<Problem>& problems) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float width = ImGui::GetContentRegionAvail().x - style.ScrollbarSize;
   float height = style.ItemSpacing.y;
-  for (const auto& [field, problem] : problems)
-    height +=
-        ImGui::CalcTextSize(line_of(context, field, problem).c_str(), nullptr, false, width).y + style.ItemSpacing.y;
+  for (const Problem& problem : problems)
+    height += ImGui::CalcTextSize(line_of(context, problem).c_str(), nullptr, false, width).y + style.ItemSpacing.y;
   return std::min(height, ImGui::GetContentRegionAvail().y * kMaxShareOfPanel);
 }
 
-std::optional<std::string> draw_list(const ViewContext& context, const ProblemsByField& problems,
+std::optional<std::string> draw_list(const ViewContext& context, const std::vector<Problem>& problems,
                                      const std::string& name, ImU32 shade, bool opens_first = false) {
   if (problems.empty()) return std::nullopt;
   const std::string title = count_text(static_cast<std::int64_t>(problems.size()), name);
@@ -226,17 +225,37 @@ std::optional<std::string> LossOfView::found(const ViewContext& context) {
   return message;
 }
 
+namespace {
+
+std::vector<Problem> lines_of(const ProblemsByField& problems) {
+  std::vector<Problem> lines;
+  for (const auto& [field, problem] : problems) lines.push_back(problem);
+  return lines;
+}
+
+// How much hangs on a guess: all distances on the lens, all places on the camera, the look of one aircraft on the rest.
+int weight_of(std::string_view field) {
+  constexpr std::array<std::string_view, 4> kFirst{"footage.", "camera.", "intruders", "light."};
+  const auto found =
+      std::find_if(kFirst.begin(), kFirst.end(), [&](std::string_view begin) { return field.starts_with(begin); });
+  return static_cast<int>(found - kFirst.begin());
+}
+
+}  // namespace
+
 int ProblemList::count_in(const std::string& block) const {
   const auto found = counts_.find(block);
   return found == counts_.end() ? 0 : found->second;
 }
 
 std::optional<std::string> ProblemList::draw(const ViewContext& context) const {
-  const std::optional<std::string> problem = draw_list(context, by_field_, "problem", color::kBad);
-  const std::optional<std::string> warning = draw_list(context, warnings_, "warning", color::kPartly);
-  ProblemsByField guesses;
-  if (context.guesses != nullptr)
-    for (const Problem& guess : *context.guesses) guesses.emplace(guess.field, guess);
+  const std::optional<std::string> problem = draw_list(context, lines_of(by_field_), "problem", color::kBad);
+  const std::optional<std::string> warning = draw_list(context, lines_of(warnings_), "warning", color::kPartly);
+  std::vector<Problem> guesses;
+  if (context.guesses != nullptr) guesses = *context.guesses;
+  std::stable_sort(guesses.begin(), guesses.end(), [](const Problem& a, const Problem& b) {
+    return std::pair(weight_of(a.field), a.field) < std::pair(weight_of(b.field), b.field);
+  });
   const std::optional<std::string> guess = draw_list(context, guesses, "guessed setting", color::kAccent, true);
   return problem ? problem : warning ? warning : guess;
 }
