@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "appearance/similar_place.h"
 #include "appearance/target_silhouette.h"
 #include "comparison/inserted_target.h"
 #include "frame/compose_context.h"

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "appearance/appearance.h"
-#include "appearance/light_grid.h"
+#include "appearance/light_image.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "horizon/horizon.h"
