@@ -10,7 +10,6 @@
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "calibration/rough_calibration.h"
-#include "calibration/rough_plot.h"
 #include "cli/calibrate_options.h"
 #include "cli/options.h"
 #include "cli/output_files.h"

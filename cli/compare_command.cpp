@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "appearance/similar_place.h"
+#include "appearance/target_silhouette.h"
 #include "base/csv.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "accuracy/csv.h"
-#include "appearance/similar_place.h"
+#include "appearance/target_silhouette.h"
 #include "comparison/inserted_target.h"
 #include "realism/moved.h"
 #include "scene/opened_project.h"

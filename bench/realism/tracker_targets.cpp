@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "appearance/similar_place.h"
+#include "appearance/target_silhouette.h"
 #include "realism/moved.h"
 #include "scene/opened_project.h"
 

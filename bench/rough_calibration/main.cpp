@@ -9,7 +9,7 @@
 #include "base/stopwatch.h"
 #include "calibration/made_tracks.h"
 #include "calibration/rough_calibration.h"
-#include "calibration/rough_turn.h"
+#include "calibration/rough_motion.h"
 #include "telemetry/read_track.h"
 
 // bench_rough_calibration made FIRST LAST   seeds of made tracks: error and coverage of both methods, by lens

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "first_project/first_camera.h"
-#include "first_project/first_log.h"
 #include "video/frame_source.h"
 
 namespace sigs::editor {

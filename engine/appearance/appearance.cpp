@@ -7,13 +7,82 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <thread>
+#include <utility>
 
-#include "appearance/sampled_frames.h"
+#include "base/bounded_queue.h"
 #include "base/threads.h"
+#include "video/bit_depth.h"
+#include "video/frame.h"
 
 namespace sigs {
 
 namespace {
+
+struct NumberedFrame {
+  int number = 0;  // of the frame in the footage
+  Frame frame;
+};
+
+// Decodes the frames of these numbers on a thread of its own, up to 4 ahead of the caller, and gives them in order,
+// with 8 bits: deeper samples are rounded. No other code may use the footage while the stream exists.
+class SampledFrames {
+ public:
+  SampledFrames(FrameSource& footage, std::vector<int> numbers);
+  ~SampledFrames();
+  SampledFrames(const SampledFrames&) = delete;
+  SampledFrames& operator=(const SampledFrames&) = delete;
+
+  // The next frame, or the error that ended the decoding; nothing after the last frame or after an error.
+  [[nodiscard]] std::optional<Result<NumberedFrame>> next();
+
+ private:
+  void decode(FrameSource& footage, const std::vector<int>& numbers);
+  void give_up(const Error& error);
+
+  BoundedQueue<Result<NumberedFrame>> ahead_;
+  std::optional<Error> failure_;  // written by the thread until the queue is closed, then read by the caller
+  std::thread thread_;
+};
+
+constexpr std::size_t kDecodedAhead = 4;
+
+SampledFrames::SampledFrames(FrameSource& footage, std::vector<int> numbers) : ahead_(kDecodedAhead) {
+  Result<std::thread> thread =
+      started_thread([this, &footage, numbers = std::move(numbers)] { decode(footage, numbers); },
+                     [this](const Error& error) { give_up(error); });
+  if (thread)
+    thread_ = std::move(*thread);
+  else
+    give_up(thread.error());
+}
+
+SampledFrames::~SampledFrames() {
+  ahead_.close();
+  if (thread_.joinable()) thread_.join();
+}
+
+void SampledFrames::give_up(const Error& error) {
+  failure_ = error;
+  ahead_.close();
+}
+
+std::optional<Result<NumberedFrame>> SampledFrames::next() {
+  std::optional<Result<NumberedFrame>> frame = ahead_.take();
+  if (frame || !failure_) return frame;
+  return fail(*std::exchange(failure_, std::nullopt));
+}
+
+void SampledFrames::decode(FrameSource& footage, const std::vector<int>& numbers) {
+  for (const int number : numbers) {
+    Result<Frame> frame = footage.read(number);
+    const bool is_read = frame.has_value();
+    const bool is_wanted =
+        is_read ? ahead_.put(NumberedFrame{number, with_bit_depth(*frame, 8)}) : ahead_.put(fail(frame.error()));
+    if (!is_wanted || !is_read) break;
+  }
+  ahead_.close();
+}
 
 // Error against run time: docs/research/appearance.md.
 constexpr int kSamples = 24;

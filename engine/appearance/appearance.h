@@ -9,11 +9,11 @@
 
 #include "appearance/codec.h"
 #include "appearance/estimate.h"
+#include "appearance/light_image.h"
 #include "appearance/noise.h"
 #include "appearance/panel.h"
 #include "appearance/point_spread.h"
 #include "appearance/surroundings.h"
-#include "appearance/view.h"
 #include "base/result.h"
 #include "project/project.h"
 #include "video/frame_source.h"

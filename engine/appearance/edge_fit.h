@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "appearance/quantiles.h"
+#include "appearance/estimate.h"
 #include "appearance/straight_edges.h"
 #include "video/color_space.h"
 

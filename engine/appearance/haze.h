@@ -33,10 +33,10 @@ struct HazePoint {
 // r = height / sin(depression): the ground is flat. The airlight is the sky's colour where it meets the horizon,
 // extrapolated from 1 to 8 degrees above it, and the ground's limit.
 //
-// Needs of the view: camera and height_m for the visibility, and a skyline for both (skyline.h). Without the camera the
-// angles are guessed, so that the airlight is rougher.
-// Not known: the airlight without a horizon, or where the sky is over-exposed; the visibility without height, and where
-// the land does not grow paler with distance or does so by less than its own patches differ.
+// Needs of the view: camera and height_m for the visibility, and a skyline for both (light_image.h). Without the camera
+// the angles are guessed, so that the airlight is rougher. Not known: the airlight without a horizon, or where the sky
+// is over-exposed; the visibility without height, and where the land does not grow paler with distance or does so by
+// less than its own patches differ.
 class Haze {
  public:
   void add(const LightImage& image);

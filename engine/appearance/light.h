@@ -29,7 +29,7 @@ struct LightEstimate {
 // It is taken for the bluest tenth of the sky that is seen. The two numbers were chosen on 15 clips with real
 // aircraft, whose white parts in the sun are 2.5 to 5 times as bright as the sky.
 //
-// Sky and ground are distinguished by the horizon (skyline.h). Without one, smooth parts of the upper half that are
+// Sky and ground are distinguished by the horizon (light_image.h). Without one, smooth parts of the upper half that are
 // neither green nor brown are sky, and rough parts of the lowest third are ground.
 // Not known: everything without a sky, or where it is over-exposed or black; the strength of the sun in gray footage.
 // Where no ground is seen, it is taken to reflect 0.15 of sun and sky; where it is, what it gives is held between 0.1

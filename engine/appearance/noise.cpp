@@ -8,10 +8,8 @@
 #include <cmath>
 #include <optional>
 
-#include "appearance/grain_model.h"
-#include "appearance/noise_lasting.h"
-#include "appearance/noise_line.h"
-#include "appearance/quantiles.h"
+#include "appearance/estimate.h"
+#include "appearance/noise_blocks.h"
 
 namespace sigs {
 

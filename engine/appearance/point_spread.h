@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "appearance/chroma_edges.h"
 #include "appearance/edge_fit.h"
 #include "appearance/estimate.h"
 #include "appearance/panel.h"

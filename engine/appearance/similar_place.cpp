@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "appearance/similar_place.h"
+#include "appearance/target_silhouette.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMargin_px = 14;  // within which background is compared and the target's traces are measured
 constexpr int kBesideBox_px = 8;
-constexpr int kStep_px = 6;  // no multiple of a codec's blocks: their grid must not always lie alike
+constexpr int kPlaceStep_px = 6;  // no multiple of a codec's blocks: their grid must not always lie alike
 constexpr std::size_t kChoices = 3;
 constexpr double kSameMean = 6;  // code values that weigh as much as a standard deviation larger by a factor of e
 
@@ -62,8 +62,8 @@ std::optional<cv::Point2d> similar_place(const Frame& frame, const Box& box, cv:
   const Shade wanted = shades.over(grown(taken, kMargin_px) & image, taken);
   std::vector<Place> places;
   const cv::Size outer = size_px + cv::Size(2 * kMargin_px, 2 * kMargin_px);
-  for (int y = 0; y + outer.height <= image.height; y += kStep_px)
-    for (int x = 0; x + outer.width <= image.width; x += kStep_px) {
+  for (int y = 0; y + outer.height <= image.height; y += kPlaceStep_px)
+    for (int x = 0; x + outer.width <= image.width; x += kPlaceStep_px) {
       const cv::Rect part({x, y}, outer);
       if (!(grown(part, kBesideBox_px - kMargin_px) & grown(taken, kMargin_px)).empty()) continue;
       const Shade here = shades.over(part);

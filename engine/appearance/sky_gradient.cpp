@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "appearance/sky_gradient.h"
+#include "appearance/sun.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,12 +3,15 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "appearance/estimate.h"
 #include "appearance/light_image.h"
+#include "camera/camera.h"
 #include "project/project.h"
 
 namespace sigs {
@@ -81,5 +84,36 @@ class Sun {
 
 // The sun's direction in the settings. One that was given stays as it is there: time and place tell it at each frame.
 void apply(const SunEstimate& sun, LightSettings& settings);
+
+// The long dark patches on the ground ahead of the camera, laid flat; see Sun.
+//   luma               CV_8UC1, of the camera's size
+//   world_from_camera  attitude against the level
+//   own_body           CV_8UC1 of the same size, above 127 where hidden; may be empty
+[[nodiscard]] std::vector<Sun::Patch> shadow_patches(const cv::Mat& luma, const Camera& camera,
+                                                     const glm::dquat& world_from_camera, const cv::Mat& own_body);
+
+// Mean luminance of a part of the sky.
+struct SkySample {
+  double azimuth_rad = 0, elevation_rad = 0;
+  double luminance = 0;      // above 0
+  double from_axis_rad = 0;  // from the camera's axis
+  int band = 0;              // those of equal elevation have the same; from 0
+};
+
+// The direction of the sun that a clear sky's brightness around it tells.
+struct SkySun {
+  double azimuth_rad = 0, elevation_rad = 0;
+  double azimuth_sd_rad = 0, elevation_sd_rad = 0;
+};
+
+// Scattering indicatrix of CIE's standard clear sky (ISO 15469:2004, type 12: c = 10, d = -3, e = 0.45): brightness at
+// an angle from the sun, in parts of that at 90 degrees.
+[[nodiscard]] double clear_sky_indicatrix(double angle_rad);
+
+// The sun whose indicatrix explains the samples best, each band with a factor of its own, since haze makes elevations
+// differ, and with a fall of brightness by the square of the angle from the camera's axis, as lenses have. Nothing
+// where it explains less than 0.8 of the variance that these leave, where that is small (a quarter of the luminance
+// from end to end), or where there are fewer than 12 samples in 2 bands.
+[[nodiscard]] std::optional<SkySun> sun_of_sky(const std::vector<SkySample>& samples);
 
 }  // namespace sigs

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "appearance/edge_profiles.h"
+#include "appearance/target_silhouette.h"
 
 namespace sigs {
 
@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kRingFrom_px = 2.5, kRingTo_px = 9;  // beyond the overshoot; a 4x4 or 8x8 transform reaches so far
 constexpr double kFarFrom_px = 14;                    // beyond what a macroblock of 16x16 reaches from most edges
-constexpr int kLeastSamples = 8;
+constexpr int kLeastLookPixels = 8;
 constexpr std::size_t kLeastFrames = 5;
 
 // Mean absolute response of Immerkaer's operator as the standard deviation of white noise (J. Immerkaer, "Fast noise
 // variance estimation", CVIU 64(2), 1996). Planes and straight edges along the axes give nothing.
 std::optional<double> noise_over(const cv::Mat& plane, const cv::Mat& where) {
-  if (cv::countNonZero(where) < kLeastSamples) return std::nullopt;
+  if (cv::countNonZero(where) < kLeastLookPixels) return std::nullopt;
   const cv::Matx33f kernel(1, -2, 1, -2, 4, -2, 1, -2, 1);
   cv::Mat response;
   cv::filter2D(plane, response, CV_32F, kernel);
@@ -31,7 +31,7 @@ std::optional<double> noise_over(const cv::Mat& plane, const cv::Mat& where) {
 }
 
 std::optional<double> sd_over(const cv::Mat& plane, const cv::Mat& where) {
-  if (cv::countNonZero(where) < kLeastSamples) return std::nullopt;
+  if (cv::countNonZero(where) < kLeastLookPixels) return std::nullopt;
   cv::Scalar mean, sd;
   cv::meanStdDev(plane, mean, sd, where);
   return sd[0];
@@ -73,7 +73,7 @@ double percentile(const std::vector<float>& sorted, double percent) {
 cv::Mat interior_of(const cv::Mat& mask) {
   cv::Mat inner;
   cv::erode(mask, inner, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
-  return cv::countNonZero(inner) >= kLeastSamples ? inner : mask;
+  return cv::countNonZero(inner) >= kLeastLookPixels ? inner : mask;
 }
 
 void add_grain(TargetLook& look, const TargetSilhouette& target, const cv::Mat& far) {
@@ -126,7 +126,7 @@ std::optional<double> block_steps(const TargetSilhouette& target, const cv::Mat&
       ++counts[column];
       ++counts[row];
     }
-  if (counts[0] < kLeastSamples || counts[1] < kLeastSamples) return std::nullopt;
+  if (counts[0] < kLeastLookPixels || counts[1] < kLeastLookPixels) return std::nullopt;
   return sums[1] / counts[1] - sums[0] / counts[0];
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
 
@@ -33,5 +34,26 @@ struct TargetSilhouette {
 // surroundings lie within it.
 //   box  continuous pixels; may be loose by up to its own size
 [[nodiscard]] std::optional<TargetSilhouette> target_silhouette(const Frame& frame, const Box& box);
+
+// Profiles of luma and chroma across a target's outline, from the inside to the outside.
+struct EdgeProfiles {
+  int count = 0;                    // profiles that could be used
+  std::optional<double> width_px;   // 10 to 90 % of the contrast, median
+  std::optional<double> slope;      // largest slope over the contrast, 1/px, upper quartile
+  std::optional<double> overshoot;  // lowest value of the mean profile beyond 10 %, negated, share of the contrast
+  std::optional<double> chroma_width_px;  // 10 to 90 % of Cb and Cr along the target's mean chroma difference, median
+};
+
+// At each pixel of the outline one profile along the outline's normal, 6 px to each side, read with bicubic
+// interpolation. The contrast is that of the first extremum within the outline. Profiles with little contrast, and
+// those that do not come to rest outside, are left out; without 6 usable ones nothing is known.
+[[nodiscard]] EdgeProfiles edge_profiles(const TargetSilhouette& target);
+
+// Another place in a frame whose background is like that around a box, for a second target beside the one in the box:
+// of the places where a rectangle of size_px and 14 px around it lie within the image and 8 px or more away from the
+// box, one of the three whose luma is most alike in mean and standard deviation. None where there is no place.
+//   seed  chooses among the three
+[[nodiscard]] std::optional<cv::Point2d> similar_place(const Frame& frame, const Box& box, cv::Size size_px,
+                                                       std::uint32_t seed);
 
 }  // namespace sigs

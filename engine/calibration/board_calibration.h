@@ -29,7 +29,7 @@ struct CalibratedModel {
   LensParameters lens;
   std::vector<double> sd;                 // standard deviations of fx fy cx cy and of the coefficients
   double rms_px = 0;                      // of the corners that were fitted
-  double held_out_px = 0;                 // of views that were not (model_choice.h)
+  double held_out_px = 0;                 // of views that were not (lens_fit.h)
   std::vector<CornerResidual> residuals;  // of the corners of all views used
 };
 
@@ -57,7 +57,7 @@ struct BoardCalibration {
 };
 
 // Fits the models to the views, of which up to half may be wrong, and chooses: from the simplest on, each that is
-// clearly better by its held-out error (model_choice.h) than the one chosen so far. 8 coefficients need 12 views.
+// clearly better by its held-out error (lens_fit.h) than the one chosen so far. 8 coefficients need 12 views.
 // Warnings: fewer than 10 views, many views left out, a corner of the image without any corner of the board, all views
 // facing the board, a focal length with a standard deviation of more than 0.5 %, a lens that does not reach the image's
 // corners.

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/pose.h"
-#include "calibration/rough_stated.h"
-#include "calibration/rough_turn.h"
+#include "calibration/rough_lens.h"
+#include "calibration/rough_motion.h"
 
 namespace sigs {
 

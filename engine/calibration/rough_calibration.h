@@ -2,14 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
 
 #include "base/result.h"
 #include "calibration/calibration_file.h"
-#include "calibration/rough_fit.h"
-#include "calibration/rough_gyro.h"
+#include "calibration/rough_lens.h"
 #include "calibration/rough_lines.h"
+#include "calibration/rough_motion.h"
 #include "calibration/rough_tracks.h"
 #include "telemetry/track.h"
 #include "video/frame_source.h"
@@ -64,5 +65,9 @@ struct RoughCalibration {
 
 // All that was found, as JSON (docs/calibrating-without-a-board.md).
 [[nodiscard]] std::string json_of(const RoughCalibration& found);
+
+// Why a rough calibration is what it is, CV_8UC3: the field of view by each method with its 95 % limits, or why there
+// is none; and the angle from the axis that each distance from the image's centre shows, beside a pinhole's.
+[[nodiscard]] cv::Mat rough_plot(const RoughCalibration& found);
 
 }  // namespace sigs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/rough_turn.h"
+#include "calibration/rough_motion.h"
 
 #include <fmt/format.h>
 

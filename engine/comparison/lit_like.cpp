@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "appearance/similar_place.h"
 #include "appearance/target_silhouette.h"
 #include "base/statistics.h"
 #include "comparison/inserted_target.h"

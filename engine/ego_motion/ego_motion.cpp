@@ -9,8 +9,6 @@
 
 #include "base/threads.h"
 #include "ego_motion/attitudes.h"
-#include "ego_motion/cloud_drift.h"
-#include "ego_motion/doubtful_frames.h"
 #include "ego_motion/features.h"
 #include "ego_motion/focal_scale.h"
 #include "ego_motion/gyro_fusion.h"
@@ -307,7 +305,7 @@ class Estimate {
   // From what the adjustment says to what is reported: no feature is exact, and the errors of one feature in successive
   // frames are not independent. That counts where features leave the image and others take over from them, which shows
   // as a deviation that grows beyond that of the first seconds. Without any ground in view even all features together
-  // may drift (cloud_drift.h); of that a warning tells where it comes to a pixel or more.
+  // may drift (drift_deviations()); of that a warning tells where it comes to a pixel or more.
   void scale_deviations(std::vector<FrameRotation>& rotations) {
     const double factor = std::pow(settings_.sd_factor, 2);
     const double growth = std::pow(settings_.sd_growth, 2);

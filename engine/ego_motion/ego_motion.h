@@ -7,6 +7,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -105,5 +107,12 @@ inline constexpr double kMaxUnknownShare = 0.5;
 // footage's time axis, and the readout. Positions are left out where the log's place on that axis is not known: it has
 // another axis, and no gyroscope that was compared with the images.
 void add_log(Track& attitudes, const Track& log, const EgoMotion& motion);
+
+// Looks for runs of repeated frames too long for a doubled one, of which nothing can be known; marks them lost and all
+// that follows unknown; then adds the warnings that name frames: lost, cut, repeated, no horizon.
+void add_doubtful_frames(EgoMotion& motion, const std::string& where);
+
+// "3-7, 12 and 20 more": rising numbers as ranges, the first ten of them.
+[[nodiscard]] std::string ranges_text(std::span<const int> numbers);
 
 }  // namespace sigs

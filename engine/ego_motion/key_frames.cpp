@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ego_motion/key_frames.h"
+#include "ego_motion/bundle.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 
-#include "ego_motion/ground_plane.h"
 #include "ego_motion/turns.h"
 
 namespace sigs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "first_project/first_flight.h"
+#include "first_project/planning_steps.h"
 
 #include <fmt/format.h>
 

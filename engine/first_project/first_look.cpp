@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "first_project/first_look.h"
+#include "first_project/planning_steps.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "appearance/appearance.h"
-#include "appearance/light_grid.h"
+#include "appearance/light_image.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "horizon/horizon.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "first_project/first_match.h"
+#include "first_project/planning_steps.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

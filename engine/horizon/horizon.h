@@ -43,22 +43,6 @@ struct HorizonLine {
 [[nodiscard]] std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, const Camera& camera,
                                                     const cv::Mat& own_body, int frame);
 
-// A straight edge below sky, as horizon_in() tries them.
-struct SkyEdge {
-  Eigen::Vector3d up;              // as HorizonLine::up
-  int first_px = 0, last_px = -1;  // columns of the reduced image between which it is seen
-  int seen_px = 0;                 // and how many of them have it
-};
-
-// Whether there is sky above it and none below, as horizon_in() has it. Water that is as smooth as sky is none: it is
-// darker than what lies above the edge, by 4 codes, and darkens downwards, since low in it the sky's brightest part is
-// mirrored and nearer to the camera higher and darker ones; clear sky below a cloud brightens downwards.
-[[nodiscard]] bool divides_sky(const SkyEdge& edge, const SkyMap& sky, const cv::Mat& reduced, double scale,
-                               const Camera& camera, const cv::Mat& own_body);
-
-// Whether a mask of the own body has the pixel; outside of the mask the nearest one counts. Empty: no.
-[[nodiscard]] bool is_own_body(const cv::Mat& own_body, double x, double y);
-
 // An image of luma reduced for horizon_in() and sky_map_of(): its longer side is at most 640 px.
 struct ReducedLuma {
   cv::Mat luma;  // CV_8UC1

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
+
+#include "camera/camera.h"
 
 namespace sigs {
 
@@ -32,5 +35,21 @@ struct SkyMap {
 //   reduced   CV_8UC1, some 300 to 700 px wide
 //   own_body  CV_8UC1 of any size, above 127 where the own body is, which a column passes over; may be empty
 [[nodiscard]] SkyMap sky_map_of(const cv::Mat& reduced, const cv::Mat& own_body = {});
+
+// A straight edge below sky, as horizon_in() tries them.
+struct SkyEdge {
+  Eigen::Vector3d up;              // as HorizonLine::up
+  int first_px = 0, last_px = -1;  // columns of the reduced image between which it is seen
+  int seen_px = 0;                 // and how many of them have it
+};
+
+// Whether there is sky above it and none below, as horizon_in() has it. Water that is as smooth as sky is none: it is
+// darker than what lies above the edge, by 4 codes, and darkens downwards, since low in it the sky's brightest part is
+// mirrored and nearer to the camera higher and darker ones; clear sky below a cloud brightens downwards.
+[[nodiscard]] bool divides_sky(const SkyEdge& edge, const SkyMap& sky, const cv::Mat& reduced, double scale,
+                               const Camera& camera, const cv::Mat& own_body);
+
+// Whether a mask of the own body has the pixel; outside of the mask the nearest one counts. Empty: no.
+[[nodiscard]] bool is_own_body(const cv::Mat& own_body, double x, double y);
 
 }  // namespace sigs

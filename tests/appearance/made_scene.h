@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 
-#include "appearance/view.h"
+#include "appearance/light_image.h"
 #include "base/pose.h"
 #include "video/frame.h"
 

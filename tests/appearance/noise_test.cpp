@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "appearance/grain_model.h"
+#include "appearance/noise_blocks.h"
 #include "support/test_data.h"
 #include "video/frame_source.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "appearance/similar_place.h"
+#include "appearance/target_silhouette.h"
 
 #include <doctest/doctest.h>
 

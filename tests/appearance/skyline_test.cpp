@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "appearance/skyline.h"
 
 #include <doctest/doctest.h>
 

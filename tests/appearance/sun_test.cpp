@@ -3,8 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include "appearance/shadow_patches.h"
-#include "appearance/sky_gradient.h"
 #include "appearance/surroundings.h"
 #include "made_scene.h"
 #include "support/test_data.h"

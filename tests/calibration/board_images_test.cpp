@@ -6,10 +6,10 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "calibration/board.h"
 #include "calibration/board_calibration.h"
-#include "calibration/board_detection.h"
-#include "calibration/board_plot.h"
-#include "calibration/view_selection.h"
+#include "calibration/board_footage.h"
+#include "calibration/board_report.h"
 #include "calibration_cases/case_score.h"
 #include "made_boards/board_cases.h"
 

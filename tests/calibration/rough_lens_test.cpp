@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibration/rough_stated.h"
 #include "ego_motion/turns.h"
 
 namespace sigs {

@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "calibration/made_tracks.h"
-#include "calibration/rough_gyro.h"
-#include "calibration/rough_turn.h"
+#include "calibration/rough_motion.h"
 
 namespace sigs::test {
 namespace {

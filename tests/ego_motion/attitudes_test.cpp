@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "ego_motion/ground_plane.h"
+#include "ego_motion/bundle.h"
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/turns.h"
 #include "synthetic_rays.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ego_motion/cloud_drift.h"
+#include "ego_motion/attitudes.h"
 
 #include <doctest/doctest.h>
 

@@ -8,8 +8,6 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-#include "ego_motion/window_bias.h"
-
 namespace sigs {
 
 namespace {
