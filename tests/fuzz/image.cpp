@@ -7,7 +7,7 @@
 #include "mesh/textures.h"
 #include "scene/scene_files.h"
 #include "video/frame_source.h"
-#include "video/image_times.h"
+#include "video/image_sequence.h"
 
 namespace sigs::fuzz {
 
