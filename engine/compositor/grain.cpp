@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "compositor/gaussian_kernel.h"
-#include "compositor/rgb_luma.h"
+#include "compositor/blur.h"
+#include "compositor/code_patch.h"
 #include "video/bit_depth.h"
 
 namespace sigs {

@@ -5,10 +5,8 @@
 #include <cstdint>
 
 #include "compositor/blend.h"
-#include "compositor/chroma_spread.h"
 #include "compositor/code_patch.h"
 #include "compositor/grain.h"
-#include "compositor/sharpen.h"
 
 namespace sigs {
 
