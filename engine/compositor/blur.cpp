@@ -64,10 +64,6 @@ glm::dvec2 remaining_sigma_px(double sigma_px, const glm::dvec2& spread_px2) {
   return remaining_px;
 }
 
-cv::Rect grown(const cv::Rect& rect, int by_px) {
-  return {rect.x - by_px, rect.y - by_px, rect.width + 2 * by_px, rect.height + 2 * by_px};
-}
-
 cv::Mat with_border(const cv::Mat& image, int across_px, int down_px) {
   cv::Mat out;
   cv::copyMakeBorder(image, out, down_px, down_px, across_px, across_px, cv::BORDER_CONSTANT, cv::Scalar::all(0));

@@ -85,8 +85,7 @@ void spread_rgb(CodePatch& patch, double sigma_px) {
 CodePatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body) {
   const cv::Size step = chroma_step(frame.layout);
   const int margin = margin_px + (step.area() > 1 ? 2 : 0);
-  const cv::Rect grown(pixels.x - margin, pixels.y - margin, pixels.width + 2 * margin, pixels.height + 2 * margin);
-  const cv::Rect luma = widened(grown & cv::Rect({0, 0}, frame.size_px()), step, frame.size_px());
+  const cv::Rect luma = widened(grown(pixels, margin) & cv::Rect({0, 0}, frame.size_px()), step, frame.size_px());
   CodePatch patch{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
   for (int plane = 0; plane < frame.plane_count(); ++plane) {
     const auto index = static_cast<std::size_t>(plane);

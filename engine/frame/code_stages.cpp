@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/image.h"
 #include "compositor/blend.h"
 #include "compositor/code_patch.h"
 #include "compositor/grain.h"
@@ -68,10 +69,6 @@ class CodeStages {
   ComposedFrame& composed_;
   const StageDone& done_;
 };
-
-cv::Rect grown(const cv::Rect& rect, int margin_px) {
-  return {rect.x - margin_px, rect.y - margin_px, rect.width + 2 * margin_px, rect.height + 2 * margin_px};
-}
 
 }  // namespace
 

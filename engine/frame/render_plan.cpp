@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/image.h"
 #include "base/stopwatch.h"
 #include "compositor/blur.h"
 
@@ -97,11 +98,9 @@ Light light_of(const Scene& scene, const SceneMoment& moment) {
 }
 
 // With the pixels that the rows of a rolling shutter look at beside.
-cv::Rect grown(const cv::Rect& rect, double shift_px) {
+cv::Rect with_row_shift(const cv::Rect& rect, double shift_px) {
   const int margin_px = static_cast<int>(std::ceil(std::min(shift_px, 1e4)));
-  return rect.empty() ? rect
-                      : cv::Rect(rect.x - margin_px, rect.y - margin_px, rect.width + 2 * margin_px,
-                                 rect.height + 2 * margin_px);
+  return rect.empty() ? rect : grown(rect, margin_px);
 }
 
 // The same lens with coarse pixels of step by step pixels: coarse pixel (i, j) covers the square [i, i + 1) x [j, j +
@@ -194,7 +193,8 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
   // A body that lies within needs no clipping.
   std::optional<cv::Rect> target;
   if (!is_within || may_span_several_views(distance_m, mesh.radius_m))
-    target = grown(plan.warp_rect, layers.row_motion ? layers.row_motion->max_shift_px(lens.camera().lens) : 0);
+    target =
+        with_row_shift(plan.warp_rect, layers.row_motion ? layers.row_motion->max_shift_px(lens.camera().lens) : 0);
   if (!plan.warp_rect.empty())
     plan.views = virtual_cameras(lens, plan.corners, target, scene.compositing.supersampling, kMaxViewSize_px);
   return plan;
