@@ -11,7 +11,7 @@
 #include "base/input_file.h"
 #include "base/pose.h"
 #include "base/text.h"
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "telemetry/log_samples.h"
 #include "telemetry/ulog_messages.h"
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "geo/geo_path.h"
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "geo/recorded_examples.h"
 #include "geo/utc_time.h"
 #include "support/comma_locale.h"
