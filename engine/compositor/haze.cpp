@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "compositor/footage_light.h"
 #include "video/bit_depth.h"
 #include "video/color_space.h"
 

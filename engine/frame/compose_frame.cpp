@@ -11,7 +11,6 @@
 #include "base/ensure.h"
 #include "base/stopwatch.h"
 #include "compositor/blur.h"
-#include "compositor/footage_light.h"
 #include "compositor/haze.h"
 #include "compositor/occlude.h"
 #include "compositor/warp.h"
@@ -23,6 +22,7 @@
 #include "truth/annotation.h"
 #include "truth/detectability.h"
 #include "truth/measure.h"
+#include "video/color_space.h"
 #include "video/frame.h"
 #include "video/luma_stream.h"
 

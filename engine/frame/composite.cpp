@@ -20,9 +20,9 @@
 #include "base/pose.h"
 #include "compositor/blend.h"
 #include "compositor/classic.h"
-#include "compositor/footage_light.h"
 #include "compositor/occlude.h"
 #include "frame/code_stages.h"
+#include "video/color_space.h"
 
 namespace sigs {
 namespace {
