@@ -19,8 +19,7 @@
 #include "cli/options.h"
 #include "cli/path_project.h"
 #include "cli/process.h"
-#include "geo/czml.h"
-#include "geo/kml.h"
+#include "geo/geo_path.h"
 #include "geo/recorded_path.h"
 #include "geo/utc_time.h"
 

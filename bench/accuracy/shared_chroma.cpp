@@ -13,8 +13,8 @@
 #include "accuracy/errors.h"
 #include "accuracy/runner.h"
 #include "accuracy/scenes.h"
-#include "compositor/footage_light.h"
 #include "frame/compose_frame.h"
+#include "video/color_space.h"
 
 namespace sigs::accuracy {
 

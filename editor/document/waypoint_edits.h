@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "project/project.h"
 
 namespace sigs::editor {

@@ -49,10 +49,6 @@ struct Place {
   double unlike = 0;
 };
 
-cv::Rect grown(const cv::Rect& part, int by_px) {
-  return {part.x - by_px, part.y - by_px, part.width + 2 * by_px, part.height + 2 * by_px};
-}
-
 }  // namespace
 
 std::optional<cv::Point2d> similar_place(const Frame& frame, const Box& box, cv::Size size_px, std::uint32_t seed) {

@@ -27,6 +27,11 @@ inline const cv::Rect kUnboundedRect{-1'000'000, -1'000'000, 2'000'000, 2'000'00
 // Smallest rectangle of whole pixels that touches all of the box, grown by margin_px and clipped to bounds.
 [[nodiscard]] cv::Rect pixels_touched(const Box& box, int margin_px, const cv::Rect& bounds);
 
+// The rectangle with by_px more on each of its four sides.
+[[nodiscard]] inline cv::Rect grown(const cv::Rect& rect, int by_px) {
+  return {rect.x - by_px, rect.y - by_px, rect.width + 2 * by_px, rect.height + 2 * by_px};
+}
+
 // What one intruder adds to an image, in linear light, over a small rectangle of that image.
 //   rect      position of the layer in the image; empty: nothing is rendered
 //   color     CV_32FC4: red, green, blue, opacity; premultiplied (red <= opacity for a surface no brighter than white)

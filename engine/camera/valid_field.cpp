@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "camera/numerics.h"
+#include "camera/distortion_models.h"
 
 namespace sigs::distortion {
 namespace {

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/ensure.h"
+#include "base/image.h"
 #include "base/pose.h"
 
 namespace sigs {
@@ -117,7 +118,7 @@ bool is_looked_at(const TargetRays& target, const glm::dvec3& direction, double 
   return step_rad == 0 || nearest_rad <= half_angle_rad + kReserve * step_rad;
 }
 
-Extent grown(const Extent& extent, double by) {
+Extent widened(const Extent& extent, double by) {
   return {.low = extent.low - by, .high = extent.high + by};
 }
 
@@ -147,15 +148,15 @@ Extent visible_near(const Extent& whole, const TargetRays& target, const glm::dq
   tangents.reserve(target.rays.size());
   for (const glm::dvec3& ray : target.rays) tangents.push_back(tangent_of(rotation * ray));
   const double span = glm::distance(whole.low, whole.high);
-  const double margin = kReserve * std::min(largest_step(tangents, grown(whole, 0.2 * span)), span);
-  const Extent near = grown(whole, margin);
+  const double margin = kReserve * std::min(largest_step(tangents, widened(whole, 0.2 * span)), span);
+  const Extent near = widened(whole, margin);
   Extent visible;
   for (const glm::dvec2& tangent : tangents) {
     if (!contains(near, tangent)) continue;
     visible.low = glm::min(visible.low, tangent);
     visible.high = glm::max(visible.high, tangent);
   }
-  return visible.low.x > visible.high.x ? visible : grown(visible, margin);
+  return visible.low.x > visible.high.x ? visible : widened(visible, margin);
 }
 
 // The part of a view that the target's pixels look at; none where no pixel looks at a wide view.
@@ -185,9 +186,8 @@ double px_per_tangent(LensTable& lens, const glm::dquat& camera_from_view, const
 }
 
 // The target, grown by as much as the grid of finest_focal_px could miss.
-cv::Rect grown(const cv::Rect& target) {
-  const int by = std::max(target.width, target.height) / 32 + 1;
-  return {target.x - by, target.y - by, target.width + 2 * by, target.height + 2 * by};
+cv::Rect grown_by_grid(const cv::Rect& target) {
+  return grown(target, std::max(target.width, target.height) / 32 + 1);
 }
 
 // Focal length with which the view is nowhere coarser than the image, found on a grid over the view.
@@ -240,7 +240,7 @@ std::optional<VirtualCamera> cut_view(LensTable& lens, const glm::dquat& view_fr
   const glm::dquat camera_from_view = glm::conjugate(view_from_camera);
   // Without the restriction to the target, the grid's points beyond it would ask for a finer view than the target
   // needs, above all with a wide pinhole.
-  double finest = target ? finest_focal_px(lens, camera_from_view, *asked, grown(*target)) : 0;
+  double finest = target ? finest_focal_px(lens, camera_from_view, *asked, grown_by_grid(*target)) : 0;
   if (finest == 0) finest = finest_focal_px(lens, camera_from_view, *asked, std::nullopt);
   if (finest == 0) return std::nullopt;
   const double focal_px =

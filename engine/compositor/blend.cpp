@@ -6,9 +6,9 @@
 #include <opencv2/core.hpp>
 
 #include "base/ensure.h"
-#include "compositor/footage_light.h"
 #include "compositor/shared_chroma.h"
 #include "video/bit_depth.h"
+#include "video/color_space.h"
 #include "video/frame.h"
 
 namespace sigs {

@@ -19,7 +19,7 @@ enum class BlendSpace {
 // rewritten; every other sample keeps its bits. A luma sample is covered where the opacity of its pixel is above 0, a
 // chroma sample where that of any pixel is that it averages at its site (video/chroma.h): for 4:2:0 at the left, three
 // columns by two rows. The background's chroma is read between its samples, as it was before.
-// Code values are converted to light and back by the footage's transfer function and primaries (footage_light.h).
+// Code values are converted to light and back by the footage's transfer function and primaries (video/color_space.h).
 // The layer lies within the image. Gives back how many pixels were rewritten.
 std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space);
 

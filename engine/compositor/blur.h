@@ -2,12 +2,22 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <opencv2/core.hpp>
+#include <vector>
 
 #include "base/image.h"
-#include "compositor/gaussian_kernel.h"
 #include "video/frame.h"
 
 namespace sigs {
+
+// Pixels over which a Gaussian carries a pixel: ceil(3 sigma_px).
+[[nodiscard]] int blur_margin_px(double sigma_px);
+
+// One axis of a Gaussian on whole pixels: 2 margin + 1 samples (CV_32FC1, a column) that sum to one, with the variance
+// sigma_px^2 also far below a pixel. Samples too small to change an 8-bit value are 0: a blur of negligible width
+// changes no neighbour. sigma_px == 0 gives 1 in the middle.
+//   margin  samples on each side; with blur_margin_px(sigma_px) the cut takes up to 2.7 % of the variance
+[[nodiscard]] cv::Mat sampled_gaussian(double sigma_px, int margin);
 
 // Blurs as the lens does at distance. Works on premultiplied colour, so the sky never bleeds in. The rectangle grows by
 // blur_margin_px(sigma_px) on every side; coverage, the truth, is not blurred. sigma_px == 0 returns the layer
@@ -40,5 +50,34 @@ inline constexpr double kWideSigma_px = 16;
 // depth.
 [[nodiscard]] bool is_visible_after_blur(const Layer& layer, double sigma_px, const ColorInfo& footage,
                                          int bit_depth = 8);
+
+// Motions below this are left out: their variance, 2e-4 px^2, is a thousandth of that of a sharp pixel.
+inline constexpr double kMinMotion_px = 0.05;
+
+// Longer motions are blurred over this length, along their direction: what streaks farther is hardly visible.
+inline constexpr double kMaxMotion_px = 200;
+
+// Where a body that moves straight at constant speed during the exposure leaves its light: a line of the motion's
+// length, centred, as weights of shifts by whole pixels. The weights are not negative and sum to one. Along the axis of
+// the larger component (the major axis) they are a box whose variance is that of the line, length^2 / 12, also for a
+// fraction of a pixel. Across it each shift is shared by the two nearest pixels, which keeps the direction exactly but
+// spreads light across the line by up to half a pixel: spread_px2 says by how much, and the lens' blur that follows can
+// have so much less (blurred_within).
+struct MotionKernel {
+  struct Shift {
+    cv::Point by_px;
+    float weight = 0;
+  };
+  std::vector<Shift> shifts;    // empty: no motion
+  cv::Size margin_px;           // largest shift along each axis
+  glm::dvec2 spread_px2{0, 0};  // variance along x and y beyond that of the line
+};
+
+// The kernel of a motion in the image; empty below kMinMotion_px or where it is not finite.
+[[nodiscard]] MotionKernel motion_kernel(const glm::dvec2& motion_px);
+
+// Blurs colour and opacity (premultiplied) by the kernel; energy is kept. Coverage, the truth, stays sharp. The
+// rectangle grows by the kernel's margin, within bounds. An empty kernel returns the layer, with its samples shared.
+[[nodiscard]] Layer motion_blurred(const Layer& layer, const MotionKernel& kernel, const cv::Rect& bounds);
 
 }  // namespace sigs

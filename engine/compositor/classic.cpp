@@ -12,8 +12,8 @@
 #include "base/ensure.h"
 #include "base/pose.h"
 #include "compositor/blur.h"
-#include "compositor/footage_light.h"
 #include "compositor/resample.h"
+#include "video/color_space.h"
 
 namespace sigs {
 

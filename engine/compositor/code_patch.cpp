@@ -5,12 +5,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
-#include "compositor/gaussian_kernel.h"
+#include "compositor/blur.h"
 #include "video/bit_depth.h"
 #include "video/chroma.h"
 
 namespace sigs {
-
 namespace {
 
 // Pixels as whole chroma samples have them.
@@ -76,13 +75,17 @@ cv::Mat write_as(const CodePatch& patch, Frame& frame) {
   return changed;
 }
 
+void spread_rgb(CodePatch& patch, double sigma_px) {
+  const cv::Mat of_luma = detail_of_layer(luma_of_rgb(patch), sigma_px);
+  for (PatchPlane& plane : patch.planes) add_change(plane, of_luma - detail_of_layer(plane, sigma_px));
+}
+
 }  // namespace
 
 CodePatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body) {
   const cv::Size step = chroma_step(frame.layout);
   const int margin = margin_px + (step.area() > 1 ? 2 : 0);
-  const cv::Rect grown(pixels.x - margin, pixels.y - margin, pixels.width + 2 * margin, pixels.height + 2 * margin);
-  const cv::Rect luma = widened(grown & cv::Rect({0, 0}, frame.size_px()), step, frame.size_px());
+  const cv::Rect luma = widened(grown(pixels, margin) & cv::Rect({0, 0}, frame.size_px()), step, frame.size_px());
   CodePatch patch{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
   for (int plane = 0; plane < frame.plane_count(); ++plane) {
     const auto index = static_cast<std::size_t>(plane);
@@ -113,6 +116,33 @@ void add_change(PatchPlane& plane, const cv::Mat& change) {
 cv::Mat write_patch(const CodePatch& patch, Frame& frame) {
   ENSURE(patch.bit_depth == frame.bit_depth);
   return with_sample_type(frame.bit_depth, [&](auto sample) { return write_as<decltype(sample)>(patch, frame); });
+}
+
+void sharpen(CodePatch& patch, double amount, double sigma_px) {
+  if (amount == 0) return;
+  if (patch.layout != PixelLayout::rgb) {
+    add_change(patch.planes[0], amount * detail_of_layer(patch.planes[0], sigma_px));
+    return;
+  }
+  const cv::Mat change = amount * detail_of_layer(luma_of_rgb(patch), sigma_px);
+  for (PatchPlane& plane : patch.planes) add_change(plane, change);
+}
+
+int sharpening_margin_px(double amount, double sigma_px) {
+  return amount == 0 ? 0 : blur_margin_px(sigma_px);
+}
+
+void spread_chroma(CodePatch& patch, double sigma_samples) {
+  if (sigma_samples == 0 || patch.plane_count() == 1) return;
+  if (patch.layout == PixelLayout::rgb) return spread_rgb(patch, sigma_samples);
+  for (std::size_t plane = 1; plane < 3; ++plane)
+    add_change(patch.planes[plane], -detail_of_layer(patch.planes[plane], sigma_samples));
+}
+
+int chroma_spread_margin_px(PixelLayout layout, double sigma_samples) {
+  if (sigma_samples == 0 || layout == PixelLayout::gray) return 0;
+  const cv::Size step = chroma_step(layout);
+  return (blur_margin_px(sigma_samples) + 1) * std::max(step.width, step.height);
 }
 
 }  // namespace sigs

@@ -51,4 +51,36 @@ void add_change(PatchPlane& plane, const cv::Mat& change);
 // before; else 0.
 cv::Mat write_patch(const CodePatch& patch, Frame& frame);
 
+// BT.709's weights of R', G' and B' in luma, for footage that is stored as R'G'B'.
+inline constexpr std::array<double, 3> kLumaOfRgb{0.2126, 0.7152, 0.0722};
+
+// Luma of a patch in R'G'B', as a plane of its own.
+[[nodiscard]] inline PatchPlane luma_of_rgb(const CodePatch& patch) {
+  const auto [r, g, b] = kLumaOfRgb;
+  const auto& planes = patch.planes;
+  return {.rect = planes[0].rect,
+          .before = r * planes[0].before + g * planes[1].before + b * planes[2].before,
+          .after = r * planes[0].after + g * planes[1].after + b * planes[2].after,
+          .opacity = planes[0].opacity,
+          .free = planes[0].free};
+}
+
+// Sharpens what a layer changed of luma, as cameras sharpen their whole image in code values (unsharp masking): adds
+// amount times the detail that the layer brings, told by a Gaussian of sigma_px (detail_of_layer). The footage itself
+// has been sharpened by its camera and is left as it is. Of R'G'B' the same is added to all three planes, by BT.709's
+// luma. amount 0 leaves the patch as it is.
+void sharpen(CodePatch& patch, double amount, double sigma_px);
+
+// Pixels beyond the layer that sharpening can change.
+[[nodiscard]] int sharpening_margin_px(double amount, double sigma_px);
+
+// Spreads the colours of a layer as the footage's camera and codec did: a Gaussian over the samples of the chroma
+// planes (as they are stored: of 4:2:0 a sample is two pixels wide) takes away the detail that the layer brings into
+// them (detail_of_layer). Luma stays as it is. Of R'G'B' the differences from luma are spread, over pixels. Gray has no
+// chroma. sigma 0 leaves the patch as it is.
+void spread_chroma(CodePatch& patch, double sigma_samples);
+
+// Pixels beyond the layer whose chroma this can change.
+[[nodiscard]] int chroma_spread_margin_px(PixelLayout layout, double sigma_samples);
+
 }  // namespace sigs

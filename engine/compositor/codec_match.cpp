@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "video/carried_recompression.h"
+#include "video/recompression.h"
 
 namespace sigs {
 namespace {

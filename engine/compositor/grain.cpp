@@ -6,8 +6,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "compositor/gaussian_kernel.h"
-#include "compositor/rgb_luma.h"
+#include "base/image.h"
+#include "compositor/blur.h"
+#include "compositor/code_patch.h"
 #include "video/bit_depth.h"
 
 namespace sigs {
@@ -51,10 +52,6 @@ std::vector<float> weights_in_time(double persistence) {
   for (int k = 0; k < count; ++k) squares += std::pow(p2, k);
   for (int k = 0; k < count; ++k) weights.push_back(static_cast<float>(std::pow(persistence, k) / std::sqrt(squares)));
   return weights;
-}
-
-cv::Rect grown_by(const cv::Rect& rect, int by) {
-  return {rect.x - by, rect.y - by, rect.width + 2 * by, rect.height + 2 * by};
 }
 
 // White in space, correlated in time.
@@ -150,7 +147,7 @@ cv::Mat noise_field(const Grain& grain, int plane, std::int64_t frame, const cv:
   const int margin = blur_margin_px(grain.spread_px);
   cv::Mat kernel = sampled_gaussian(grain.spread_px, margin);
   kernel /= cv::norm(kernel);
-  cv::Mat field = uncorrelated_field(grain, plane, frame, grown_by(rect, margin));
+  cv::Mat field = uncorrelated_field(grain, plane, frame, grown(rect, margin));
   cv::sepFilter2D(field, field, CV_32F, kernel, kernel);
   return field(cv::Rect({margin, margin}, rect.size())).clone();
 }

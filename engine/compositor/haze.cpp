@@ -5,13 +5,16 @@
 #include <cmath>
 #include <vector>
 
-#include "compositor/footage_light.h"
 #include "video/bit_depth.h"
 #include "video/color_space.h"
 
 namespace sigs {
-
 namespace {
+
+// BT.709's luminance of linear red, green and blue.
+float luminance(const cv::Vec4f& color) {
+  return 0.2126F * color[0] + 0.7152F * color[1] + 0.0722F * color[2];
+}
 
 constexpr int kMinRing_px = 8;
 constexpr int kMaxRing_px = 64;
@@ -56,6 +59,24 @@ cv::Vec3d mean_light(const std::vector<cv::Vec3f>& codes, const Frame& footage) 
 }
 
 }  // namespace
+
+Layer toned(const Layer& layer, double saturation, double black) {
+  if ((saturation == 1 && black == 0) || layer.empty()) return layer;
+  const auto share = static_cast<float>(saturation);
+  const auto flare = static_cast<float>(black);
+  Layer out{layer.rect, layer.color.clone(), layer.coverage};
+  for (int y = 0; y < out.color.rows; ++y) {
+    cv::Vec4f* const colors = out.color.ptr<cv::Vec4f>(y);
+    for (int x = 0; x < out.color.cols; ++x) {
+      cv::Vec4f& color = colors[x];
+      if (!(color[3] > 0)) continue;
+      const float gray = luminance(color);
+      for (int c = 0; c < 3; ++c)
+        color[c] = std::max(share == 1 ? color[c] : gray + share * (color[c] - gray), 0.0F) + flare * color[3];
+    }
+  }
+  return out;
+}
 
 double haze_transmission(double distance_m, double visibility_m) {
   return std::exp(-3 * distance_m / visibility_m);

@@ -9,6 +9,13 @@
 
 namespace sigs {
 
+// The intruder's own colours as the footage's camera shows them, in linear light.
+//   saturation  1: as painted; 0: gray of the same luminance (BT.709's); channels that would become negative are 0
+//   black       light that the lens' flare adds to everything in front of it. The footage has it already; of a layer it
+//               is added by opacity, so the darkest part of an opaque intruder is as bright as the footage's darkest
+// Opacity and coverage are unchanged. Saturation 1 and black 0 return the layer, with its samples shared.
+[[nodiscard]] Layer toned(const Layer& layer, double saturation, double black);
+
 // Share of an object's own light that haze leaves at a distance (Koschmieder 1924): exp(-3 distance_m / visibility_m),
 // so that 5 % of the contrast is left at the visibility (ICAO Annex 3: meteorological optical range). 1 at distance 0;
 // both are not negative, visibility_m is above 0.

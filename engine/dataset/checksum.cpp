@@ -17,7 +17,7 @@ extern "C" {
 
 #include "base/ensure.h"
 #include "base/input_file.h"
-#include "mesh/textures.h"
+#include "mesh/materials.h"
 #include "project/fields.h"
 #include "project/json.h"
 #include "video/image_sequence.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "encounter/daa_file.h"
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "geo/recorded_path.h"
 #include "telemetry/read_track.h"
 

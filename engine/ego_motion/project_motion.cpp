@@ -17,7 +17,7 @@
 #include "scene/scene_at.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
-#include "telemetry/track_channels.h"
+#include "telemetry/track.h"
 #include "video/luma_stream.h"
 
 namespace sigs {

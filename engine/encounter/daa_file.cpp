@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "encounter/file_columns.h"
 #include "encounter/units.h"
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 
 namespace sigs {
 

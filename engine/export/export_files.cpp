@@ -13,7 +13,7 @@
 #include "export/frame_stream.h"
 #include "labels/json_lines.h"
 #include "scene/opened_project.h"
-#include "video/image_folder.h"
+#include "video/video_writer.h"
 
 namespace sigs {
 

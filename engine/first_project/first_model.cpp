@@ -12,8 +12,8 @@
 #include "base/paths.h"
 #include "base/resources.h"
 #include "base/text.h"
-#include "mesh/model_shape.h"
-#include "mesh/textures.h"
+#include "mesh/geometry.h"
+#include "mesh/materials.h"
 
 namespace sigs {
 

@@ -20,7 +20,7 @@ struct FirstModel {
   std::vector<Warning> warnings;
 };
 
-// A user's model, with its axes judged by its shape (mesh/model_shape.h) and its unit by its size: what is 1 to 90 long
+// A user's model, with its axes judged by its shape (mesh/geometry.h) and its unit by its size: what is 1 to 90 long
 // is in metres, else the unit of millimetres, centimetres, inches and feet with which it is most like a light aircraft.
 // Errors: those of read_obj().
 [[nodiscard]] Result<FirstModel> users_model(const std::filesystem::path& file, SceneFiles& files);

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
+#include "base/image.h"
 #include "compositor/blend.h"
-#include "compositor/chroma_spread.h"
 #include "compositor/code_patch.h"
 #include "compositor/grain.h"
-#include "compositor/sharpen.h"
+#include "frame/render_plan.h"
 
 namespace sigs {
-
 namespace {
 
 // Noise of each intruder of its own: where one shows through another, both are there.
@@ -92,6 +92,31 @@ Rewritten blend_with_code_stages(ComposedFrame& composed, const Scene& scene, co
   stages.with_chroma_spread(look.chroma_spread_px);
   stages.with_grain(grain_for(look.grain, layers.placed.id), number);
   return {patch.planes[0].rect, write_patch(patch, composed.image)};
+}
+
+std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& scene, int frame, const Lens& lens,
+                                          const std::vector<IntruderLayers>& layers) {
+  const CodecMatchSettings& settings = scene.appearance.codec;
+  if (settings.match == CodecMatchChoice::none || scene.compositing.method != MethodChoice::direct) return std::nullopt;
+  if (background.bit_depth > 8) return std::nullopt;
+  const cv::Rect image({0, 0}, background.size_px());
+  std::vector<cv::Rect> reaches;
+  std::vector<std::vector<cv::Point2d>> earlier_px;
+  for (const IntruderLayers& intruder : layers) {
+    if (intruder.occluded.empty()) continue;
+    reaches.push_back(grown(intruder.occluded.rect, code_stages_margin_px(scene.appearance, background.layout)) &
+                      image);
+    if (settings.carried_frames > 0)
+      earlier_px.push_back(earlier_places(scene, frame, intruder.placed, lens, settings.carried_frames));
+  }
+  if (reaches.empty()) return std::nullopt;
+  const MatchedCodec codec = settings.match == CodecMatchChoice::h264    ? MatchedCodec::h264
+                             : settings.match == CodecMatchChoice::mjpeg ? MatchedCodec::jpeg
+                                                                         : MatchedCodec::footage;
+  std::optional<FrameQuantisers> quantisers =
+      matched_quantisers(codec, settings.quantiser, background.quantisers.get());
+  if (!quantisers) return std::nullopt;
+  return CodecMatch(background, reaches, std::move(*quantisers), earlier_px);
 }
 
 }  // namespace sigs

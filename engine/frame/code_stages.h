@@ -3,8 +3,12 @@
 
 #include <functional>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "camera/lens.h"
+#include "compositor/codec_match.h"
 #include "frame/composed_frame.h"
 #include "frame/intruder_layers.h"
 #include "scene/scene.h"
@@ -32,5 +36,13 @@ struct Rewritten {
 };
 [[nodiscard]] Rewritten blend_with_code_stages(ComposedFrame& composed, const Scene& scene,
                                                const IntruderLayers& layers, int number, const StageDone& done);
+
+// The codec match of a frame as the scene's settings (appearance.codec) ask for it, to be made before the layers are
+// blended and applied after; nothing where there is none to be done: it is not asked for, the method is not direct, the
+// footage has more than 8 bits, its codec keeps every sample, or no intruder reaches the image.
+//   frame  number of the frame in the footage
+//   lens   that the scene is composited with
+[[nodiscard]] std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& scene, int frame,
+                                                        const Lens& lens, const std::vector<IntruderLayers>& layers);
 
 }  // namespace sigs

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "frame/compose_frame.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,20 +12,75 @@
 #include "base/stopwatch.h"
 #include "compositor/blur.h"
 #include "compositor/haze.h"
-#include "compositor/motion_blur.h"
 #include "compositor/occlude.h"
-#include "compositor/tone.h"
 #include "compositor/warp.h"
 #include "frame/composite.h"
-#include "frame/occluder.h"
+#include "frame/intruder_layers.h"
 #include "frame/render_plan.h"
-#include "frame/standing_out.h"
+#include "scene/scene.h"
 #include "scene/scene_at.h"
+#include "truth/annotation.h"
+#include "truth/detectability.h"
 #include "truth/measure.h"
+#include "video/color_space.h"
+#include "video/frame.h"
+#include "video/luma_stream.h"
 
 namespace sigs {
-
 namespace {
+
+// Luma of the footage where an intruder will be blended onto it, and around.
+struct FootageLuma {
+  int id = 0;  // of the intruder
+  cv::Rect rect;
+  cv::Mat luma;  // CV_8UC1 over rect, of its own
+};
+
+cv::Mat luma_of_part(const Frame& frame, const cv::Rect& rect) {
+  Frame part = frame;
+  part.planes[0] = frame.planes[0](rect);
+  if (frame.layout == PixelLayout::rgb)
+    for (std::size_t plane = 1; plane < 3; ++plane) part.planes[plane] = frame.planes[plane](rect);
+  return luma_of(part);
+}
+
+// Of a grey with this luma. RGB's luma has full range, as its map has.
+LuminanceOfCode luminance_of_code(const Frame& frame) {
+  const CodeToRgb map = code_to_rgb(frame.layout, frame.color);
+  const TransferCurve curve = transfer_curve_of(frame.color);
+  LuminanceOfCode luminance{};
+  for (std::size_t code = 0; code < luminance.size(); ++code)
+    luminance[code] =
+        std::max(curve.linear_of_display(map.to_rgb(0, 0) * (static_cast<float>(code) - map.offset[0])), 0.0F);
+  return luminance;
+}
+
+// One for each intruder that will be blended. To be called before that, since blending rewrites the footage in place.
+std::vector<FootageLuma> footage_luma_of(const Frame& footage, const std::vector<IntruderLayers>& far_to_near) {
+  std::vector<FootageLuma> all;
+  for (const IntruderLayers& layers : far_to_near) {
+    if (layers.occluded.empty()) continue;
+    const cv::Rect rect = background_rect(layers.occluded.rect, footage.size_px());
+    all.push_back({layers.placed.id, rect, luma_of_part(footage, rect).clone()});
+  }
+  return all;
+}
+
+// Fills IntruderTruth::detectability (truth/detectability.h) of the intruders that can be seen.
+//   image  the frame with the intruders
+void add_detectability(std::vector<IntruderTruth>& intruders, const Frame& image,
+                       const std::vector<FootageLuma>& footage, const Scene& scene) {
+  if (footage.empty()) return;
+  const LuminanceOfCode luminance = luminance_of_code(image);
+  for (IntruderTruth& intruder : intruders) {
+    const auto behind =
+        std::find_if(footage.begin(), footage.end(), [&](const FootageLuma& patch) { return patch.id == intruder.id; });
+    if (behind == footage.end() || !intruder.visible_box) continue;
+    const cv::Rect rect = background_rect(*intruder.visible_box, image.size_px()) & behind->rect;
+    intruder.detectability = detectability(intruder, luma_of_part(image, *intruder.visible_box),
+                                           behind->luma(rect - behind->rect.tl()), rect, scene.own_body, luminance);
+  }
+}
 
 // The classic method blurs whole images of its own. Of a single intruder's layer it needs the coverage alone, which
 // blur does not change; with several, the blurred opacity determines what a nearer one occludes of a farther one.

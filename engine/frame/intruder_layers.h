@@ -6,7 +6,7 @@
 
 #include "base/image.h"
 #include "camera/row_motion.h"
-#include "compositor/motion_blur.h"
+#include "compositor/blur.h"
 #include "compositor/warp.h"
 #include "frame/composed_frame.h"
 #include "scene/scene_at.h"

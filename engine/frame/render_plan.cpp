@@ -7,13 +7,27 @@
 #include <optional>
 #include <utility>
 
+#include "base/image.h"
 #include "base/stopwatch.h"
 #include "compositor/blur.h"
-#include "frame/exposure_motion.h"
 
 namespace sigs {
-
 namespace {
+
+// Where the reference point appears in a frame that is taken since_s after the moment.
+std::optional<glm::dvec2> pixel_at(const Scene& scene, const SceneMoment& moment, std::size_t intruder,
+                                   const Lens& lens, double since_s) {
+  constexpr int kSteps = 4;  // each takes the error times the share of the readout that the point moves by: 1e-2
+  const double last_row = scene.footage.size_px.height - 1;
+  const auto seen_at = [&](double row_s) {
+    return lens.pixel(camera_from_body_at(scene, intruder, moment.time_s + since_s + row_s).translation_m);
+  };
+  std::optional<glm::dvec2> pixel = seen_at(0);
+  if (!(scene.motion.readout_s > 0) || !(last_row > 0)) return pixel;
+  for (int step = 0; step < kSteps && pixel; ++step)
+    pixel = seen_at(scene.motion.readout_s * (std::clamp(pixel->y / last_row, 0.0, 1.0) - 0.5));
+  return pixel;
+}
 
 constexpr int kMaxViewSize_px = 4096;  // some 300 MB; the image of a nearer intruder is rendered coarser
 constexpr int kWholeAreaSteps = 128;   // pixels across in which a silhouette beyond the image's edge is measured
@@ -84,11 +98,9 @@ Light light_of(const Scene& scene, const SceneMoment& moment) {
 }
 
 // With the pixels that the rows of a rolling shutter look at beside.
-cv::Rect grown(const cv::Rect& rect, double shift_px) {
+cv::Rect with_row_shift(const cv::Rect& rect, double shift_px) {
   const int margin_px = static_cast<int>(std::ceil(std::min(shift_px, 1e4)));
-  return rect.empty() ? rect
-                      : cv::Rect(rect.x - margin_px, rect.y - margin_px, rect.width + 2 * margin_px,
-                                 rect.height + 2 * margin_px);
+  return rect.empty() ? rect : grown(rect, margin_px);
 }
 
 // The same lens with coarse pixels of step by step pixels: coarse pixel (i, j) covers the square [i, i + 1) x [j, j +
@@ -113,6 +125,31 @@ void count_rendering(OpCounts& counts, const RenderCounts& before, const RenderC
 }
 
 }  // namespace
+
+glm::dvec2 motion_during_exposure(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
+                                  const Lens& lens) {
+  if (!(moment.exposure_s > 0)) return {0, 0};
+  const auto id = static_cast<std::size_t>(placed.id);
+  const std::optional<glm::dvec2> first = pixel_at(scene, moment, id, lens, -moment.exposure_s / 2);
+  const std::optional<glm::dvec2> last = pixel_at(scene, moment, id, lens, moment.exposure_s / 2);
+  return first && last ? *last - *first : glm::dvec2(0, 0);
+}
+
+std::vector<cv::Point2d> earlier_places(const Scene& scene, int frame, const PlacedIntruder& placed, const Lens& lens,
+                                        int count) {
+  const auto id = static_cast<std::size_t>(placed.id);
+  const auto pixel_in = [&](int n) {
+    return lens.pixel(camera_from_body_at(scene, id, time_of_frame_s(scene.footage, n)).translation_m);
+  };
+  std::vector<cv::Point2d> places;
+  const std::optional<glm::dvec2> now = pixel_in(frame);
+  for (int k = 1; now && k <= std::min(count, frame); ++k) {
+    const std::optional<glm::dvec2> then = pixel_in(frame - k);
+    if (!then) break;
+    places.emplace_back(then->x - now->x, then->y - now->y);
+  }
+  return places;
+}
 
 TurnOfRow turn_of_row(const IntruderLayers& layers, double step) {
   if (!layers.row_motion) return nullptr;
@@ -156,7 +193,8 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
   // A body that lies within needs no clipping.
   std::optional<cv::Rect> target;
   if (!is_within || may_span_several_views(distance_m, mesh.radius_m))
-    target = grown(plan.warp_rect, layers.row_motion ? layers.row_motion->max_shift_px(lens.camera().lens) : 0);
+    target =
+        with_row_shift(plan.warp_rect, layers.row_motion ? layers.row_motion->max_shift_px(lens.camera().lens) : 0);
   if (!plan.warp_rect.empty())
     plan.views = virtual_cameras(lens, plan.corners, target, scene.compositing.supersampling, kMaxViewSize_px);
   return plan;

@@ -39,4 +39,26 @@ inline constexpr std::string_view kNoUtcText =
 // The description, and kNoUtcText where it applies.
 [[nodiscard]] std::string description_of(const GeoPath& path);
 
+// Paths as KML 2.2 (OGC 07-147r2) for Google Earth, with its extension gx:Track: time, place and attitude of each
+// point. Beside each track stands the same path as a line, hidden at first, for programs without the extension; the
+// line alone where the path has no times. altitudeMode is absolute, which Google Earth counts from the sea.
+//
+// Degrees have 9 decimals, metres 4, seconds 6: a path that is read back (geo/recorded_path.h) is the same within 1 mm.
+// gx:angles has heading, tilt and roll, each clockwise about its axis as the reference of KML says: tilt and roll are
+// the negative of our pitch and roll.
+//   title  of the document; any bytes
+// Paths without points are left out.
+[[nodiscard]] std::string kml_text(const std::vector<GeoPath>& paths, const std::string& title);
+
+// Paths as CZML, the JSON that Cesium shows (https://github.com/AnalyticalGraphicsInc/czml-writer/wiki/CZML-Guide): a
+// document with a clock over the time of all paths, then a packet for each path with its position over time, its
+// attitude where known, its line, a point and a label. A path without times is a line alone.
+//
+// Degrees have 9 decimals, metres 4, seconds 6. Attitudes are unit quaternions [x, y, z, w] that take the axes of
+// Cesium's models (x forward, y left, z up) to those fixed to the Earth (WGS-84, x through 0/0, z through the north
+// pole). Heights are written as they are, and Cesium counts them from the ellipsoid.
+//   title  of the document; any bytes
+// Paths without points are left out.
+[[nodiscard]] std::string czml_text(const std::vector<GeoPath>& paths, const std::string& title);
+
 }  // namespace sigs

@@ -5,7 +5,7 @@
 
 #include "base/ensure.h"
 #include "base/text.h"
-#include "geo/recorded/formats.h"
+#include "geo/recorded/path_draft.h"
 
 namespace sigs {
 

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "geo/recorded_path.h"
 
 namespace sigs {

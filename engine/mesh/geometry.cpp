@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "base/disjoint_sets.h"
 #include "base/pose.h"
@@ -82,6 +84,124 @@ std::vector<Spoke> spokes_of(const std::vector<int>& corners, const std::vector<
   return spokes;
 }
 
+constexpr int kCells = 20;             // of the grid that is mirrored, along each axis
+constexpr double kPoints = 30'000;     // by which the surface is sampled
+constexpr double kEndShare = 0.12;     // of the length: what counts as nose and as tail
+constexpr double kSureOverlap = 0.08;  // by how much more the wings' axis is mirrored than the others
+constexpr double kSureLength = 1.25;   // how much longer than high
+constexpr double kSureSpread = 1.25;   // how much wider the tail's end is than the nose's
+constexpr double kSureFin = 1.6;       // how much farther the fin goes up than anything at the tail goes down
+constexpr int kMaxSplits = 64;         // of one triangle, along each side
+
+struct SurfacePoint {
+  glm::dvec3 position;  // each part 0..1 within the bounds
+  double area = 0;
+};
+
+// Points spread evenly over the surface, each with its share of the area.
+std::vector<SurfacePoint> surface_points(const Mesh& mesh) {
+  const glm::dvec3 low(mesh.low_m);
+  const glm::dvec3 size = glm::max(glm::dvec3(mesh.high_m) - low, glm::dvec3(1e-30));
+  const auto corner = [&](std::size_t i) { return glm::dvec3(mesh.vertices[mesh.indices[i]].position_m); };
+  const auto area_of = [&](std::size_t i) {
+    return glm::length(glm::cross(corner(i + 1) - corner(i), corner(i + 2) - corner(i))) / 2;
+  };
+  double total = 0;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) total += area_of(i);
+  std::vector<SurfacePoint> points;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const double area = area_of(i);
+    const double wanted = total > 0 ? std::sqrt(area / total * kPoints) : 1;
+    const int n = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMaxSplits);
+    // Middles of the n * n equal triangles, the upright ones and the inverted ones.
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; b < 2 * (n - a) - 1; ++b) {
+        const double third = b % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
+        const double u = (a + third) / n;
+        const double v = (b / 2 + third) / n;
+        const glm::dvec3 p = corner(i) * (1 - u - v) + corner(i + 1) * u + corner(i + 2) * v;
+        points.push_back({(p - low) / size, area / (double(n) * n)});
+      }
+  }
+  return points;
+}
+
+// Share of the surface that lies where its mirror image lies, for the mirror across the middle of each axis.
+std::array<double, 3> mirror_overlaps(const std::vector<SurfacePoint>& points) {
+  std::vector<double> grid(kCells * kCells * kCells, 0.0);
+  const auto cell = [](double share) { return std::clamp(static_cast<int>(share * kCells), 0, kCells - 1); };
+  const auto at = [&](const std::array<int, 3>& c) -> double& { return grid[(c[0] * kCells + c[1]) * kCells + c[2]]; };
+  double total = 0;
+  for (const SurfacePoint& point : points) {
+    at({cell(point.position.x), cell(point.position.y), cell(point.position.z)}) += point.area;
+    total += point.area;
+  }
+  std::array<double, 3> overlaps{};
+  for (int x = 0; x < kCells; ++x)
+    for (int y = 0; y < kCells; ++y)
+      for (int z = 0; z < kCells; ++z)
+        for (int axis = 0; axis < 3; ++axis) {
+          std::array<int, 3> mirrored{x, y, z};
+          mirrored[axis] = kCells - 1 - mirrored[axis];
+          overlaps[axis] += std::min(at({x, y, z}), at(mirrored)) / std::max(total, 1e-300);
+        }
+  return overlaps;
+}
+
+struct AxisOrder {
+  int wings = 1, length = 0, height = 2;
+  bool is_sure = false;
+};
+
+AxisOrder order_of(const std::array<double, 3>& overlaps, const glm::dvec3& size) {
+  AxisOrder order;
+  for (int axis : {0, 2})
+    if (overlaps[axis] > overlaps[order.wings] + kSureOverlap) order.wings = axis;
+  const int a = (order.wings + 1) % 3;
+  const int b = (order.wings + 2) % 3;
+  order.length = size[a] >= size[b] ? a : b;
+  order.height = size[a] >= size[b] ? b : a;
+  const double others = std::max(overlaps[a], overlaps[b]);
+  order.is_sure =
+      overlaps[order.wings] > others + kSureOverlap && size[order.length] > kSureLength * size[order.height];
+  return order;
+}
+
+// The part of the model at one end of its length.
+struct ModelEnd {
+  double low = INFINITY, high = -INFINITY;  // along the height, in the bounds' unit
+  double wide = 0;                          // from side to side
+
+  [[nodiscard]] double spread() const { return std::max({wide, high - low, 0.0}); }
+};
+
+// at_high: the end of the greater coordinate.
+ModelEnd end_of(const std::vector<SurfacePoint>& points, const AxisOrder& order, const glm::dvec3& size, bool at_high) {
+  ModelEnd end;
+  for (const SurfacePoint& point : points) {
+    const double along = at_high ? 1 - point.position[order.length] : point.position[order.length];
+    if (along > kEndShare) continue;
+    const double height = point.position[order.height] * size[order.height];
+    end.low = std::min(end.low, height);
+    end.high = std::max(end.high, height);
+    end.wide = std::max(end.wide, 2 * std::abs(point.position[order.wings] - 0.5) * size[order.wings]);
+  }
+  return end;
+}
+
+double mean_height(const std::vector<SurfacePoint>& points, const AxisOrder& order) {
+  double sum = 0;
+  double area = 0;
+  for (const SurfacePoint& point : points) sum += point.position[order.height] * point.area, area += point.area;
+  return area > 0 ? sum / area : 0.5;
+}
+
+glm::dvec3 axis_vector(int axis, double sign) {
+  glm::dvec3 vector(0);
+  vector[axis] = sign;
+  return vector;
+}
+
 }  // namespace
 
 Result<glm::dmat3> body_from_model(const ModelAxes& axes) {
@@ -144,6 +264,36 @@ std::vector<glm::dvec3> averaged_normals(std::span<const Triangle> triangles) {
     }
   }
   return normals;
+}
+
+ModelShape shape_of(const Mesh& mesh) {
+  const std::vector<SurfacePoint> points = surface_points(mesh);
+  const glm::dvec3 size = glm::dvec3(mesh.high_m) - glm::dvec3(mesh.low_m);
+  const AxisOrder order = order_of(mirror_overlaps(points), size);
+  const ModelEnd low_end = end_of(points, order, size, false);
+  const ModelEnd high_end = end_of(points, order, size, true);
+  const bool nose_is_high = high_end.spread() < low_end.spread();
+  const ModelEnd& nose = nose_is_high ? high_end : low_end;
+  const ModelEnd& tail = nose_is_high ? low_end : high_end;
+  const double middle = mean_height(points, order) * size[order.height];
+  const double above = tail.high - middle;
+  const double below = middle - tail.low;
+  ModelShape shape{.wings_are_sure = order.is_sure};
+  shape.nose_is_sure = order.is_sure && tail.spread() > kSureSpread * nose.spread();
+  shape.top_is_sure = shape.nose_is_sure && std::max(above, below) > kSureFin * std::max(0.0, std::min(above, below));
+  // What is not sure stays as the mesh has it: X forward, -Z up.
+  shape.nose = axis_vector(order.length, shape.nose_is_sure ? (nose_is_high ? 1 : -1) : 1);
+  shape.top = axis_vector(order.height, shape.top_is_sure ? (above > below ? 1 : -1) : (order.height == 2 ? -1 : 1));
+  return shape;
+}
+
+std::string file_axis(const glm::dvec3& direction_in_body, const ModelAxes& axes) {
+  const Result<glm::dmat3> body_from_file = body_from_model(axes);
+  const glm::dvec3 in_file = body_from_file ? glm::transpose(*body_from_file) * direction_in_body : direction_in_body;
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(in_file[i]) > std::abs(in_file[axis])) axis = i;
+  return std::string(in_file[axis] < 0 ? "-" : "+") + "xyz"[axis];
 }
 
 }  // namespace sigs

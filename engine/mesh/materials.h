@@ -3,12 +3,47 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "mesh/mesh.h"
 
 namespace sigs {
+
+// The other files that a model reads: textures, and the list of all files of a model.
+
+// The file that a model names, as its author may have meant it: written on Windows (back slashes, other case) or with a
+// path of the author's own machine, in which case the file of that name beside the model counts.
+//   folder   where relative names start
+//   written  the name as the OBJ or MTL file has it
+// Empty: there is no such file.
+[[nodiscard]] std::filesystem::path found_file(const std::filesystem::path& folder, std::string written);
+
+// Says why an image file cannot be read as a texture, "is 16000x16000; at most ..."; empty where it can. Reads its
+// header only, so that too large an image takes no memory (docs/limits.md).
+[[nodiscard]] std::string texture_problem(const std::filesystem::path& path);
+
+// Textures by path. Each file is read once: materials that name the same file share its pixels.
+class TextureCache {
+ public:
+  // CV_8UC4, RGBA; empty where the file cannot be read or has a texture_problem().
+  [[nodiscard]] cv::Mat texture(const std::filesystem::path& path);
+
+ private:
+  std::map<std::filesystem::path, cv::Mat> textures_;
+};
+
+// A copy of the texture with its opacity multiplied by the brightness of a map_d texture, which is scaled to its size.
+// Both CV_8UC4, RGBA.
+[[nodiscard]] cv::Mat with_opacity_map(const cv::Mat& texture, const cv::Mat& opacity_map);
+
+// All files that read_obj() reads: the OBJ file, the MTL files that its lines name, and the images that lines of those
+// name, as far as they exist. A line with blanks may name one file or several: each file that could be meant is listed.
+// Error cannot_read for the OBJ file.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> files_of_model(const std::filesystem::path& file);
 
 // Transforms texture coordinates: uv_in_texture = uv * scale + offset (the options -s and -o of map_Kd).
 struct TexturePlacement {

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "base/ensure.h"
+#include "occlusion/stable_motion.h"
 
 namespace sigs {
-
 namespace {
 
 constexpr int kMaxWidth = 640;        // pixels; finer means cost time and do not make edges more exact
@@ -44,6 +45,107 @@ void append(std::vector<MeanFrame>& segments, const MeanFrame& image, int max_fr
     segments.push_back(image);
   else
     segments.back() = merged(segments.back(), image);
+}
+
+constexpr int kShrink = 2;                // by which the means are shrunk: what drifts is larger than a pixel
+constexpr int kShiftWindow = 9;           // pixels of the shrunk images that share a shift
+constexpr int kMovingMargin = 3;          // pixels of the means around what moves that are left out too
+constexpr double kMinCurvature = 0.1;     // gray levels per pixel and pixel, squared: noise has as much
+constexpr double kMinSlope = 0.05;        // gray levels per pixel, squared
+constexpr double kMinChange = 0.01;       // likewise, per segment
+constexpr double kMinShiftSquare = 1e-4;  // pixels
+constexpr double kStays_px = 0.1;         // pixels of the mean images
+constexpr double kDrifts_px = 0.3;
+constexpr double kChanceAgreement = 0.3;  // correlation of successive shifts: of two dozen vibrating ones below,
+constexpr double kSteadyAgreement = 0.6;  // of ones that drift one way above
+constexpr double kUnexplained = 0.3;      // share of the change that a shift explains: the border of a body before a
+constexpr double kExplained = 0.6;        // moving world stays below, clouds are above
+
+struct Slope {
+  cv::Mat x, y;
+};
+
+Slope slope_of(const cv::Mat& image) {
+  const cv::Mat half = (cv::Mat_<float>(1, 3) << -0.5F, 0, 0.5F);
+  Slope slope;
+  cv::filter2D(image, slope.x, CV_32F, half, {-1, -1}, 0, cv::BORDER_REPLICATE);
+  cv::filter2D(image, slope.y, CV_32F, half.t(), {-1, -1}, 0, cv::BORDER_REPLICATE);
+  return slope;
+}
+
+cv::Mat shrunk(const cv::Mat& image) {
+  cv::Mat small;
+  cv::resize(image, small, {std::max(1, image.cols / kShrink), std::max(1, image.rows / kShrink)}, 0, 0,
+             cv::INTER_AREA);
+  return small;
+}
+
+cv::Mat small_image(const MeanFrame& segment) {
+  cv::Mat small = shrunk(segment.luma);
+  cv::GaussianBlur(small, small, {5, 5}, 0);
+  return small;
+}
+
+// The normal equations of a window's shift. What depends on the mean image alone is computed once.
+class ShiftFinder {
+ public:
+  ShiftFinder(const cv::Mat& mean, cv::Mat weight) : weight_(std::move(weight)), slope_(slope_of(mean)) {
+    const Slope along_x = slope_of(slope_.x);
+    second_xx_ = along_x.x;
+    second_xy_ = along_x.y;
+    second_yy_ = slope_of(slope_.y).y;
+    xx_ = windowed(second_xx_.mul(second_xx_) + second_xy_.mul(second_xy_)) + kMinCurvature;
+    yy_ = windowed(second_yy_.mul(second_yy_) + second_xy_.mul(second_xy_)) + kMinCurvature;
+    xy_ = windowed(second_xy_.mul(second_xx_ + second_yy_));
+    determinant_ = xx_.mul(yy_) - xy_.mul(xy_);
+    slope_square_ = windowed(slope_.x.mul(slope_.x) + slope_.y.mul(slope_.y)) + kMinSlope;
+  }
+
+  struct Shift {
+    cv::Mat x, y;       // pixels of the small images
+    cv::Mat explained;  // of the change, in squared gray levels per pixel
+    cv::Mat change;     // that change of contrast does not explain
+  };
+
+  [[nodiscard]] Shift shift_of(const cv::Mat& difference) const {
+    Slope change = slope_of(difference);
+    const cv::Mat contrast = windowed(change.x.mul(slope_.x) + change.y.mul(slope_.y)) / slope_square_;
+    change.x -= contrast.mul(slope_.x);
+    change.y -= contrast.mul(slope_.y);
+    const cv::Mat to_x = windowed(second_xx_.mul(change.x) + second_xy_.mul(change.y));
+    const cv::Mat to_y = windowed(second_xy_.mul(change.x) + second_yy_.mul(change.y));
+    Shift shift{.x = cv::Mat(yy_.mul(to_x) - xy_.mul(to_y)) / determinant_,
+                .y = cv::Mat(xx_.mul(to_y) - xy_.mul(to_x)) / determinant_};
+    shift.explained = shift.x.mul(to_x) + shift.y.mul(to_y);
+    shift.change = windowed(change.x.mul(change.x) + change.y.mul(change.y));
+    return shift;
+  }
+
+ private:
+  [[nodiscard]] cv::Mat windowed(const cv::Mat& values) const {
+    cv::Mat sums;
+    cv::boxFilter(values.mul(weight_), sums, CV_32F, {kShiftWindow, kShiftWindow}, {-1, -1}, true, cv::BORDER_REFLECT);
+    return sums;
+  }
+
+  cv::Mat weight_;
+  Slope slope_;
+  cv::Mat second_xx_, second_xy_, second_yy_;
+  cv::Mat xx_, xy_, yy_, determinant_;
+  cv::Mat slope_square_;
+};
+
+// Pixels close to what moves get little weight too: there, what moves shows through a blurred border.
+cv::Mat weight_of(const cv::Mat& ratio) {
+  cv::Mat near;
+  cv::dilate(ratio, near, cv::Mat::ones(kMovingMargin, kMovingMargin, CV_8UC1));
+  return shrunk(1.0 / cv::Mat(near.mul(near) + 1.0));
+}
+
+cv::Mat mean_of(const std::vector<cv::Mat>& images) {
+  cv::Mat sum = cv::Mat::zeros(images.front().size(), CV_32FC1);
+  for (const cv::Mat& image : images) sum += image;
+  return sum / static_cast<double>(images.size());
 }
 
 }  // namespace
@@ -95,6 +197,40 @@ void FootageSegments::add(const MeanFrame& image) {
     for (const MeanFrame& segment : segments_) append(longer, segment, max_frames_);
     segments_ = std::move(longer);
   }
+}
+
+cv::Mat drifting(const std::vector<MeanFrame>& segments, const cv::Mat& ratio) {
+  ENSURE(!segments.empty());
+  std::vector<cv::Mat> images;
+  for (const MeanFrame& segment : segments) images.push_back(small_image(segment));
+  const cv::Mat mean = mean_of(images);
+  const ShiftFinder finder(mean, weight_of(ratio));
+  const cv::Size size = mean.size();
+  cv::Mat agreeing = cv::Mat::zeros(size, CV_32FC1);
+  cv::Mat square(size, CV_32FC1, cv::Scalar(kMinShiftSquare * static_cast<double>(segments.size())));
+  cv::Mat explained = cv::Mat::zeros(size, CV_32FC1);
+  cv::Mat change(size, CV_32FC1, cv::Scalar(kMinChange * static_cast<double>(segments.size())));
+  ShiftFinder::Shift before;
+  for (const cv::Mat& image : images) {
+    ShiftFinder::Shift shift = finder.shift_of(image - mean);
+    if (!before.x.empty()) agreeing += before.x.mul(shift.x) + before.y.mul(shift.y);
+    square += shift.x.mul(shift.x) + shift.y.mul(shift.y);
+    explained += shift.explained;
+    change += shift.change;
+    before = std::move(shift);
+  }
+  const double pairs = std::max(1.0, static_cast<double>(segments.size()) - 1);
+  cv::Mat shift;
+  cv::sqrt(cv::max(agreeing / pairs, 0.0), shift);
+  shift *= kShrink;
+  const cv::Mat steady = linear_step(agreeing / square, kChanceAgreement, kSteadyAgreement);
+  const cv::Mat is_shift = linear_step(explained / change, kUnexplained, kExplained);
+  const cv::Mat drifts = linear_step(shift, kStays_px, kDrifts_px).mul(steady).mul(is_shift);
+  cv::Mat full;
+  cv::resize(drifts, full, ratio.size(), 0, 0, cv::INTER_LINEAR);
+  // Only where all windows around agree: a window at the border of a body contains world too.
+  cv::erode(full, full, cv::Mat::ones(kShiftWindow, kShiftWindow, CV_8UC1));
+  return full;
 }
 
 }  // namespace sigs

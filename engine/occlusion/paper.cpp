@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/ensure.h"
+#include "occlusion/detect.h"
 #include "occlusion/mask_geometry.h"
-#include "occlusion/method.h"
 
 namespace sigs {
 

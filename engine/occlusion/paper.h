@@ -5,7 +5,7 @@
 
 #include "project/project.h"
 
-// The steps of section 4 of the paper, in its order; paper_method (method.h) runs them. Images are CV_8UC1; masks hold
+// The steps of section 4 of the paper, in its order; paper_method (detect.h) runs them. Images are CV_8UC1; masks hold
 // 0 and 255. README.md says what the paper leaves open.
 namespace sigs {
 

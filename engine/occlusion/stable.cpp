@@ -6,12 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "occlusion/body_parts.h"
+#include "occlusion/detect.h"
 #include "occlusion/mask_geometry.h"
 #include "occlusion/mean_frame.h"
-#include "occlusion/method.h"
 #include "occlusion/region_cut.h"
-#include "occlusion/slow_drift.h"
 #include "occlusion/stable_motion.h"
 #include "project/project.h"
 
@@ -22,7 +20,7 @@ namespace {
 // How the method `stable` decides, step by step; images of the means' size.
 struct StableDecision {
   MotionEvidence motion;
-  cv::Mat drift;   // drifting() (slow_drift.h)
+  cv::Mat drift;   // drifting() (mean_frame.h)
   cv::Mat moving;  // the maximum of motion.moving and drift, 0..1
   Boundaries boundaries;
   cv::Mat labels;      // CV_8UC1, 255: may be body, by the first of several cuts

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "project/project.h"
 
 namespace sigs {

@@ -115,7 +115,7 @@ struct CameraSettings {
   [[nodiscard]] bool operator==(const CameraSettings&) const = default;
 };
 
-// Where the world lies on the Earth (geo/local_frame.h): the place of its origin and the heading of X. Without place or
+// Where the world lies on the Earth (geo/geodetic.h): the place of its origin and the heading of X. Without place or
 // heading they come from the camera's log, where it has them.
 struct GeoSettings {
   std::optional<double> latitude_deg;

@@ -21,12 +21,11 @@
 #include "base/text.h"
 #include "base/transfer.h"
 #include "camera/virtual_camera.h"
-#include "render/buffer_pool.h"
 #include "render/draw_list.h"
 #include "render/egl_context.h"
 #include "render/gl_objects.h"
 #include "render/gpu_mesh.h"
-#include "render/shadow_map.h"
+#include "render/light.h"
 
 namespace sigs {
 

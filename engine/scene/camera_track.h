@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "scene/scene.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"

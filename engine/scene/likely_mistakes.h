@@ -12,7 +12,7 @@ namespace sigs {
 
 // What those who begin often get wrong, with what to do about it. Each is one line in the field to be changed.
 
-// Of an intruder's model and waypoints: axes that do not go with the shape of the model (mesh/model_shape.h), waypoints
+// Of an intruder's model and waypoints: axes that do not go with the shape of the model (mesh/geometry.h), waypoints
 // whose frames the footage does not have, and positions that look as if they were in kilometres or had z pointing up.
 // Distractors, which have other shapes than aircraft, are checked for waypoints alone.
 //   intruder        index in the project's intruders

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/point_tree.h"
+#include "mesh/geometry.h"
 #include "mesh/mesh.h"
-#include "mesh/model_shape.h"
 
 namespace sigs {
 

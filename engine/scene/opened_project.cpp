@@ -11,7 +11,7 @@
 
 #include "base/paths.h"
 #include "base/text.h"
-#include "mesh/textures.h"
+#include "mesh/materials.h"
 #include "project/fields.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"

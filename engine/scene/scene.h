@@ -11,7 +11,7 @@
 #include "base/pose.h"
 #include "base/result.h"
 #include "camera/camera.h"
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "project/project.h"
 #include "project/validate.h"
 #include "scene/model.h"

@@ -9,8 +9,8 @@
 
 #include "base/ensure.h"
 #include "spline/directions.h"
+#include "spline/piecewise_cubic.h"
 #include "spline/trajectory.h"
-#include "spline/tridiagonal.h"
 
 namespace sigs {
 

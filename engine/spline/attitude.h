@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "spline/constant_speed.h"
-#include "spline/nose.h"
+#include "spline/directions.h"
 #include "spline/trajectory.h"
 
 namespace sigs {
 
-// The attitude of an aircraft along a curve: nose (nose.h), the direction in which its up axis should point, and the
-// roll that follows from it. It is computed once for the whole flight; after that it depends on the time alone and is
-// continuous in it everywhere.
+// The attitude of an aircraft along a curve: nose (directions.h), the direction in which its up axis should point, and
+// the roll that follows from it. It is computed once for the whole flight; after that it depends on the time alone and
+// is continuous in it everywhere.
 //
 // Direction of the up axis. Bank::coordinated: along the specific force, so that nothing pulls sideways; in a level
 // turn the bank is atan(speed * turn rate / g), right wing down in a right turn. The bank is limited to bank_limit_rad

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/ensure.h"
-#include "spline/tridiagonal.h"
+#include "spline/piecewise_cubic.h"
 
 namespace sigs {
 

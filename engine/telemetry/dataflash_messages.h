@@ -13,7 +13,7 @@ namespace sigs {
 
 // The messages of an ArduPilot dataflash log
 // (https://ardupilot.org/dev/docs/code-overview-adding-a-new-log-message.html, AP_Logger's README): each begins with A3
-// 95 and the number of its type; messages of type 128, FMT, say how the others are laid out. dataflash.h turns them
+// 95 and the number of its type; messages of type 128, FMT, say how the others are laid out. dataflash.cpp turns them
 // into a Track.
 
 // Whether the file begins with the FMT message that describes FMT messages.

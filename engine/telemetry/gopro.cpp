@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/gopro.h"
+#include "telemetry/log_formats.h"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,8 @@
 
 #include "base/pose.h"
 #include "base/text.h"
-#include "telemetry/gopro_attitude.h"
-#include "telemetry/gopro_axes.h"
+#include "telemetry/gopro_orientation.h"
 #include "telemetry/gopro_stream.h"
-#include "telemetry/gopro_values.h"
 #include "telemetry/log_samples.h"
 
 namespace sigs {

@@ -10,7 +10,7 @@
 namespace sigs {
 
 // GPMF, the General Purpose Metadata Format of GoPro (https://gopro.github.io/gpmf-parser): key, type, size, repeat and
-// value, big endian, each padded to 4 bytes. This file knows the structure alone; what the keys mean is gopro.h's.
+// value, big endian, each padded to 4 bytes. This file knows the structure alone; what the keys mean is gopro.cpp's.
 
 // One element. Views the payload that it was read from.
 struct GpmfElement {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/klv.h"
+#include "telemetry/log_formats.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,12 +9,8 @@
 #include "base/input_file.h"
 #include "base/text.h"
 #include "base/threads.h"
-#include "telemetry/dataflash.h"
-#include "telemetry/dji_subtitles.h"
-#include "telemetry/gopro.h"
-#include "telemetry/klv.h"
+#include "telemetry/log_formats.h"
 #include "telemetry/track_csv.h"
-#include "telemetry/ulog.h"
 #include "video/data_streams.h"
 
 namespace sigs {

@@ -16,7 +16,7 @@
 #include "base/text.h"
 #include "telemetry/csv_columns.h"
 #include "telemetry/log_samples.h"
-#include "telemetry/track_channels.h"
+#include "telemetry/track.h"
 
 namespace sigs {
 namespace {

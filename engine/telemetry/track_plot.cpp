@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/pose.h"
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "telemetry/plot_axes.h"
 
 namespace sigs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/ulog.h"
+#include "telemetry/log_formats.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "base/input_file.h"
 #include "base/pose.h"
 #include "base/text.h"
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 #include "telemetry/log_samples.h"
 #include "telemetry/ulog_messages.h"
 

@@ -13,7 +13,7 @@
 namespace sigs {
 
 // The messages of a PX4 ULog file (https://docs.px4.io/main/en/dev_log/ulog_file_format): formats, subscriptions, data,
-// dropouts, whatever the topics mean. ulog.h turns them into a Track.
+// dropouts, whatever the topics mean. ulog.cpp turns them into a Track.
 
 // Whether the file begins as a ULog does.
 [[nodiscard]] bool has_ulog_magic(std::string_view bytes);

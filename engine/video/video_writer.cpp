@@ -1,21 +1,184 @@
 // SPDX-License-Identifier: MIT
 #include "video/video_writer.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/ensure.h"
+#include "base/image_codecs.h"
+#include "base/output_stream.h"
 #include "base/result.h"
 #include "base/threads.h"
-#include "video/image_folder.h"
+#include "video/bit_depth.h"
 #include "video/libav/video_file.h"
-#include "video/y4m_file.h"
 
 namespace sigs {
 
 namespace fs = std::filesystem;
+
+// Uncompressed video as mjpegtools, FFmpeg and GStreamer exchange it (yuv4mpeg(5)): a line of text with size, rate and
+// layout, then for each frame "FRAME", a line break and its planes, samples of more than 8 bits in words of 16. Frames
+// have no times: they come at the nominal rate. Matrix, primaries and transfer have no place in it; range and chroma
+// site have.
+class Y4mFile {
+ public:
+  // Writes the first line. Errors: usage (RGB, which it has no layout for), write_failed, interrupted.
+  [[nodiscard]] static Result<Y4mFile> begin(OutputStream out, const VideoFormat& format);
+
+  // Each frame leaves the process before the function returns. Errors: write_failed, interrupted.
+  [[nodiscard]] Result<void> write(const Frame& frame);
+  [[nodiscard]] Result<void> finish() { return out_.close(); }
+
+ private:
+  Y4mFile(OutputStream out, int bit_depth) : out_(std::move(out)), bit_depth_(bit_depth) {}
+
+  OutputStream out_;
+  int bit_depth_ = 8;  // that is written
+  std::string bytes_;  // of one frame, reused
+};
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "y4m has words with the low byte first");
+
+// The depth in which frames are written: y4m has 8, 9, 10, 12, 14 and 16 bits, of grey 8, 9, 10, 12 and 16.
+int stored_depth(const VideoFormat& format) {
+  const int wanted = std::min(format.bit_depth, format.max_bit_depth);
+  if (wanted == 11) return 12;
+  if (wanted == 13) return format.layout == PixelLayout::gray ? 16 : 14;
+  return wanted == 15 || (wanted == 14 && format.layout == PixelLayout::gray) ? 16 : wanted;
+}
+
+// The name of a layout of more than 8 bits: "C420p10", "Cmono10".
+std::string deep_layout_text(PixelLayout layout, int bit_depth) {
+  switch (layout) {
+    case PixelLayout::gray:
+      return fmt::format("Cmono{}", bit_depth);
+    case PixelLayout::yuv420:
+      return fmt::format("C420p{}", bit_depth);
+    case PixelLayout::yuv422:
+      return fmt::format("C422p{}", bit_depth);
+    case PixelLayout::yuv444:
+      return fmt::format("C444p{}", bit_depth);
+    case PixelLayout::rgb:
+      break;
+  }
+  return {};
+}
+
+// The name of a layout, as FFmpeg writes and reads it. Only 4:2:0 of 8 bits has chroma sites.
+std::string layout_text(const VideoFormat& format) {
+  if (const int depth = stored_depth(format); depth > 8) return deep_layout_text(format.layout, depth);
+  switch (format.layout) {
+    case PixelLayout::gray:
+      return "Cmono";
+    case PixelLayout::yuv422:
+      return "C422";
+    case PixelLayout::yuv444:
+      return "C444";
+    case PixelLayout::yuv420:
+      break;
+    case PixelLayout::rgb:
+      return {};
+  }
+  switch (format.color.chroma_site) {
+    case ChromaSite::center:
+      return "C420jpeg";
+    case ChromaSite::top_left:
+      return "C420paldv";
+    case ChromaSite::left:
+      break;
+  }
+  return "C420mpeg2";
+}
+
+// Frames are progressive ("Ip"). The range is stated even where the footage does not: it is what was assumed of it.
+std::string first_line(const VideoFormat& format, const std::string& layout) {
+  return fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A{}:{} {} XCOLORRANGE={}\n", format.size_px.width,
+                     format.size_px.height, format.frame_rate_num, format.frame_rate_den, format.pixel_aspect_num,
+                     format.pixel_aspect_den, layout, format.color.range == ColorRange::full ? "FULL" : "LIMITED");
+}
+
+// One channel for gray, else BGR, of 8 or 16 bits.
+cv::Mat stored_image(const Frame& frame, int bit_depth) {
+  cv::Mat image = bit_depth > 8 ? bgr16_of(frame) : bgr_of(frame);
+  if (frame.layout == PixelLayout::gray) cv::extractChannel(image, image, 0);
+  return image;
+}
+
+std::vector<int> parameters_of(const VideoFormat& format) {
+  if (format.codec == VideoCodec::jpeg) return {cv::IMWRITE_JPEG_QUALITY, format.jpeg_quality};
+  return {};
+}
+
+}  // namespace
+
+Result<Y4mFile> Y4mFile::begin(OutputStream out, const VideoFormat& format) {
+  const std::string layout = layout_text(format);
+  if (layout.empty())
+    return fail(out.name(), "y4m has no place for RGB images; use the container nut", ErrorKind::usage);
+  Y4mFile file(std::move(out), stored_depth(format));
+  if (const Result<void> begun = file.out_.write(first_line(format, layout)); !begun) return fail(begun.error());
+  return file;
+}
+
+Result<void> Y4mFile::write(const Frame& frame) {
+  const Frame stored = with_bit_depth(frame, bit_depth_);
+  bytes_ = "FRAME\n";
+  for (int i = 0; i < stored.plane_count(); ++i) {
+    const cv::Mat& plane = stored.planes[static_cast<std::size_t>(i)];
+    for (int y = 0; y < plane.rows; ++y)
+      bytes_.append(plane.ptr<char>(y), static_cast<std::size_t>(plane.cols) * plane.elemSize());
+  }
+  return out_.write(bytes_);
+}
+
+bool writes_images(VideoCodec codec) {
+  return *image_extension_of(codec) != '\0';
+}
+
+const char* image_extension_of(VideoCodec codec) {
+  switch (codec) {
+    case VideoCodec::png:
+      return ".png";
+    case VideoCodec::tiff:
+      return ".tiff";
+    case VideoCodec::jpeg:
+      return ".jpg";
+    default:
+      return "";
+  }
+}
+
+Result<void> write_numbered_image(const fs::path& folder, const VideoFormat& format, const Frame& frame, int number) {
+  const char* const extension = image_extension_of(format.codec);
+  const int depth = std::min({frame.bit_depth, format.max_bit_depth, max_bit_depth(format.codec)});
+  const fs::path path = folder / fmt::format("frame_{:06}{}", number, extension);
+  std::vector<uchar> bytes;
+  try {
+    image_codecs::imencode(extension, stored_image(frame, depth), bytes, parameters_of(format));
+  } catch (const cv::Exception& problem) {
+    return fail(path.string(), fmt::format("cannot be written as an image ({}): {}", extension, problem.err),
+                ErrorKind::write_failed);
+  }
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out)
+    return fail(path.string(), fmt::format("could not be written: {}", std::strerror(errno)), ErrorKind::write_failed);
+  return {};
+}
 
 struct VideoWriter::State {
   fs::path path;

@@ -9,7 +9,6 @@
 
 #include "camera/distortion_models.h"
 #include "camera/example_lenses.h"
-#include "camera/numerics.h"
 
 namespace sigs::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/area_mean.h"
+#include "compositor/warp.h"
 
 #include <doctest/doctest.h>
 

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "compositor/blend.h"
-#include "compositor/chroma_spread.h"
 #include "compositor/grain.h"
-#include "compositor/sharpen.h"
 #include "compositor/synthetic_frames.h"
 #include "compositor/synthetic_layers.h"
 

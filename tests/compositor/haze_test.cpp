@@ -8,7 +8,6 @@
 
 #include "compositor/synthetic_frames.h"
 #include "compositor/synthetic_layers.h"
-#include "compositor/tone.h"
 
 namespace sigs::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/motion_blur.h"
+#include "compositor/blur.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "compositor/blur.h"
 #include "compositor/synthetic_layers.h"
 
 namespace sigs::test {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "encounter/units.h"
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 
 using namespace sigs;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/codec_stage.h"
+#include "frame/code_stages.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

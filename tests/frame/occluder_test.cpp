@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/occluder.h"
+#include "frame/composite.h"
 
 #include <doctest/doctest.h>
 

@@ -2,11 +2,8 @@
 #include "base/ensure.h"
 #include "fuzz/fuzz_input.h"
 #include "fuzz/track_promises.h"
-#include "telemetry/dataflash.h"
-#include "telemetry/gopro.h"
-#include "telemetry/klv.h"
 #include "telemetry/klv_packets.h"
-#include "telemetry/ulog.h"
+#include "telemetry/log_formats.h"
 
 namespace sigs::fuzz {
 

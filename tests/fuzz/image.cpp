@@ -4,10 +4,10 @@
 #include "base/ensure.h"
 #include "base/image.h"
 #include "fuzz/fuzz_input.h"
-#include "mesh/textures.h"
+#include "mesh/materials.h"
 #include "scene/scene_files.h"
 #include "video/frame_source.h"
-#include "video/image_times.h"
+#include "video/image_sequence.h"
 
 namespace sigs::fuzz {
 

@@ -23,7 +23,7 @@
 #include "support/test_data.h"
 #include "telemetry/read_track.h"
 #include "video/frame_source.h"
-#include "video/image_times.h"
+#include "video/image_sequence.h"
 
 using namespace sigs;
 using namespace sigs::test;

@@ -5,7 +5,7 @@
 #include "fuzz/fuzz_input.h"
 #include "fuzz/track_promises.h"
 #include "scene/scene_files.h"
-#include "telemetry/dji_subtitles.h"
+#include "telemetry/log_formats.h"
 #include "telemetry/track_csv.h"
 
 namespace sigs::fuzz {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/ensure.h"
-#include "telemetry/track_channels.h"
+#include "telemetry/track.h"
 
 namespace sigs::fuzz {
 

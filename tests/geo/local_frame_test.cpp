@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geo/local_frame.h"
+#include "geo/geodetic.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -5,8 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "geo/czml.h"
-#include "geo/kml.h"
+#include "geo/geo_path.h"
 #include "geo/recorded_examples.h"
 #include "geo/recorded_path.h"
 

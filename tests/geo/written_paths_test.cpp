@@ -7,9 +7,8 @@
 #include <pugixml.hpp>
 #include <random>
 
-#include "geo/czml.h"
-#include "geo/kml.h"
-#include "geo/local_frame.h"
+#include "geo/geo_path.h"
+#include "geo/geodetic.h"
 #include "geo/recorded_examples.h"
 #include "geo/utc_time.h"
 #include "support/comma_locale.h"

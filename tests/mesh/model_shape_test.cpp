@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "mesh/model_shape.h"
+#include "mesh/geometry.h"
 #include "support/test_data.h"
 
 using namespace sigs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/convergence.h"
+#include "occlusion/detect.h"
 
 #include <doctest/doctest.h>
 

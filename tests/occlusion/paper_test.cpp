@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "flights/flights.h"
+#include "occlusion/detect.h"
 #include "occlusion/mask_geometry.h"
-#include "occlusion/method.h"
 #include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {

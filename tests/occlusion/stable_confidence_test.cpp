@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flights/flights.h"
-#include "occlusion/method.h"
+#include "occlusion/detect.h"
 
 namespace {
 

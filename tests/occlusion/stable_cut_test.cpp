@@ -7,7 +7,6 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "occlusion/body_parts.h"
 #include "occlusion/region_cut.h"
 
 namespace {

@@ -3,8 +3,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "occlusion/detect.h"
 #include "occlusion/mask_geometry.h"
-#include "occlusion/method.h"
 
 namespace {
 

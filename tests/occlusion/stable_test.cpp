@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/method.h"
+#include "occlusion/detect.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,6 @@
 #include <string>
 
 #include "flights/flights.h"
-#include "occlusion/detect.h"
 #include "occlusion/mask_geometry.h"
 #include "occlusion/synthetic_clip.h"
 #include "support/test_data.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/buffer_pool.h"
+#include "render/gl_objects.h"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "geo/kml.h"
+#include "geo/geo_path.h"
 #include "geo/recorded_path.h"
 #include "project/places.h"
 #include "scene/scene_at.h"

@@ -15,7 +15,7 @@ using namespace test;
 
 namespace {
 
-constexpr double kGravity_mps2 = 9.80665;
+constexpr double kStandardGravity_mps2 = 9.80665;
 
 glm::dvec3 nose_in_world(const Trajectory& trajectory, double time_s) {
   return trajectory.world_from_body(time_s).rotation * glm::dvec3(1, 0, 0);
@@ -38,7 +38,7 @@ TEST_CASE("a level turn is banked by atan of v squared over R g to the side it t
         const double radius_m = 500;
         const auto waypoints = circle(radius_m, speed_mps, 1.25, side);
         const Trajectory trajectory = trajectory_through(waypoints, {.timing = timing});
-        const double expected_rad = side * std::atan(speed_mps * speed_mps / (radius_m * kGravity_mps2));
+        const double expected_rad = side * std::atan(speed_mps * speed_mps / (radius_m * kStandardGravity_mps2));
         for (double share = 0.2; share < 0.8; share += 0.01) {
           const Attitude attitude = attitude_at(trajectory, share * waypoints.back().time_s);
           CHECK(std::abs(attitude.roll_rad - expected_rad) < 1e-3);  // waypoints 5 degrees apart: v^2/R to 1e-3
@@ -90,7 +90,7 @@ TEST_CASE("a path that curves sharply down is pushed over upright and not flown 
   for (int i = 0; i <= 12; ++i) all_the_way.push_back({i * 0.5, {50.0 * i, 0, 10 * std::pow(0.5 * i - 3, 2)}});
   for (const auto& waypoints : {hill, all_the_way}) {
     const Trajectory trajectory = trajectory_through(waypoints);
-    CHECK(trajectory.acceleration_mps2(5).z > 1.5 * kGravity_mps2);
+    CHECK(trajectory.acceleration_mps2(5).z > 1.5 * kStandardGravity_mps2);
     for (double time_s = 0; time_s < waypoints.back().time_s; time_s += 0.01)
       CHECK(std::abs(attitude_at(trajectory, time_s).roll_rad) < 1e-6);
   }
@@ -110,9 +110,9 @@ TEST_CASE("no force acts sideways in coordinated flight under the limit") {
   const Trajectory trajectory = trajectory_through(climbing);
   for (double share = 0.2; share < 0.8; share += 0.01) {
     const double time_s = share * waypoints.back().time_s;
-    const glm::dvec3 force_mps2 = trajectory.acceleration_mps2(time_s) - glm::dvec3(0, 0, kGravity_mps2);
+    const glm::dvec3 force_mps2 = trajectory.acceleration_mps2(time_s) - glm::dvec3(0, 0, kStandardGravity_mps2);
     const glm::dvec3 right = trajectory.world_from_body(time_s).rotation * glm::dvec3(0, 1, 0);
-    CHECK(std::abs(dot(force_mps2, right)) < 2e-3 * kGravity_mps2);  // smoothing over the spline's ripple
+    CHECK(std::abs(dot(force_mps2, right)) < 2e-3 * kStandardGravity_mps2);  // smoothing over the spline's ripple
   }
 }
 

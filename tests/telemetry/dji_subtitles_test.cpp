@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/dji_subtitles.h"
+#include "telemetry/log_formats.h"
 
 #include <doctest/doctest.h>
 

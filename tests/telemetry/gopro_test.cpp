@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // GoPro payloads that were made here, so that every sample is known.
-#include "telemetry/gopro.h"
+#include "telemetry/log_formats.h"
 
 #include <doctest/doctest.h>
 

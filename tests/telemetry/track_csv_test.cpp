@@ -13,7 +13,7 @@
 
 #include "base/pose.h"
 #include "support/test_data.h"
-#include "telemetry/track_channels.h"
+#include "telemetry/track.h"
 
 using namespace sigs;
 using namespace sigs::test;

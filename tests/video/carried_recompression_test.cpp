@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "video/carried_recompression.h"
+#include "video/recompression.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -14,7 +14,6 @@
 #include "support/files.h"
 #include "support/test_data.h"
 #include "video/clips.h"
-#include "video/image_folder.h"
 #include "video/video_writer.h"
 
 namespace sigs::test {

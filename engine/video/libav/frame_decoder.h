@@ -12,7 +12,6 @@
 #include "video/frame_quantisers.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/handles.h"
-#include "video/libav/packet_table.h"
 
 namespace sigs::libav {
 

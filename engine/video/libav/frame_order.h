@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "video/libav/demuxer.h"
 #include "video/libav/frame_decoder.h"
-#include "video/libav/packet_table.h"
 
 namespace sigs::libav {
 

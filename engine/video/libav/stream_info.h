@@ -11,7 +11,6 @@
 #include "video/libav/demuxer.h"
 #include "video/libav/frame_order.h"
 #include "video/libav/handles.h"
-#include "video/libav/packet_table.h"
 
 namespace sigs::libav {
 

@@ -31,7 +31,7 @@ const char* muxer_of(Container container) {
     case Container::nut:
       return "nut";
     case Container::y4m:
-      break;  // y4m_file.h writes it
+      break;  // VideoWriter writes it
   }
   return "";
 }

@@ -2,15 +2,90 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <pugixml.hpp>
+#include <string_view>
 #include <utility>
+#include <vector>
 
-#include "geo/recorded/xml_nodes.h"
+#include "base/nesting.h"
+#include "base/text.h"
+#include "geo/recorded/path_draft.h"
+#include "geo/utc_time.h"
 
 namespace sigs {
+namespace {
+
+// What the readers of GPX and KML share. Names of elements are compared without their prefixes: gx:Track and Track are
+// the same, whatever prefix the file gives a namespace.
+
+// For drafts with times that state no zone.
+constexpr const char* kNoZoneNote = "times state no zone; they are taken for UTC";
+
+// "Track" for "gx:Track".
+std::string_view local_name(const pugi::xml_node& node) {
+  const std::string_view name = node.name();
+  const std::size_t colon = name.rfind(':');
+  return colon == std::string_view::npos ? name : name.substr(colon + 1);
+}
+
+// The first child of a local name; an empty node where there is none.
+pugi::xml_node child_named(const pugi::xml_node& node, std::string_view name) {
+  for (const pugi::xml_node& child : node.children())
+    if (local_name(child) == name) return child;
+  return {};
+}
+
+// The text of the first child of that name; empty where there is none.
+std::string_view text_in(const pugi::xml_node& node, std::string_view name) {
+  return child_named(node, name).child_value();
+}
+
+// The time that a text says, in UTC; sets has_local where it states no zone. nullopt: it is no time.
+std::optional<double> time_in(std::string_view text, bool& has_local) {
+  const std::optional<UtcInstant> instant = utc_instant_of(text);
+  if (!instant) return std::nullopt;
+  has_local |= !instant->has_zone;
+  return instant->time_s;
+}
+
+// GPX 1.1, https://www.topografix.com/GPX/1/1/. GPX 1.0 has the same elements as far as they are read here.
+
+void add_gpx_point(const pugi::xml_node& node, PathDraft& draft, bool& has_local) {
+  DraftPoint point;
+  point.latitude_deg = file_number_or_nan(node.attribute("lat").value());
+  point.longitude_deg = file_number_or_nan(node.attribute("lon").value());
+  point.height_m = file_number_of(text_in(node, "ele"));
+  point.time_s = time_in(text_in(node, "time"), has_local);
+  draft.points.push_back(point);
+}
+
+void add_gpx_points(const pugi::xml_node& node, std::string_view name, PathDraft& draft, bool& has_local) {
+  for (const pugi::xml_node& child : node.children())
+    if (local_name(child) == name) add_gpx_point(child, draft, has_local);
+}
+
+PathDraft draft_of_gpx(const pugi::xml_node& node) {
+  PathDraft draft;
+  draft.name = file_name_text(text_in(node, "name"));
+  draft.height = HeightReference::sea_level;
+  bool has_local = false;
+  add_gpx_points(node, "rtept", draft, has_local);
+  for (const pugi::xml_node& segment : node.children())
+    if (local_name(segment) == "trkseg") add_gpx_points(segment, "trkpt", draft, has_local);
+  add_gpx_points(node, "trkpt", draft, has_local);
+  if (has_local) draft.notes.emplace_back(kNoZoneNote);
+  return draft;
+}
+
+// The paths in a document whose root is <gpx>, not nested deeper than kMaxNesting; the same for <kml>.
+std::vector<PathDraft> drafts_of_gpx(const pugi::xml_node& root) {
+  std::vector<PathDraft> drafts;
+  for (const pugi::xml_node& node : root.children())
+    if (local_name(node) == "trk" || local_name(node) == "rte") drafts.push_back(draft_of_gpx(node));
+  return drafts;
+}
 
 // KML 2.2 (OGC 07-147r2) with Google's extension gx:Track, which KML 2.3 (OGC 12-007r2) has as Track.
-
-namespace {
 
 constexpr std::string_view kKmlSpace = " \t\r\n";
 
@@ -169,12 +244,27 @@ class KmlPaths {
   std::vector<PathDraft> drafts_;
 };
 
-}  // namespace
-
 std::vector<PathDraft> drafts_of_kml(const pugi::xml_node& root) {
   KmlPaths paths;
   paths.add_folder(root);
   return paths.take();
+}
+
+}  // namespace
+
+Result<std::vector<PathDraft>> drafts_of_xml(std::string_view text, const std::string& where) {
+  if (xml_depth(text) > kMaxNesting)
+    return fail(where, fmt::format("has elements more than {} deep within one another", kMaxNesting));
+  pugi::xml_document document;
+  // The parser works on a copy, so that the text keeps its lines.
+  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
+  if (!parsed)
+    return fail(fmt::format("{}: {}", where, text_position(text, static_cast<std::size_t>(parsed.offset) + 1)),
+                std::string("is not XML from here on: ") + parsed.description());
+  const pugi::xml_node root = document.document_element();
+  if (local_name(root) == "gpx") return drafts_of_gpx(root);
+  if (local_name(root) == "kml") return drafts_of_kml(root);
+  return fail(where, fmt::format("is XML, but neither GPX nor KML: its root is <{}>", file_name_text(root.name())));
 }
 
 }  // namespace sigs
