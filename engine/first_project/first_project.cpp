@@ -70,12 +70,6 @@ UsedFrames used_frames(const FootageShape& footage) {
   return used;
 }
 
-std::string stem_of(const fs::path& file) {
-  std::string stem = file.stem().string();
-  while (!stem.empty() && stem.front() == '.') stem.erase(0, 1);
-  return stem.empty() ? "project" : stem;
-}
-
 // Of images that of their folder.
 std::string name_of_footage(const fs::path& video) {
   if (!is_image_sequence(video)) return stem_of(video);

@@ -53,6 +53,9 @@ struct FirstProjectNote {
 // "text; remedy", for the terminal.
 [[nodiscard]] std::string told_on_terminal(const FirstProjectNote& note);
 
+// The name of a file without its extension and without dots at its beginning; "project" where nothing is left.
+[[nodiscard]] std::string stem_of(const std::filesystem::path& file);
+
 // The file with the notes beside a project file: NAME.notes.txt.
 [[nodiscard]] std::filesystem::path notes_file_of(const std::filesystem::path& project_file);
 

@@ -97,6 +97,12 @@ std::string told_on_terminal(const FirstProjectNote& note) {
   return note.remedy.empty() ? note.text : note.text + "; " + note.remedy;
 }
 
+std::string stem_of(const fs::path& file) {
+  std::string stem = file.stem().string();
+  while (!stem.empty() && stem.front() == '.') stem.erase(0, 1);
+  return stem.empty() ? "project" : stem;
+}
+
 fs::path notes_file_of(const fs::path& project_file) {
   return project_file.parent_path() / (stem_of(project_file) + ".notes.txt");
 }
