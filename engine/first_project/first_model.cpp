@@ -131,19 +131,24 @@ Result<FirstModel> sample_model(const fs::path& chosen, SceneFiles& files) {
   return first;
 }
 
-Result<std::vector<FirstProjectFile>> copied_model(const fs::path& file, const fs::path& folder) {
+Result<CopiedModel> copied_model(const fs::path& file, const fs::path& folder) {
+  constexpr int kMostUp = 1;
   const Result<std::vector<fs::path>> sources = files_of_model(file);
   if (!sources) return fail(sources.error());
-  std::vector<FirstProjectFile> copies;
+  const fs::path obj = canonical_name(file);
+  fs::path above = obj.parent_path();  // the folder that holds them all
+  for (const fs::path& source : *sources)
+    for (int up = 0; !is_at_or_below(canonical_name(source), above); ++up, above = above.parent_path())
+      if (up == kMostUp || above == above.parent_path())
+        return fail(file.string(),
+                    fmt::format("cannot be copied: its file {} lies outside of its folder", source.string()));
+  CopiedModel copied{.obj = folder / obj.lexically_relative(above)};
   std::set<fs::path> names;  // an image that several materials name is listed for each of them
   for (const fs::path& source : *sources) {
-    const fs::path name = canonical_name(source).lexically_relative(canonical_name(file).parent_path());
-    if (name.empty() || *name.begin() == "..")
-      return fail(file.string(),
-                  fmt::format("cannot be copied: its file {} lies outside of its folder", source.string()));
-    if (names.insert(name).second) copies.push_back({.path = folder / name, .content = {}, .copy_of = source});
+    const fs::path name = canonical_name(source).lexically_relative(above);
+    if (names.insert(name).second) copied.files.push_back({.path = folder / name, .content = {}, .copy_of = source});
   }
-  return copies;
+  return copied;
 }
 
 Result<fs::path> model_copied_into(const fs::path& folder, const fs::path& model) {
@@ -152,10 +157,10 @@ Result<fs::path> model_copied_into(const fs::path& folder, const fs::path& model
   Error error;
   for (int i = 1; i <= kMaxSameNames; ++i) {
     const std::string name = model.stem().string() + (i > 1 ? fmt::format("-{}", i) : "");
-    const Result<std::vector<FirstProjectFile>> copies = copied_model(model, folder / name);
-    if (!copies) return fail(copies.error());
-    const Result<void> written = write_files(*copies, false);
-    if (written) return folder / name / model.filename();
+    const Result<CopiedModel> copied = copied_model(model, folder / name);
+    if (!copied) return fail(copied.error());
+    const Result<void> written = write_files(copied->files, false);
+    if (written) return copied->obj;
     error = written.error();
     std::error_code code;
     if (!fs::exists(folder / name, code)) break;  // another name would not help

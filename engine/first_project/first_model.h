@@ -34,10 +34,14 @@ struct FirstModel {
 // A model that comes with the program; without a name the light aircraft. Error cannot_read where it is not there.
 [[nodiscard]] Result<FirstModel> sample_model(const std::filesystem::path& file, SceneFiles& files);
 
-// A model's files (OBJ, materials, textures) as copies in another folder, each at its place relative to the OBJ file.
-// Error bad_data where one of them lies outside of the OBJ file's folder, so that a copy could not name it.
-[[nodiscard]] Result<std::vector<FirstProjectFile>> copied_model(const std::filesystem::path& file,
-                                                                 const std::filesystem::path& folder);
+// A model's files (OBJ, materials, textures) as copies in another folder, each at its place relative to the others: the
+// OBJ file lies in the folder itself, or, where some of its files lie beside its own folder (../textures/wing.png), one
+// below it. Error bad_data where one lies farther away.
+struct CopiedModel {
+  std::filesystem::path obj;  // the copy
+  std::vector<FirstProjectFile> files;
+};
+[[nodiscard]] Result<CopiedModel> copied_model(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 // Copies a model into a folder of its own, FOLDER/NAME or FOLDER/NAME-2 and so on, where NAME/NAME.obj is not this very
 // model already. A model that lies in FOLDER or below it stays where it is. Returns the path of the OBJ file to be

@@ -303,12 +303,11 @@ class Planning {
       model.settings.file = relative_to(options_.model, project().file);
       return {};
     }
-    const fs::path folder = model.file.stem();
-    model.settings.file = (folder / model.file.filename()).generic_string();
-    const Result<std::vector<FirstProjectFile>> copies =
-        copied_model(model.file, project().file.parent_path() / folder);
-    if (!copies) return fail(copies.error());
-    first_.files.insert(first_.files.end(), copies->begin(), copies->end());
+    const fs::path folder = project().file.parent_path() / model.file.stem();
+    const Result<CopiedModel> copied = copied_model(model.file, folder);
+    if (!copied) return fail(copied.error());
+    model.settings.file = relative_to(copied->obj, project().file);
+    first_.files.insert(first_.files.end(), copied->files.begin(), copied->files.end());
     return {};
   }
 

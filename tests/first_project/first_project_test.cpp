@@ -15,6 +15,7 @@
 #include "first_project/first_model.h"
 #include "first_project/first_project.h"
 #include "made_project.h"
+#include "mesh/materials.h"
 #include "project/json.h"
 #include "scene/opened_project.h"
 #include "support/files.h"
@@ -324,7 +325,9 @@ TEST_CASE("a model is copied once, beside another of its name, and never overwri
   CHECK(test::text_of(*first) == "v 0 0 0\n");
 }
 
-TEST_CASE("a model keeps the folders of its textures in the copy; one that reaches out of its folder is not copied") {
+TEST_CASE(
+    "a model keeps the folders of its textures in the copy; one that reaches farther than beside its folder is not "
+    "copied") {
   const test::TemporaryFolder folder;
   const std::string triangle = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
   test::write_file_and_folders(folder / "in/jet.obj", triangle);
@@ -333,9 +336,33 @@ TEST_CASE("a model keeps the folders of its textures in the copy; one that reach
   test::write_file_and_folders(folder / "a.png", "x");
   REQUIRE(model_copied_into(folder / "out", folder / "in/jet.obj"));
   CHECK(fs::exists(folder / "out/jet/skin/a.png"));
-  test::write_file_and_folders(folder / "in/m.mtl", "newmtl a\nmap_Kd ../a.png\n");
-  const Result<fs::path> outside = model_copied_into(folder / "out2", folder / "in/jet.obj");
+  test::write_file_and_folders(folder / "in/m.mtl", "newmtl a\nmap_Kd ../a.png\nnewmtl b\nmap_Kd skin/a.png\n");
+  const Result<fs::path> beside = model_copied_into(folder / "out1", folder / "in/jet.obj");
+  REQUIRE(beside);
+  CHECK(*beside == folder / "out1/jet/in/jet.obj");
+  CHECK(fs::exists(folder / "out1/jet/a.png"));
+  CHECK(fs::exists(folder / "out1/jet/in/skin/a.png"));
+  test::write_file_and_folders(folder / "far/in/jet.obj", triangle);
+  test::write_file_and_folders(folder / "far/in/m.mtl", "newmtl a\nmap_Kd ../../a.png\n");
+  const Result<fs::path> outside = model_copied_into(folder / "out2", folder / "far/in/jet.obj");
   REQUIRE_FALSE(outside);
   CHECK(outside.error().text().find("a.png") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "out2"));
+}
+
+TEST_CASE("every sample model can be copied, with all of its files") {
+  const test::TemporaryFolder folder;
+  int count = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(test::source_dir() / "assets/models")) {
+    const fs::path obj = entry.path() / (entry.path().filename().string() + ".obj");
+    if (!fs::exists(obj)) continue;
+    const Result<fs::path> copied = model_copied_into(folder.path(), obj);
+    REQUIRE_MESSAGE(copied, copied.error().text());
+    const Result<std::vector<fs::path>> original = files_of_model(obj), copies = files_of_model(*copied);
+    REQUIRE(copies);
+    CHECK(copies->size() == original->size());
+    for (const fs::path& file : *copies) CHECK_MESSAGE(fs::exists(file), file);
+    ++count;
+  }
+  CHECK(count >= 10);
 }
