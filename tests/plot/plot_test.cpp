@@ -52,7 +52,11 @@ std::vector<std::vector<cv::Point2d>> lines_of(const pugi::xml_document& svg, co
 constexpr const char* kFirst = "#0072b2";
 
 // The axes' frame: its corners.
-std::pair<cv::Point2d, cv::Point2d> frame_of(const pugi::xml_document& svg) {
+struct Corners {
+  cv::Point2d low, high;
+};
+
+Corners frame_of(const pugi::xml_document& svg) {
   const auto frame = lines_of(svg, "#404040").at(0);
   return {frame.at(0), frame.at(2)};
 }
@@ -62,7 +66,8 @@ std::pair<cv::Point2d, cv::Point2d> frame_of(const pugi::xml_document& svg) {
 TEST_CASE("points lie where the ranges put them, in the SVG and in the image alike") {
   const Plot plot = two_series();
   const pugi::xml_document svg = parsed(svg_of(plot));
-  const auto [low, high] = frame_of(svg);
+  const Corners frame = frame_of(svg);
+  const cv::Point2d low = frame.low, high = frame.high;
   const auto lines = lines_of(svg, kFirst);
   REQUIRE(lines.size() == 2);  // the line, and its sample in the key
   REQUIRE(lines[0].size() == 3);
@@ -106,7 +111,8 @@ TEST_CASE("lines are cut at the frame, and what lies outside is not drawn") {
   plot.series = {{.title = "out", .runs = {{{-100, 5}, {200, 5}}, {{10, 50}, {20, 50}}, {{50, -10}, {50, 20}}}},
                  {.title = "far", .runs = {{{500, 5}, {50, 1e9}}}, .is_scatter = true}};
   const pugi::xml_document svg = parsed(svg_of(plot));
-  const auto [low, high] = frame_of(svg);
+  const Corners frame = frame_of(svg);
+  const cv::Point2d low = frame.low, high = frame.high;
   const auto lines = lines_of(svg, kFirst);
   REQUIRE(lines.size() == 3);  // two pieces and the key's
   for (std::size_t i = 0; i < 2; ++i)
