@@ -23,6 +23,7 @@ namespace sigs {
 namespace {
 
 constexpr int kViews = 8;
+constexpr int kPlaces = 3;  // that similar_place() chooses from; the views stand at them by turns
 constexpr int kTries = 2;   // for each view: the one whose silhouette's area is most like the target's
 constexpr int kRounds = 3;  // in the last one the exposure hardly changes
 constexpr double kLowestExposure = 0.02, kHighestExposure = 50;
@@ -63,6 +64,7 @@ std::optional<LogLight> log_light(const Frame& any_frame, const Box& box) {
   return log;
 }
 
+// A point light becomes a sun; one without a direction gets the default, unless a log may tell it by time and place.
 void use_sun(Project& project) {
   LightSettings& light = project.light;
   if (light.kind != LightKind::sun) light.exposure = 1;
@@ -151,7 +153,7 @@ Result<LitLike> lit_like(const Project& project, const FootageShape& shape, cons
                 ErrorKind::bad_data);
   const cv::Size wanted(real->look.box.width + 8, std::max(real->look.box.height, real->look.box.width / 2) + 8);
   std::vector<cv::Point2d> places_px;
-  for (std::uint32_t seed = 1; seed <= kViews; ++seed)
+  for (std::uint32_t seed = 1; seed <= kPlaces; ++seed)
     if (const auto place_px = similar_place(stretch.frames.front(), box, wanted, seed)) places_px.push_back(*place_px);
   if (places_px.empty())
     return fail(where, "has no other place of the box's size to compare with", ErrorKind::bad_data);
@@ -159,7 +161,7 @@ Result<LitLike> lit_like(const Project& project, const FootageShape& shape, cons
   use_sun(lit);
   Views views(lit, shape, stretch, control);
   if (const Result<void> chosen = views.choose(*real, places_px); !chosen) return fail(chosen.error());
-  LitLike found{.exposure = {.value = lit.light.exposure, .is_known = true}};
+  LitLike found{.sun = lit.light.sun, .exposure = {.value = lit.light.exposure, .is_known = true}};
   for (int round = 0; round < kRounds; ++round) {
     const Result<std::vector<LogLight>> drawn = views.under(found.exposure.value);
     if (!drawn) return fail(drawn.error());
@@ -185,7 +187,8 @@ Result<LitLike> lit_like(const Project& project, int frame_number, const Box& bo
 }
 
 void apply(const LitLike& lit, Project& project) {
-  use_sun(project);
+  project.light.kind = LightKind::sun;
+  project.light.sun = lit.sun;
   project.light.exposure = std::round(lit.exposure.value * 1000) / 1000;
 }
 
@@ -194,7 +197,7 @@ std::vector<AppearanceQuantity> quantities_of(const LitLike& lit) {
 }
 
 std::vector<std::string> applied_settings(const LitLike&) {
-  return {"light.kind", "light.exposure"};
+  return {"light.kind", "light.sun.azimuth_deg", "light.sun.elevation_deg", "light.exposure"};
 }
 
 }  // namespace sigs

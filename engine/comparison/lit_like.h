@@ -17,6 +17,7 @@ namespace sigs {
 
 // How strong the light has to be so that a project's intruder is as bright as something real in its footage.
 struct LitLike {
+  SunSettings sun;    // under which it was found: the project's; of a point light SunEstimate's default
   Estimate exposure;  // LightSettings::exposure; always known
 };
 
@@ -45,8 +46,7 @@ struct LitLikeControl {
 [[nodiscard]] Result<LitLike> lit_like(const Project& project, int frame_number, const Box& box,
                                        const LitLikeControl& control = {});
 
-// Sets the exposure, and light.kind to the sun. A sun without a direction gets that of SunEstimate's default, unless
-// the project has a log, which may tell it by time and place.
+// Sets light.kind to the sun, its direction to that of `lit`, and the exposure, rounded to three decimals.
 void apply(const LitLike& lit, Project& project);
 
 // What was found, in the words of the list of an appearance; and the settings that apply() writes.

@@ -96,6 +96,23 @@ TEST_CASE("a known exposure is found by an aircraft under it, in views that were
   CHECK(covered >= cases - 1);
 }
 
+TEST_CASE("a project with a point light gets the sun under which the exposure was found") {
+  PlainSky sky("airliner");
+  const auto real = sky.under(165, 25, 0.6, 77);
+  if (!real && real.error().kind == ErrorKind::unavailable) return say_skipped(real.error().text());
+  REQUIRE(real);
+  Project asked = sky.project;
+  asked.light.kind = LightKind::point;
+  asked.light.sun = {};
+  const auto lit = lit_like(asked, sky.shape, real->frames[0], 0, real->boxes[0]);
+  REQUIRE_MESSAGE(lit, lit.error().text());
+  apply(*lit, asked);
+  CHECK(asked.light.kind == LightKind::sun);
+  CHECK(asked.light.sun == lit->sun);
+  CHECK(asked.light.sun.azimuth_deg.has_value());
+  CHECK(asked.light.exposure < 0.9);  // from 1 to about 0.6
+}
+
 TEST_CASE("what cannot be lit like is an error that says why") {
   PlainSky sky("airliner");
   const auto& frame = sky.stretch.frames.front();

@@ -29,9 +29,8 @@ void LightSession::start(const Document& document, const LightLike& wanted) {
 
 void LightSession::use(const Document&, const std::shared_ptr<const LitLike>& found) {
   edits().change("light like this", [found](Project& project) { apply(*found, project); });
-  edits().ask(ShowMessage{
-      fmt::format("As bright as what is in the box: exposure {:.2f} \u00b1 {:.2f}. The sun's direction stays.",
-                  found->exposure.value, found->exposure.sd)});
+  edits().ask(ShowMessage{fmt::format("As bright as what is in the box: exposure {:.2f} \u00b1 {:.2f}.",
+                                      found->exposure.value, found->exposure.sd)});
 }
 
 AppearanceSession::AppearanceSession(Edits& edits, std::function<void()> wake, Work work)
