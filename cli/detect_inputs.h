@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/result.h"
-#include "evaluation/results.h"
-#include "evaluation/truth_files.h"
+#include "evaluation/readers/results.h"
+#include "evaluation/readers/truth_files.h"
 
 namespace sigs::cli {
 

@@ -9,7 +9,7 @@
 #include "cli/evaluation_folder.h"
 #include "cli/options.h"
 #include "cli/process.h"
-#include "evaluation/report.h"
+#include "evaluation/reports/report.h"
 
 namespace sigs::cli {
 

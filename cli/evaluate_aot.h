@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "evaluation/aot_rules.h"
+#include "evaluation/metrics/aot_rules.h"
 
 namespace sigs::cli {
 

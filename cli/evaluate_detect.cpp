@@ -14,8 +14,8 @@
 #include "cli/evaluation_folder.h"
 #include "cli/options.h"
 #include "cli/process.h"
-#include "evaluation/detection_score.h"
-#include "evaluation/report.h"
+#include "evaluation/metrics/detection_score.h"
+#include "evaluation/reports/report.h"
 
 namespace sigs::cli {
 

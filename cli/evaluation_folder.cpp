@@ -13,7 +13,7 @@
 #include "base/paths.h"
 #include "cli/options.h"
 #include "evaluation/opencv_tracker.h"
-#include "evaluation/report.h"
+#include "evaluation/reports/report.h"
 
 namespace sigs::cli {
 

@@ -9,7 +9,7 @@
 #include "base/result.h"
 #include "base/staged_outputs.h"
 #include "cli/output_files.h"
-#include "evaluation/results.h"
+#include "evaluation/readers/results.h"
 
 namespace sigs::cli {
 

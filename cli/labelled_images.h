@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "evaluation/clip_truth.h"
+#include "evaluation/readers/clip_truth.h"
 #include "video/frame_source.h"
 
 namespace sigs::cli {

@@ -17,9 +17,9 @@
 #include "base/text.h"
 #include "cli/process.h"
 #include "cli/progress.h"
-#include "evaluation/clip_truth.h"
+#include "evaluation/readers/clip_truth.h"
 #include "evaluation/opencv_tracker.h"
-#include "evaluation/sequence_truth.h"
+#include "evaluation/readers/sequence_truth.h"
 #include "export/frame_stream.h"
 
 namespace sigs::cli {

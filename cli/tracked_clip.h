@@ -11,8 +11,8 @@
 #include "cli/labelled_images.h"
 #include "cli/options.h"
 #include "evaluation/opencv_tracker.h"
-#include "evaluation/results.h"
-#include "evaluation/track_score.h"
+#include "evaluation/readers/results.h"
+#include "evaluation/metrics/track_score.h"
 
 namespace sigs::cli {
 

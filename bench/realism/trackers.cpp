@@ -14,7 +14,7 @@
 #include "base/statistics.h"
 #include "base/threads.h"
 #include "evaluation/opencv_tracker.h"
-#include "evaluation/overlap.h"
+#include "evaluation/metrics/overlap.h"
 #include "realism/tracker_targets.h"
 
 namespace sigs::bench {

@@ -9,7 +9,7 @@
 #include "base/threads.h"
 #include "editor/preview/surveys.h"
 #include "editor/preview/worker_thread.h"
-#include "evaluation/track_score.h"
+#include "evaluation/metrics/track_score.h"
 
 namespace sigs::editor {
 

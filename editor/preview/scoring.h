@@ -14,8 +14,8 @@
 #include "editor/preview/preview_output.h"
 #include "editor/preview/truth_builder.h"
 #include "editor/preview/worker_thread.h"
-#include "evaluation/results.h"
-#include "evaluation/track_score.h"
+#include "evaluation/readers/results.h"
+#include "evaluation/metrics/track_score.h"
 
 namespace sigs::editor {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "editor/preview/preview_output.h"
-#include "evaluation/clip_truth.h"
+#include "evaluation/readers/clip_truth.h"
 
 namespace sigs::editor {
 

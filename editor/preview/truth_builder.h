@@ -13,7 +13,7 @@
 #include "editor/document/content_id.h"
 #include "editor/preview/preview_output.h"
 #include "editor/preview/worker_thread.h"
-#include "evaluation/clip_truth.h"
+#include "evaluation/readers/clip_truth.h"
 #include "export/frame_stream.h"
 
 namespace sigs::editor {

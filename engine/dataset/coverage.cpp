@@ -16,7 +16,7 @@
 #include "base/xml_text.h"
 #include "dataset/footage_cache.h"
 #include "dataset/video_name.h"
-#include "evaluation/text_parsing.h"
+#include "evaluation/readers/text_parsing.h"
 #include "project/json_reading.h"
 #include "scene/scene_at.h"
 #include "scene/visibility.h"

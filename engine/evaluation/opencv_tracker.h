@@ -11,7 +11,7 @@
 
 #include "base/image.h"
 #include "base/result.h"
-#include "evaluation/results.h"
+#include "evaluation/readers/results.h"
 
 namespace sigs {
 

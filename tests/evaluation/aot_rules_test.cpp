@@ -11,7 +11,7 @@
 #include "base/csv.h"
 #include "base/input_file.h"
 #include "base/text.h"
-#include "evaluation/aot_rules.h"
+#include "evaluation/metrics/aot_rules.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

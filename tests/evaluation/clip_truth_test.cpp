@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/clip_truth.h"
+#include "evaluation/readers/clip_truth.h"
 
 #include <doctest/doctest.h>
 

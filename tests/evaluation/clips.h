@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "evaluation/clip_truth.h"
-#include "evaluation/results.h"
+#include "evaluation/readers/clip_truth.h"
+#include "evaluation/readers/results.h"
 
 namespace sigs::test {
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/detection_score.h"
+#include "evaluation/metrics/detection_score.h"
 
 #include <doctest/doctest.h>
 
-#include "evaluation/report.h"
+#include "evaluation/reports/report.h"
 
 #include <cmath>
 
-#include "evaluation/airborne_metrics.h"
 #include "evaluation/clips.h"
 
 namespace sigs::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/detection_slices.h"
+#include "evaluation/metrics/slices.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 
 #include "evaluation/clips.h"
-#include "evaluation/report.h"
+#include "evaluation/reports/report.h"
 
 namespace sigs::test {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "base/text.h"
-#include "evaluation/report_files.h"
-#include "evaluation/results.h"
+#include "evaluation/reports/report_files.h"
+#include "evaluation/readers/results.h"
 #include "evaluation/synthetic_report.h"
 #include "labels/label_text.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/report.h"
+#include "evaluation/reports/report.h"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include "base/staged_outputs.h"
 #include "evaluation/clips.h"
-#include "evaluation/results.h"
+#include "evaluation/readers/results.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/sequence_truth.h"
+#include "evaluation/readers/sequence_truth.h"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "evaluation/results.h"
-#include "evaluation/track_score.h"
+#include "evaluation/readers/results.h"
+#include "evaluation/metrics/track_score.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "evaluation/clips.h"
-#include "evaluation/track_score.h"
+#include "evaluation/metrics/track_score.h"
 
 namespace sigs::test {
 

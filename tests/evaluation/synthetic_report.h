@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/report.h"
+#include "evaluation/reports/report.h"
 
 namespace sigs::test {
 

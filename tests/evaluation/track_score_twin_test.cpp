@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "evaluation/clips.h"
-#include "evaluation/overlap.h"
-#include "evaluation/track_score.h"
+#include "evaluation/metrics/overlap.h"
+#include "evaluation/metrics/track_score.h"
 
 namespace sigs::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/track_set.h"
+#include "evaluation/metrics/track_set.h"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation/clips.h"
-#include "evaluation/report.h"
-#include "evaluation/report_files.h"
+#include "evaluation/reports/report.h"
+#include "evaluation/reports/report_files.h"
 
 namespace sigs::test {
 namespace {

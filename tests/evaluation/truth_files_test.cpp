@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/truth_files.h"
+#include "evaluation/readers/truth_files.h"
 
 #include <doctest/doctest.h>
 
@@ -9,8 +9,8 @@
 
 #include "base/input_file.h"
 #include "evaluation/clips.h"
-#include "evaluation/detection_score.h"
-#include "evaluation/detection_slices.h"
+#include "evaluation/metrics/detection_score.h"
+#include "evaluation/metrics/slices.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

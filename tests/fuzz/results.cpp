@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/results.h"
+#include "evaluation/readers/results.h"
 
 #include <array>
 #include <cmath>

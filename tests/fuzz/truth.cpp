@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "base/ensure.h"
-#include "evaluation/aot_files.h"
-#include "evaluation/clip_truth.h"
-#include "evaluation/sequence_truth.h"
-#include "evaluation/truth_files.h"
+#include "evaluation/readers/aot_files.h"
+#include "evaluation/readers/clip_truth.h"
+#include "evaluation/readers/sequence_truth.h"
+#include "evaluation/readers/truth_files.h"
 #include "fuzz/fuzz_input.h"
 
 namespace sigs::fuzz {

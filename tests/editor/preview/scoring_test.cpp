@@ -13,7 +13,7 @@
 #include "cli/tiny_project.h"
 #include "comes_true.h"
 #include "editor/preview/surveys.h"
-#include "evaluation/track_score.h"
+#include "evaluation/metrics/track_score.h"
 #include "export/export_project.h"
 #include "preview_client.h"
 #include "project/json.h"
