@@ -72,12 +72,6 @@ double attribute_of(pugi::xml_node node, const char* name) {
   return number.value_or(std::nan(""));
 }
 
-HorizonSide horizon_called(std::string_view name) {
-  for (const HorizonSide side : {HorizonSide::below, HorizonSide::on, HorizonSide::above})
-    if (name == name_of(side)) return side;
-  return HorizonSide::unknown;
-}
-
 // The sight that an element `intruder` tells of. Error without a place: a number is missing.
 Result<Sight> sight_of(pugi::xml_node intruder, cv::Size image_px,
                        const std::map<std::string, std::string>& categories) {
@@ -87,7 +81,7 @@ Result<Sight> sight_of(pugi::xml_node intruder, cv::Size image_px,
               .range_m = attribute_of(intruder.child("distance"), "m"),
               .size_px = std::max(attribute_of(silhouette, "width"), attribute_of(silhouette, "height")),
               .bearing_deg = bearing_deg_of({attribute_of(position, "x_m"), attribute_of(position, "y_m"), 0}),
-              .horizon = horizon_called(intruder.attribute("horizon").value()),
+              .horizon = horizon_side_named(intruder.attribute("horizon").value()).value_or(HorizonSide::unknown),
               .cell = cell_of(attribute_of(silhouette, "x") + attribute_of(silhouette, "width") / 2,
                               attribute_of(silhouette, "y") + attribute_of(silhouette, "height") / 2, image_px)};
   const auto category = categories.find(intruder.attribute("id").value());

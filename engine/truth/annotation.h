@@ -32,6 +32,13 @@ enum class HorizonSide { below, on, above, unknown };
   return "unknown";
 }
 
+// The side of that name; none: there is none.
+[[nodiscard]] constexpr std::optional<HorizonSide> horizon_side_named(std::string_view name) {
+  for (const HorizonSide side : {HorizonSide::below, HorizonSide::on, HorizonSide::above, HorizonSide::unknown})
+    if (name == name_of(side)) return side;
+  return std::nullopt;
+}
+
 // How well an intruder stands out in one frame (truth/detectability.h).
 struct Detectability {
   double weber_contrast = 0;   // (L - B) / B: mean luminance of its visible pixels and of the footage there and around

@@ -31,9 +31,8 @@ AotFlight flight_of(JsonFields& fields, const std::string& name, const nlohmann:
   const nlohmann::json* const metadata = JsonFields::field(sample, "metadata");
   if (metadata == nullptr) return flight;
   fields.enter(fmt::format("samples.{}.metadata", name));
-  if (JsonFields::field(*metadata, "fps") != nullptr) flight.rate_hz = fields.number(*metadata, "fps");
-  if (JsonFields::field(*metadata, "number_of_frames") != nullptr)
-    flight.frames = fields.whole(*metadata, "number_of_frames");
+  flight.rate_hz = fields.optional_number(*metadata, "fps").value_or(0);
+  flight.frames = fields.optional_whole(*metadata, "number_of_frames").value_or(0);
   if (const nlohmann::json* const size = JsonFields::field(*metadata, "resolution"))
     flight.size_px = {fields.whole(*size, "width"), fields.whole(*size, "height")};
   return flight;
@@ -49,12 +48,10 @@ AotObject object_of(JsonFields& fields, const nlohmann::json& entity, int flight
   object.frame = fields.whole(*blob, "frame");
   if (JsonFields::field(entity, "id") == nullptr) return object;
   object.id = fields.text(entity, "id");
-  if (JsonFields::field(*blob, "range_distance_m") != nullptr)
-    object.range_m = fields.number(*blob, "range_distance_m");
+  object.range_m = fields.optional_number(*blob, "range_distance_m");
   object.box = box_of_corner(fields, entity);
-  const nlohmann::json* const labels = JsonFields::field(entity, "labels");
-  if (labels != nullptr && JsonFields::field(*labels, "is_above_horizon") != nullptr)
-    object.above_horizon = fields.number(*labels, "is_above_horizon");
+  if (const nlohmann::json* const labels = JsonFields::field(entity, "labels"))
+    object.above_horizon = fields.optional_number(*labels, "is_above_horizon").value_or(0);
   return object;
 }
 

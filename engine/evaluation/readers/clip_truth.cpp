@@ -93,7 +93,7 @@ class AttributeReader {
   void wrong(pugi::xml_node node, const std::string& what) {
     if (error_) return;
     const int line = line_at(text_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0)));
-    error_ = Error{fmt::format("{}: line {}", path_.string(), line), what};
+    error_ = Error{place_of(path_, line), what};
   }
 
   std::string_view text(pugi::xml_node node, const char* name) {
@@ -104,9 +104,8 @@ class AttributeReader {
 
   double number(pugi::xml_node node, const char* name) {
     const std::string_view value = text(node, name);
-    const std::optional<double> number = parsed_number(trimmed(value));
-    if (!number || !std::isfinite(*number))
-      wrong(node, fmt::format("{} {}: {} is no number", node.name(), name, in_quotes(value)));
+    const std::optional<double> number = finite_number(trimmed(value));
+    if (!number) wrong(node, fmt::format("{} {}: {} is no number", node.name(), name, in_quotes(value)));
     return number.value_or(0);
   }
 
@@ -132,10 +131,10 @@ constexpr double kMaxSilhouette_px = 1e100;  // of a silhouette; keeps areas fin
 HorizonSide parsed_horizon(AttributeReader& reader, pugi::xml_node intruder) {
   if (!intruder.attribute("horizon")) return HorizonSide::unknown;  // files written before SIGS had the attribute
   const std::string_view name = reader.text(intruder, "horizon");
-  for (const HorizonSide side : {HorizonSide::below, HorizonSide::on, HorizonSide::above, HorizonSide::unknown})
-    if (name == name_of(side)) return side;
-  reader.wrong(intruder, fmt::format("intruder horizon: {} is not above, on or below, nor unknown", in_quotes(name)));
-  return HorizonSide::unknown;
+  const std::optional<HorizonSide> side = horizon_side_named(name);
+  if (!side)
+    reader.wrong(intruder, fmt::format("intruder horizon: {} is not above, on or below, nor unknown", in_quotes(name)));
+  return side.value_or(HorizonSide::unknown);
 }
 
 std::optional<Box> visible_of(AttributeReader& reader, pugi::xml_node box) {
@@ -243,7 +242,7 @@ Result<ClipTruth> read_truth(const std::filesystem::path& path) {
   // The parser works on a copy, so that the text keeps its lines.
   const pugi::xml_parse_result parsed = document.load_buffer(text->data(), text->size());
   if (!parsed)
-    return fail(fmt::format("{}: line {}", path.string(), line_at(*text, static_cast<std::size_t>(parsed.offset))),
+    return fail(place_of(path, line_at(*text, static_cast<std::size_t>(parsed.offset))),
                 std::string("is not XML from here on: ") + parsed.description());
   const pugi::xml_node root = document.child("sigs");
   if (!root || std::string_view(root.attribute("version").value()) != "1")

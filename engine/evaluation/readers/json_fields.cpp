@@ -50,6 +50,14 @@ int JsonFields::whole(const nlohmann::json& object, const char* key) {
   return is_wrong() ? 0 : static_cast<int>(value);
 }
 
+std::optional<double> JsonFields::optional_number(const nlohmann::json& object, const char* key) {
+  return field(object, key) != nullptr ? std::optional(number(object, key)) : std::nullopt;
+}
+
+std::optional<int> JsonFields::optional_whole(const nlohmann::json& object, const char* key) {
+  return field(object, key) != nullptr ? std::optional(whole(object, key)) : std::nullopt;
+}
+
 std::array<double, 4> JsonFields::four_numbers(const nlohmann::json& object, const char* key) {
   const nlohmann::json* const list = field(object, key);
   std::array<double, 4> numbers{};

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "base/result.h"
@@ -31,6 +32,10 @@ class JsonFields {
   [[nodiscard]] double number(const nlohmann::json& object, const char* key);
   [[nodiscard]] int whole(const nlohmann::json& object, const char* key);
   [[nodiscard]] std::array<double, 4> four_numbers(const nlohmann::json& object, const char* key);
+
+  // The same of values that need not be there.
+  [[nodiscard]] std::optional<double> optional_number(const nlohmann::json& object, const char* key);
+  [[nodiscard]] std::optional<int> optional_whole(const nlohmann::json& object, const char* key);
 
   // Keeps "PLACE.KEY WHAT" as the error where there is none yet.
   void wrong(const char* key, const std::string& what);

@@ -140,7 +140,7 @@ Result<void> wrong_number(const ResultsFile& file, int line, const char* name, d
 }  // namespace
 
 tl::unexpected<Error> ResultsFile::wrong(int line, const std::string& what) const {
-  return fail(fmt::format("{}: line {}", path.string(), line), what);
+  return fail(place_of(path, line), what);
 }
 
 std::string frames_text(const FootageTruth& clip) {

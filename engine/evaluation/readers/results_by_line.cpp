@@ -80,15 +80,9 @@ Result<void> add_vot_line(const ResultsFile& file, const TextLine& line, const s
   if (count < 6 || count % 2 != 0)
     return file.wrong(line.number,
                       fmt::format("expected 4 numbers (rectangle), 8 (polygon) or one (0, 1, 2), found {}", count));
-  double low[2] = {numbers[0], numbers[1]};
-  double high[2] = {numbers[0], numbers[1]};
-  for (std::size_t i = 0; i < count; ++i) {
-    if (std::isnan(numbers[i])) low[i % 2] = high[i % 2] = numbers[i];  // kept, so that the builder refuses it
-    low[i % 2] = std::min(low[i % 2], numbers[i]);
-    high[i % 2] = std::max(high[i % 2], numbers[i]);
-  }
-  return builder.add(frame, {.box = {low[0] - kEdgeFrom0, low[1] - kEdgeFrom0, high[0] - low[0], high[1] - low[1]},
-                             .line = line.number});
+  const Box box = box_around(numbers);  // of NaN where a corner is, which the builder refuses
+  return builder.add(frame,
+                     {.box = {box.x - kEdgeFrom0, box.y - kEdgeFrom0, box.width, box.height}, .line = line.number});
 }
 
 Result<void> add_otb_line(const ResultsFile& file, const TextLine& line, const std::vector<double>& numbers, int frame,

@@ -55,21 +55,6 @@ Result<std::vector<double>> numbers_of(std::string_view line) {
   return numbers;
 }
 
-// The box around corners x1, y1, x2, y2, ...
-Box around(const std::vector<double>& corners) {
-  double left = corners[0];
-  double top = corners[1];
-  double right = left;
-  double bottom = top;
-  for (std::size_t i = 0; i + 1 < corners.size(); i += 2) {
-    left = std::min(left, corners[i]);
-    right = std::max(right, corners[i]);
-    top = std::min(top, corners[i + 1]);
-    bottom = std::max(bottom, corners[i + 1]);
-  }
-  return {left, top, right - left, bottom - top};
-}
-
 // nullopt: the target is absent.
 Result<std::optional<Box>> box_of_text(std::string_view line, bool is_vot) {
   const Result<std::vector<double>> numbers = numbers_of(line);
@@ -84,7 +69,7 @@ Result<std::optional<Box>> box_of_text(std::string_view line, bool is_vot) {
     if (!(std::abs(number) <= kMaxSequence_px)) return fail("", "has a number that is NaN or beyond a billion pixels");
   const double edge = is_vot ? kEdgeFrom0 : kEdgeFrom1;
   if (is_polygon) {
-    const Box bounds = around(*numbers);
+    const Box bounds = box_around(*numbers);
     return std::optional<Box>({bounds.x - edge, bounds.y - edge, bounds.width, bounds.height});
   }
   const std::vector<double>& n = *numbers;
@@ -100,7 +85,7 @@ Result<TargetTruth> read_target(const fs::path& path, bool is_vot) {
   TextLines lines(*text);
   while (const std::optional<TextLine> line = lines.next()) {
     const Result<std::optional<Box>> box = box_of_text(line->text, is_vot);
-    if (!box) return fail(fmt::format("{}: line {}", path.string(), line->number), box.error().what);
+    if (!box) return fail(place_of(path, line->number), box.error().what);
     target.frames.push_back({.visible = *box, .visible_fraction = *box ? 1.0 : 0.0, .distance_m = kUnknown});
   }
   if (target.frames.empty()) return fail(path.string(), "has no line");
@@ -116,8 +101,7 @@ Result<std::vector<double>> read_values(const fs::path& path, std::size_t count)
   TextLines lines(*text);
   while (const std::optional<TextLine> line = lines.next()) {
     const std::optional<double> value = parsed_number(line->text);
-    if (!value)
-      return fail(fmt::format("{}: line {}", path.string(), line->number), in_quotes(line->text) + " is no number");
+    if (!value) return fail(place_of(path, line->number), in_quotes(line->text) + " is no number");
     values.push_back(*value);
   }
   if (values.size() != count)
@@ -144,18 +128,13 @@ Result<void> add_properties(const fs::path& path, ClipTruth& truth) {
   if (!text) return fail(text.error());
   TextLines lines(*text);
   while (const std::optional<TextLine> line = lines.next()) {
-    const std::size_t equals = line->text.find('=');
-    if (equals == std::string_view::npos) continue;
-    const std::string_view key = trimmed(line->text.substr(0, equals));
-    const std::string_view value = trimmed(line->text.substr(equals + 1));
-    if (key == "fps") {
-      const std::optional<double> rate = parsed_number(value);
-      if (!rate || !(*rate > 0 && *rate <= 1e6))
-        return fail(fmt::format("{}: line {}", path.string(), line->number), "fps is no rate");
-      truth.footage.frame_rate_num = std::max(1, static_cast<int>(std::lround(*rate * 1000)));
-      truth.footage.frame_rate_den = 1000;
-      truth.has_times = true;
-    }
+    const std::optional<KeyAndValue> entry = key_and_value(line->text);
+    if (!entry || entry->key != "fps") continue;
+    const std::optional<double> rate = parsed_number(entry->value);
+    if (!rate || !(*rate > 0 && *rate <= 1e6)) return fail(place_of(path, line->number), "fps is no rate");
+    truth.footage.frame_rate_num = std::max(1, static_cast<int>(std::lround(*rate * 1000)));
+    truth.footage.frame_rate_den = 1000;
+    truth.has_times = true;
   }
   return {};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/readers/text_parsing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,18 +12,14 @@
 
 namespace sigs {
 
-TextLines::TextLines(std::string_view text) : rest_(text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+TextLines::TextLines(std::string_view text) : rest_(without_bom(text)) {
   const std::size_t last = rest_.find_last_not_of(" \t\r\n");
   rest_ = rest_.substr(0, last == std::string_view::npos ? 0 : last + 1);
 }
 
 std::optional<TextLine> TextLines::next() {
   while (!rest_.empty()) {
-    const std::size_t end = rest_.find('\n');
-    const std::string_view line = trimmed(rest_.substr(0, end));
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    const std::string_view line = trimmed(next_line(rest_));
     ++number_;
     if (!line.starts_with('#')) return TextLine{number_, line};
   }
@@ -63,6 +61,27 @@ std::string in_quotes(std::string_view text) {
   std::ranges::replace_if(
       shown, [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F; }, '?');
   return "'" + shown + "'";
+}
+
+std::optional<KeyAndValue> key_and_value(std::string_view line) {
+  const std::size_t equals = line.find('=');
+  if (equals == std::string_view::npos) return std::nullopt;
+  return KeyAndValue{trimmed(line.substr(0, equals)), trimmed(line.substr(equals + 1))};
+}
+
+Box box_around(std::span<const double> corners) {
+  double low[2] = {corners[0], corners[1]};
+  double high[2] = {corners[0], corners[1]};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (std::isnan(corners[i])) low[i % 2] = high[i % 2] = corners[i];
+    low[i % 2] = std::min(low[i % 2], corners[i]);
+    high[i % 2] = std::max(high[i % 2], corners[i]);
+  }
+  return {low[0], low[1], high[0] - low[0], high[1] - low[1]};
+}
+
+std::string place_of(const std::filesystem::path& path, int line) {
+  return fmt::format("{}: line {}", path.string(), line);
 }
 
 int line_at(std::string_view text, std::size_t offset) {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/image.h"
 
 namespace sigs {
 
@@ -40,6 +44,19 @@ class TextLines {
 // For error messages: a part of a file in single quotes, at most 32 bytes of it, with '?' for control characters, so
 // that a message stays on one line.
 [[nodiscard]] std::string in_quotes(std::string_view text);
+
+// "fps = 25", as initialisation files have it, without white space around key and value; nullopt: there is no "=".
+struct KeyAndValue {
+  std::string_view key;
+  std::string_view value;
+};
+[[nodiscard]] std::optional<KeyAndValue> key_and_value(std::string_view line);
+
+// The box around the corners x1, y1, x2, y2, ... of a polygon. NaN where a corner is.
+[[nodiscard]] Box box_around(std::span<const double> corners);
+
+// "truth.xml: line 12"
+[[nodiscard]] std::string place_of(const std::filesystem::path& path, int line);
 
 // The line, counted from 1, that contains the byte at offset.
 [[nodiscard]] int line_at(std::string_view text, std::size_t offset);

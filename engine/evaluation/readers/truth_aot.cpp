@@ -47,15 +47,14 @@ Result<FootageTruth> footage_of_flight(const AotFlight& flight, std::span<const 
 }
 
 Result<TruthClip> clip_of_flight(const AotFlight& flight, std::span<const AotObject> objects,
-                                 const std::map<std::string, int>& number_of, const TruthOptions& options,
-                                 std::set<std::string>& categories) {
+                                 const std::map<std::string, int>& number_of, const TruthOptions& options) {
   const Result<FootageTruth> footage = footage_of_flight(flight, objects);
   if (!footage) return fail(footage.error());
   if (flight.rate_hz < 0) return fail("", "metadata.fps is below 0");
   TruthBuilder builder(*footage, flight.rate_hz, {}, options);
-  TruthClip clip{.name = flight.name};
+  FramesOfImages images;
   for (const AotObject& object : objects) {
-    const auto [there, is_new] = clip.images.by_name.emplace(object.image, object.frame);
+    const auto [there, is_new] = images.by_name.emplace(object.image, object.frame);
     if (there->second != object.frame)
       return fail("", fmt::format("image {} is both frame {} and frame {}", object.image, there->second, object.frame));
     if (object.id.empty()) continue;
@@ -71,18 +70,13 @@ Result<TruthClip> clip_of_flight(const AotFlight& flight, std::span<const AotObj
                      .horizon = side_of(object)});
     if (!added) return fail(object.id, added.error().what);
   }
-  add_short_names(clip.images);
-  Result<ClipTruth> truth = builder.clip();
-  if (!truth) return fail(truth.error());
-  clip.truth = std::move(*truth);
-  categories.insert(builder.categories().begin(), builder.categories().end());
-  return clip;
+  add_short_names(images);
+  return builder.clip(flight.name, std::move(images));
 }
 
 }  // namespace
 
-Result<std::vector<TruthClip>> read_aot_clips(const std::filesystem::path& path, const TruthOptions& options,
-                                              std::set<std::string>& categories) {
+Result<std::vector<TruthClip>> read_aot_clips(const std::filesystem::path& path, const TruthOptions& options) {
   const Result<AotTruth> aot = read_aot_truth(path);
   if (!aot) return fail(aot.error());
   std::vector<TruthClip> clips;
@@ -95,8 +89,8 @@ Result<std::vector<TruthClip>> read_aot_clips(const std::filesystem::path& path,
     number_of.erase("");
     int next = 0;
     for (auto& [id, number] : number_of) number = next++;
-    Result<TruthClip> clip = clip_of_flight(aot->flights[flight], std::span(aot->objects).subspan(begin, at - begin),
-                                            number_of, options, categories);
+    Result<TruthClip> clip =
+        clip_of_flight(aot->flights[flight], std::span(aot->objects).subspan(begin, at - begin), number_of, options);
     if (!clip) {
       const Error& error = clip.error();
       return fail(fmt::format("{}: samples.{}{}", path.string(), aot->flights[flight].name,

@@ -80,7 +80,7 @@ void TruthBuilder::number_boxes() {
     if (!box.is_ignored) box.id = boxes_in[box.frame]++;
 }
 
-Result<ClipTruth> TruthBuilder::clip() {
+Result<TruthClip> TruthBuilder::clip(std::string name, FramesOfImages images) {
   if (!clip_.has_ids) number_boxes();
   std::map<int, const TrueBox*> first_of;
   bool has_ignored = false;
@@ -114,7 +114,10 @@ Result<ClipTruth> TruthBuilder::clip() {
                                                       .horizon = box.horizon,
                                                       .rms_contrast = box.rms_contrast};
   }
-  return std::move(clip_);
+  return TruthClip{.name = std::move(name),
+                   .truth = std::move(clip_),
+                   .images = std::move(images),
+                   .categories = std::move(categories_)};
 }
 
 void add_short_names(FramesOfImages& images) {

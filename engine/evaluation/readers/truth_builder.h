@@ -40,12 +40,9 @@ class TruthBuilder {
   // frame outside the clip, the same id twice in a frame.
   [[nodiscard]] Result<void> add(const TrueBox& box);
 
-  // All that was added; call it once. Error bad_data with an empty place: more frames of more objects than the boxes
-  // account for.
-  [[nodiscard]] Result<ClipTruth> clip();
-
-  // Classes of all boxes that were added.
-  [[nodiscard]] const std::set<std::string>& categories() const { return categories_; }
+  // The clip with all that was added; call it once. Error bad_data with an empty place: more frames of more objects
+  // than the boxes account for.
+  [[nodiscard]] Result<TruthClip> clip(std::string name, FramesOfImages images);
 
  private:
   [[nodiscard]] Result<void> check(const TrueBox& box) const;
@@ -75,14 +72,13 @@ void add_short_names(FramesOfImages& images);
 // Width and height by the header of a PNG or JPEG file. Error: cannot_read; bad_data (neither, or damaged).
 [[nodiscard]] Result<cv::Size> image_file_size(const std::filesystem::path& path);
 
+// The folders of MOT sequences (with gt/gt.txt): the path itself, or those in it.
+[[nodiscard]] std::vector<std::filesystem::path> mot_sequences_in(const std::filesystem::path& path);
+
 // The readers of each layout. path exists.
-[[nodiscard]] Result<std::vector<TruthClip>> read_aot_clips(const std::filesystem::path& path, const TruthOptions&,
-                                                            std::set<std::string>& categories);
-[[nodiscard]] Result<std::vector<TruthClip>> read_coco_clips(const std::filesystem::path& path, const TruthOptions&,
-                                                             std::set<std::string>& categories);
-[[nodiscard]] Result<std::vector<TruthClip>> read_mot_clips(const std::filesystem::path& path, const TruthOptions&,
-                                                            std::set<std::string>& categories);
-[[nodiscard]] Result<std::vector<TruthClip>> read_yolo_clips(const std::filesystem::path& path, const TruthOptions&,
-                                                             std::set<std::string>& categories);
+[[nodiscard]] Result<std::vector<TruthClip>> read_aot_clips(const std::filesystem::path& path, const TruthOptions&);
+[[nodiscard]] Result<std::vector<TruthClip>> read_coco_clips(const std::filesystem::path& path, const TruthOptions&);
+[[nodiscard]] Result<std::vector<TruthClip>> read_mot_clips(const std::filesystem::path& path, const TruthOptions&);
+[[nodiscard]] Result<std::vector<TruthClip>> read_yolo_clips(const std::filesystem::path& path, const TruthOptions&);
 
 }  // namespace sigs

@@ -49,14 +49,12 @@ const json* list_of(JsonFields& fields, const json& document, const char* key) {
 
 CocoImage image_of(JsonFields& fields, const json& entry, bool stills) {
   CocoImage image{.id = fields.whole(entry, "id"), .name = fields.text(entry, "file_name")};
-  const auto number = [&](const char* key) {
-    return JsonFields::field(entry, key) != nullptr ? std::optional(fields.whole(entry, key)) : std::nullopt;
-  };
-  if (!stills) image.video = number("video_id");
-  if (!stills) image.frame = number("footage_frame");
-  if (!stills && !image.frame) image.frame = number("frame_id");
-  if (!stills && JsonFields::field(entry, "time_s") != nullptr) image.time_s = fields.number(entry, "time_s");
-  image.size_px = {number("width").value_or(0), number("height").value_or(0)};
+  if (!stills) image.video = fields.optional_whole(entry, "video_id");
+  if (!stills) image.frame = fields.optional_whole(entry, "footage_frame");
+  if (!stills && !image.frame) image.frame = fields.optional_whole(entry, "frame_id");
+  if (!stills) image.time_s = fields.optional_number(entry, "time_s");
+  image.size_px = {fields.optional_whole(entry, "width").value_or(0),
+                   fields.optional_whole(entry, "height").value_or(0)};
   return image;
 }
 
@@ -69,7 +67,7 @@ Result<std::vector<CocoVideo>> videos_of(JsonFields& fields, const json& documen
       CocoVideo video{.id = fields.whole((*videos)[i], "id")};
       const char* const name = JsonFields::field((*videos)[i], "name") != nullptr ? "name" : "file_name";
       video.name = fields.text((*videos)[i], name);
-      if (JsonFields::field((*videos)[i], "fps") != nullptr) video.rate_hz = fields.number((*videos)[i], "fps");
+      video.rate_hz = fields.optional_number((*videos)[i], "fps").value_or(0);
       if (video.rate_hz < 0) fields.wrong("fps", "is below 0");
       if (!by_id.emplace(video.id, video).second) fields.wrong("id", fmt::format("{} is there twice", video.id));
     }
@@ -139,13 +137,11 @@ TruthBuilder builder_of(const CocoVideo& video, const TruthOptions& options) {
           options};
 }
 
-HorizonSide horizon_side_of(JsonFields& fields, const json& entry) {
+HorizonSide horizon_side_in(JsonFields& fields, const json& entry) {
   if (JsonFields::field(entry, "horizon") == nullptr) return HorizonSide::unknown;
-  const std::string name = fields.text(entry, "horizon");
-  for (const HorizonSide side : {HorizonSide::below, HorizonSide::on, HorizonSide::above, HorizonSide::unknown})
-    if (name == name_of(side)) return side;
-  fields.wrong("horizon", "is not above, on, below or unknown");
-  return HorizonSide::unknown;
+  const std::optional<HorizonSide> side = horizon_side_named(fields.text(entry, "horizon"));
+  if (!side) fields.wrong("horizon", "is not above, on, below or unknown");
+  return side.value_or(HorizonSide::unknown);
 }
 
 // Corner of the first pixel to its centre.
@@ -174,15 +170,14 @@ TrueBox box_of_annotation(JsonFields& fields, const json& entry, const std::map<
     fields.wrong("category_id", fmt::format("{} is no category of the file", category));
   box.category = named == categories.end() ? std::to_string(category) : named->second;
   for (const char* const key : {"track_id", "instance_id"})
-    if (!box.id && !box.is_ignored && JsonFields::field(entry, key) != nullptr) box.id = fields.whole(entry, key);
+    if (!box.id && !box.is_ignored) box.id = fields.optional_whole(entry, key);
   if (box.id && *box.id < 0) box.id.reset();
-  if (JsonFields::field(entry, "visible_fraction") != nullptr)
-    box.visible_fraction = fields.number(entry, "visible_fraction");
-  if (JsonFields::field(entry, "distance_m") != nullptr) box.distance_m = fields.number(entry, "distance_m");
-  if (JsonFields::field(entry, "rms_contrast") != nullptr) box.rms_contrast = fields.number(entry, "rms_contrast");
+  box.visible_fraction = fields.optional_number(entry, "visible_fraction").value_or(box.visible_fraction);
+  box.distance_m = fields.optional_number(entry, "distance_m").value_or(box.distance_m);
+  box.rms_contrast = fields.optional_number(entry, "rms_contrast");
   if (JsonFields::field(entry, "amodal_bbox") != nullptr)
     box.amodal_box = box_of_numbers(fields.four_numbers(entry, "amodal_bbox"));
-  box.horizon = horizon_side_of(fields, entry);
+  box.horizon = horizon_side_in(fields, entry);
   return box;
 }
 
@@ -224,8 +219,7 @@ Result<void> add_annotations(JsonFields& fields, const json& document, const std
 
 }  // namespace
 
-Result<std::vector<TruthClip>> read_coco_clips(const std::filesystem::path& path, const TruthOptions& options,
-                                               std::set<std::string>& categories) {
+Result<std::vector<TruthClip>> read_coco_clips(const std::filesystem::path& path, const TruthOptions& options) {
   JsonFields fields(path);
   const Result<json> document = fields.document();
   if (!document) return fail(document.error());
@@ -233,26 +227,26 @@ Result<std::vector<TruthClip>> read_coco_clips(const std::filesystem::path& path
   if (!videos) return fail(videos.error());
   std::map<int, CocoPlace> places;
   std::vector<TruthBuilder> builders;
-  std::vector<TruthClip> clips;
+  std::vector<FramesOfImages> images_of;
   for (CocoVideo& video : *videos) {
     if (const Result<void> good = number_images(fields, video); !good) return fail(good.error());
-    TruthClip clip{.name = video.name};
+    FramesOfImages images;
     for (const CocoImage& image : video.images) {
       places[image.id] = {builders.size(), *image.frame};
-      clip.images.by_id[image.id] = *image.frame;
-      clip.images.by_name[image.name] = *image.frame;
+      images.by_id[image.id] = *image.frame;
+      images.by_name[image.name] = *image.frame;
     }
-    add_short_names(clip.images);
+    add_short_names(images);
+    images_of.push_back(std::move(images));
     builders.push_back(builder_of(video, options));
-    clips.push_back(std::move(clip));
   }
   if (const Result<void> added = add_annotations(fields, *document, places, builders); !added)
     return fail(added.error());
-  for (std::size_t i = 0; i < clips.size(); ++i) {
-    Result<ClipTruth> truth = builders[i].clip();
-    if (!truth) return fields.failure(truth.error().what);
-    clips[i].truth = std::move(*truth);
-    categories.insert(builders[i].categories().begin(), builders[i].categories().end());
+  std::vector<TruthClip> clips;
+  for (std::size_t i = 0; i < builders.size(); ++i) {
+    Result<TruthClip> clip = builders[i].clip((*videos)[i].name, std::move(images_of[i]));
+    if (!clip) return fields.failure(clip.error().what);
+    clips.push_back(std::move(*clip));
   }
   return clips;
 }

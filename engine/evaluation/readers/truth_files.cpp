@@ -17,16 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_mot_folder(const fs::path& folder) {
-  std::error_code code;
-  if (fs::exists(folder / "gt" / "gt.txt", code)) return true;
-  const Result<std::vector<fs::path>> there = folder_contents(folder);
-  return there && std::ranges::any_of(*there, [](const fs::path& path) {
-           std::error_code quiet;
-           return fs::exists(path / "gt" / "gt.txt", quiet);
-         });
-}
-
 // Whether a JSON file begins as one with a key of this name would: the first keys of its outermost object. A whole
 // parse would be made twice.
 bool has_outer_key(const std::string& text, std::string_view key) {
@@ -52,19 +42,20 @@ bool has_outer_key(const std::string& text, std::string_view key) {
   return false;
 }
 
-Result<std::vector<TruthClip>> read_json(const fs::path& path, const TruthOptions& options,
-                                         std::set<std::string>& categories) {
+Result<std::vector<TruthClip>> read_json(const fs::path& path, const TruthOptions& options) {
   const Result<std::string> text = read_text(path);
   if (!text) return fail(text.error());
-  if (has_outer_key(*text, "samples")) return read_aot_clips(path, options, categories);
-  if (has_outer_key(*text, "images")) return read_coco_clips(path, options, categories);
+  if (has_outer_key(*text, "samples")) return read_aot_clips(path, options);
+  if (has_outer_key(*text, "images")) return read_coco_clips(path, options);
   return fail(path.string(),
               "is not labels (.xml); of a project sigs export makes them. As another program's truth it has neither "
               "\"samples\" (aot) nor \"images\" and \"annotations\" (coco)",
               ErrorKind::usage);
 }
 
-Result<void> check_classes(const fs::path& path, const TruthOptions& options, const std::set<std::string>& there) {
+Result<void> check_classes(const fs::path& path, const TruthOptions& options, const std::vector<TruthClip>& clips) {
+  std::set<std::string> there;
+  for (const TruthClip& clip : clips) there.insert(clip.categories.begin(), clip.categories.end());
   for (const std::string& name : options.classes)
     if (!there.contains(name))
       return fail(path.string(),
@@ -75,22 +66,21 @@ Result<void> check_classes(const fs::path& path, const TruthOptions& options, co
 }  // namespace
 
 bool is_truth_folder(const fs::path& path) {
-  return is_folder(path) && (is_mot_folder(path) || is_folder(path / "labels"));
+  return is_folder(path) && (!mot_sequences_in(path).empty() || is_folder(path / "labels"));
 }
 
 Result<std::vector<TruthClip>> read_truth_clips(const fs::path& path, const TruthOptions& options) {
-  std::set<std::string> categories;
   Result<std::vector<TruthClip>> clips = std::vector<TruthClip>();
   if (!is_folder(path))
-    clips = read_json(path, options, categories);
-  else if (is_mot_folder(path))
-    clips = read_mot_clips(path, options, categories);
+    clips = read_json(path, options);
+  else if (!mot_sequences_in(path).empty())
+    clips = read_mot_clips(path, options);
   else if (is_folder(path / "labels"))
-    clips = read_yolo_clips(path, options, categories);
+    clips = read_yolo_clips(path, options);
   else
     clips = fail(path.string(), "is no truth: it has neither gt/gt.txt (mot) nor labels/ (yolo)");
   if (!clips) return clips;
-  if (const Result<void> good = check_classes(path, options, categories); !good) return fail(good.error());
+  if (const Result<void> good = check_classes(path, options, *clips); !good) return fail(good.error());
   std::ranges::stable_sort(*clips, {}, &TruthClip::name);
   return clips;
 }

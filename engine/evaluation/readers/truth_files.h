@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ namespace sigs {
 struct TruthClip {
   std::string name;  // of the video, flight or sequence; results' files are called so
   ClipTruth truth;
-  FramesOfImages images;  // what the file calls the frames
+  FramesOfImages images;             // what the file calls the frames
+  std::set<std::string> categories;  // classes of all its boxes
 };
 
 // What a layout may not say.

@@ -26,10 +26,6 @@ struct SequenceInfo {
   cv::Size size_px;
 };
 
-tl::unexpected<Error> wrong_at(const fs::path& path, int line, const std::string& what) {
-  return fail(fmt::format("{}: line {}", path.string(), line), what);
-}
-
 // "25" or "30000/1001"; 0: neither.
 double rate_of(std::string_view text) {
   const std::size_t slash = text.find('/');
@@ -47,20 +43,21 @@ Result<SequenceInfo> read_seqinfo(const fs::path& path) {
   TextLines lines(*text);
   bool has_exact_rate = false;
   while (const std::optional<TextLine> line = lines.next()) {
-    const std::size_t equals = line->text.find('=');
-    if (equals == std::string_view::npos) continue;
-    const std::string key = lower_case(trimmed(line->text.substr(0, equals)));
-    const std::string_view value = trimmed(line->text.substr(equals + 1));
+    const std::optional<KeyAndValue> entry = key_and_value(line->text);
+    if (!entry) continue;
+    const std::string key = lower_case(entry->key);
+    const std::string_view value = entry->value;
     if (key == "framerate" || key == "exactframerate") {
       const double rate_hz = rate_of(value);
-      if (rate_hz == 0) return wrong_at(path, line->number, fmt::format("{}: {} is no rate", key, in_quotes(value)));
+      if (rate_hz == 0)
+        return fail(place_of(path, line->number), fmt::format("{}: {} is no rate", key, in_quotes(value)));
       if (key == "exactframerate" || !has_exact_rate) info.rate_hz = rate_hz;
       has_exact_rate |= key == "exactframerate";
     } else if (key == "seqlength" || key == "imwidth" || key == "imheight") {
       const std::optional<int> number = integer_of(value);
       if (!number || *number < 1 || *number > kMaxClipFrames)
-        return wrong_at(path, line->number,
-                        fmt::format("{}: {} is no whole number from 1 to {}", key, in_quotes(value), kMaxClipFrames));
+        return fail(place_of(path, line->number),
+                    fmt::format("{}: {} is no whole number from 1 to {}", key, in_quotes(value), kMaxClipFrames));
       (key == "seqlength" ? info.frames : key == "imwidth" ? info.size_px.width : info.size_px.height) = *number;
     }
   }
@@ -76,22 +73,23 @@ struct MotRow {
 Result<MotRow> row_of(const fs::path& path, const TextLine& line) {
   const std::vector<std::string_view> fields = number_fields(line.text);
   if (fields.size() < 6 || fields.size() > 10)
-    return wrong_at(
-        path, line.number,
+    return fail(
+        place_of(path, line.number),
         fmt::format("has {} columns; frame,id,left,top,width,height,flag,class,visibility are 6 to 10", fields.size()));
   std::array<double, 10> numbers{0, 0, 0, 0, 0, 0, 1, -1, -1, -1};
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    const std::optional<double> number = parsed_number(fields[i]);
-    if (!number || !std::isfinite(*number))
-      return wrong_at(path, line.number, fmt::format("column {}: {} is no number", i + 1, in_quotes(fields[i])));
+    const std::optional<double> number = finite_number(fields[i]);
+    if (!number)
+      return fail(place_of(path, line.number), fmt::format("column {}: {} is no number", i + 1, in_quotes(fields[i])));
     numbers[i] = *number;
   }
   const std::optional<int> frame = integer_of(numbers[0]);
   const std::optional<int> id = integer_of(numbers[1]);
   const std::optional<int> category = integer_of(numbers[7]);
   if (!frame || *frame < 1 || *frame > kMaxClipFrames)
-    return wrong_at(path, line.number, fmt::format("frame {} is no whole number from 1 on", in_quotes(fields[0])));
-  if (!id) return wrong_at(path, line.number, fmt::format("id {} is no whole number", in_quotes(fields[1])));
+    return fail(place_of(path, line.number),
+                fmt::format("frame {} is no whole number from 1 on", in_quotes(fields[0])));
+  if (!id) return fail(place_of(path, line.number), fmt::format("id {} is no whole number", in_quotes(fields[1])));
   MotRow row{.line = line.number};
   row.box = {.frame = *frame - 1,
              .box = {numbers[2] - kEdgeFrom1, numbers[3] - kEdgeFrom1, numbers[4], numbers[5]},
@@ -119,8 +117,7 @@ Result<std::vector<MotRow>> read_rows(const fs::path& path) {
   return rows;
 }
 
-Result<TruthClip> clip_of_sequence(const fs::path& folder, const TruthOptions& options,
-                                   std::set<std::string>& categories) {
+Result<TruthClip> clip_of_sequence(const fs::path& folder, const TruthOptions& options) {
   const Result<SequenceInfo> info = read_seqinfo(folder / "seqinfo.ini");
   if (!info) return fail(info.error());
   const fs::path file = folder / "gt" / "gt.txt";
@@ -129,8 +126,8 @@ Result<TruthClip> clip_of_sequence(const fs::path& folder, const TruthOptions& o
   int last = info->frames - 1;
   for (const MotRow& row : *rows) {
     if (info->frames > 0 && row.box.frame >= info->frames)
-      return wrong_at(file, row.line,
-                      fmt::format("frame {} is past seqLength of seqinfo.ini, {}", row.box.frame + 1, info->frames));
+      return fail(place_of(file, row.line),
+                  fmt::format("frame {} is past seqLength of seqinfo.ini, {}", row.box.frame + 1, info->frames));
     last = std::max(last, row.box.frame);
   }
   if (last < 0)
@@ -138,36 +135,36 @@ Result<TruthClip> clip_of_sequence(const fs::path& folder, const TruthOptions& o
   if (info->frames > 0)
     if (const Result<void> good = check_length(info->frames, rows->size(), "seqLength"); !good)
       return fail((folder / "seqinfo.ini").string(), good.error().what);
-  TruthClip clip{.name = canonical_path(folder).filename().string()};
-  TruthBuilder builder({.video = clip.name, .size_px = info->size_px, .first_frame = 0, .last_frame = last},
-                       info->rate_hz, {}, options);
+  const std::string name = canonical_path(folder).filename().string();
+  TruthBuilder builder({.video = name, .size_px = info->size_px, .first_frame = 0, .last_frame = last}, info->rate_hz,
+                       {}, options);
   for (const MotRow& row : *rows)
-    if (const Result<void> added = builder.add(row.box); !added) return wrong_at(file, row.line, added.error().what);
-  Result<ClipTruth> truth = builder.clip();
-  if (!truth) return fail(file.string(), truth.error().what);
-  clip.truth = std::move(*truth);
-  for (int frame = 0; frame <= last; ++frame) clip.images.by_name[fmt::format("{:06}", frame + 1)] = frame;
-  categories.insert(builder.categories().begin(), builder.categories().end());
-  return clip;
+    if (const Result<void> added = builder.add(row.box); !added)
+      return fail(place_of(file, row.line), added.error().what);
+  FramesOfImages images;
+  for (int frame = 0; frame <= last; ++frame) images.by_name[fmt::format("{:06}", frame + 1)] = frame;
+  Result<TruthClip> clip = builder.clip(name, std::move(images));
+  return clip ? std::move(clip) : fail(file.string(), clip.error().what);
 }
 
 }  // namespace
 
-Result<std::vector<TruthClip>> read_mot_clips(const fs::path& path, const TruthOptions& options,
-                                              std::set<std::string>& categories) {
-  std::vector<fs::path> folders;
-  std::error_code code;
-  if (fs::exists(path / "gt" / "gt.txt", code)) {
-    folders.push_back(path);
-  } else {
-    const Result<std::vector<fs::path>> there = folder_contents(path);
-    if (!there) return fail(there.error());
-    for (const fs::path& folder : *there)
-      if (fs::exists(folder / "gt" / "gt.txt", code)) folders.push_back(folder);
-  }
+std::vector<fs::path> mot_sequences_in(const fs::path& path) {
+  const auto is_sequence = [](const fs::path& folder) {
+    std::error_code code;
+    return fs::exists(folder / "gt" / "gt.txt", code);
+  };
+  if (is_sequence(path)) return {path};
+  std::vector<fs::path> sequences;
+  if (const Result<std::vector<fs::path>> there = folder_contents(path))
+    std::ranges::copy_if(*there, std::back_inserter(sequences), is_sequence);
+  return sequences;
+}
+
+Result<std::vector<TruthClip>> read_mot_clips(const fs::path& path, const TruthOptions& options) {
   std::vector<TruthClip> clips;
-  for (const fs::path& folder : folders) {
-    Result<TruthClip> clip = clip_of_sequence(folder, options, categories);
+  for (const fs::path& folder : mot_sequences_in(path)) {
+    Result<TruthClip> clip = clip_of_sequence(folder, options);
     if (!clip) return fail(clip.error());
     clips.push_back(std::move(*clip));
   }

@@ -62,8 +62,8 @@ Result<TrueBox> box_of_line(std::string_view text, cv::Size size_px) {
                                 fields.size()));
   std::vector<double> numbers;
   for (const std::string_view field : fields) {
-    const std::optional<double> number = parsed_number(field);
-    if (!number || !std::isfinite(*number)) return fail("", fmt::format("{} is no number", in_quotes(field)));
+    const std::optional<double> number = finite_number(field);
+    if (!number) return fail("", fmt::format("{} is no number", in_quotes(field)));
     if (!numbers.empty() && (*number < -0.01 || *number > 1.01))
       return fail("", fmt::format("{} is no share of the image, 0 to 1; are these pixels?", in_quotes(field)));
     numbers.push_back(*number);
@@ -78,18 +78,9 @@ Result<TrueBox> box_of_line(std::string_view text, cv::Size size_px) {
                numbers[4] * size_px.height};
     return box;
   }
-  double left = 2;
-  double top = 2;
-  double right = -1;
-  double bottom = -1;
-  for (std::size_t i = 1; i + 1 < numbers.size(); i += 2) {
-    left = std::min(left, numbers[i]);
-    right = std::max(right, numbers[i]);
-    top = std::min(top, numbers[i + 1]);
-    bottom = std::max(bottom, numbers[i + 1]);
-  }
-  box.box = {left * size_px.width - kEdgeFrom0, top * size_px.height - kEdgeFrom0, (right - left) * size_px.width,
-             (bottom - top) * size_px.height};
+  const Box shares = box_around(std::span(numbers).subspan(1));
+  box.box = {shares.x * size_px.width - kEdgeFrom0, shares.y * size_px.height - kEdgeFrom0,
+             shares.width * size_px.width, shares.height * size_px.height};
   return box;
 }
 
@@ -112,13 +103,13 @@ Result<void> add_labels(TruthBuilder& builder, const YoloImage& image, int frame
     Result<TrueBox> box = box_of_line(line->text, size_px);
     if (box) box->frame = frame;
     const Result<void> added = box ? builder.add(*box) : fail(box.error());
-    if (!added) return fail(fmt::format("{}: line {}", image.labels.string(), line->number), added.error().what);
+    if (!added) return fail(place_of(image.labels, line->number), added.error().what);
   }
   return {};
 }
 
 Result<TruthClip> clip_of_labels(const fs::path& labels, const fs::path& images, const std::string& name,
-                                 const TruthOptions& options, std::set<std::string>& categories) {
+                                 const TruthOptions& options) {
   const Result<std::map<std::string, YoloImage>> all = images_of(labels, images);
   if (!all) return fail(all.error());
   std::vector<std::string> names;
@@ -129,17 +120,14 @@ Result<TruthClip> clip_of_labels(const fs::path& labels, const fs::path& images,
   const auto [first, last] = std::ranges::minmax(*frames);
   TruthBuilder builder({.video = name, .size_px = options.size_px, .first_frame = first, .last_frame = last}, 0, {},
                        options);
-  TruthClip clip{.name = name};
+  FramesOfImages images_by_name;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (const Result<void> added = add_labels(builder, all->at(names[i]), (*frames)[i], options); !added)
       return fail(added.error());
-    clip.images.by_name[names[i]] = (*frames)[i];
+    images_by_name.by_name[names[i]] = (*frames)[i];
   }
-  Result<ClipTruth> truth = builder.clip();
-  if (!truth) return fail(labels.string(), truth.error().what);
-  clip.truth = std::move(*truth);
-  categories.insert(builder.categories().begin(), builder.categories().end());
-  return clip;
+  Result<TruthClip> clip = builder.clip(name, std::move(images_by_name));
+  return clip ? std::move(clip) : fail(labels.string(), clip.error().what);
 }
 
 bool has_text_files(const fs::path& folder) {
@@ -149,8 +137,7 @@ bool has_text_files(const fs::path& folder) {
 
 }  // namespace
 
-Result<std::vector<TruthClip>> read_yolo_clips(const fs::path& path, const TruthOptions& options,
-                                               std::set<std::string>& categories) {
+Result<std::vector<TruthClip>> read_yolo_clips(const fs::path& path, const TruthOptions& options) {
   const fs::path labels = path / "labels";
   const Result<std::vector<fs::path>> there = folder_contents(labels);
   if (!there) return fail(there.error());
@@ -160,7 +147,7 @@ Result<std::vector<TruthClip>> read_yolo_clips(const fs::path& path, const Truth
   if (has_text_files(labels) || sequences.empty()) sequences = {{"", canonical_path(path).filename().string()}};
   std::vector<TruthClip> clips;
   for (const auto& [folder, name] : sequences) {
-    Result<TruthClip> clip = clip_of_labels(labels / folder, path / "images" / folder, name, options, categories);
+    Result<TruthClip> clip = clip_of_labels(labels / folder, path / "images" / folder, name, options);
     if (!clip) return fail(clip.error());
     clips.push_back(std::move(*clip));
   }
