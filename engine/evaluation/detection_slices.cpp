@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/ensure.h"
+#include "base/random.h"
 #include "evaluation/airborne_metrics.h"
 
 namespace sigs {
@@ -17,15 +18,10 @@ namespace {
 
 constexpr int kDraws = 2000;
 
-// Numbers of a fixed sequence (splitmix64, Steele, Lea, Flood 2014).
+// Numbers of a fixed sequence (base/random.h).
 class Draws {
  public:
-  std::size_t below(std::size_t n) {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return static_cast<std::size_t>((z ^ (z >> 31)) % n);
-  }
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(splitmix64(state_ += kSplitMixStep) % n); }
 
  private:
   std::uint64_t state_ = 1;
