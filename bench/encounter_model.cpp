@@ -26,14 +26,14 @@ struct Speeds {
 };
 
 double states_per_s(const EncounterModel& model, int draws, double& sum) {
-  ModelRandom random(1);
+  Random random(1);
   const Stopwatch watch;
   for (int draw = 0; draw < draws; ++draw) sum += initial_state(model, random).values.back();
   return draws / watch.elapsed_s();
 }
 
 double seconds_per_s(const EncounterModel& model, int draws, double& sum) {
-  ModelRandom random(2);
+  Random random(2);
   ModelState state = initial_state(model, random);
   const Stopwatch watch;
   for (int draw = 0; draw < draws; ++draw) state = next_state(model, state, random);
@@ -44,7 +44,7 @@ double seconds_per_s(const EncounterModel& model, int draws, double& sum) {
 double flights_per_s(const EncounterModel& model, int flights, double& sum) {
   const Stopwatch watch;
   for (int flight = 0; flight < flights; ++flight) {
-    ModelRandom random(3, static_cast<std::uint64_t>(flight));
+    Random random(3, static_cast<std::uint64_t>(flight));
     sum += sampled_track(model, {.duration_s = kFlightLength_s}, random).points.back().speed_mps;
   }
   return flights / watch.elapsed_s();
@@ -53,7 +53,7 @@ double flights_per_s(const EncounterModel& model, int flights, double& sum) {
 double pairs_per_s(const EncounterModel& model, int pairs, double& sum) {
   const Stopwatch watch;
   for (int pair = 0; pair < pairs; ++pair) {
-    ModelRandom random(4, static_cast<std::uint64_t>(pair));
+    Random random(4, static_cast<std::uint64_t>(pair));
     const ModelFlight own = sampled_track(model, {.duration_s = kFlightLength_s}, random);
     const ModelFlight other = sampled_track(model, {.duration_s = kFlightLength_s}, random);
     const Result<ModelFlight> placed =

@@ -74,7 +74,7 @@ Result<DrawnFlights> drawn_flights(const EncounterModel& model, const EncounterM
   DrawnFlights drawn;
   for (int number = 0; number < options.samples && out; ++number) {
     if (interrupt_flag()) return fail("", "interrupted", ErrorKind::interrupted);
-    ModelRandom random(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(number));
+    Random random(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(number));
     ModelFlight track = sampled_track(model, options.track, random);
     drawn.redraws += track.redraws;
     drawn.outside += track.is_within_limits ? 0 : 1;

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "base/input_file.h"
+#include "base/json.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "cli/options.h"
 #include "cli/process.h"
 #include "project/json.h"
-#include "project/json_reading.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"

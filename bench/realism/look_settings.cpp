@@ -5,8 +5,8 @@
 
 #include "accuracy/csv.h"
 #include "base/input_file.h"
+#include "base/json.h"
 #include "project/fields.h"
-#include "project/json_reading.h"
 
 namespace sigs::bench {
 

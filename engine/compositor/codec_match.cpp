@@ -6,12 +6,10 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "video/recompression.h"
+#include "compositor/recompression.h"
 
 namespace sigs {
 namespace {
-
-constexpr int kBlock_px = FrameQuantisers::kBlock_px;
 
 FrameQuantisers uniform(QuantiserKind kind, double value) {
   if (kind != QuantiserKind::jpeg) return {.kind = kind, .mean = std::round(value)};
@@ -30,7 +28,7 @@ double default_of(QuantiserKind kind) {
 
 // Down to the multiple of a macroblock at or below a place, in macroblocks.
 int block_at(int place_px) {
-  return static_cast<int>(std::floor(static_cast<double>(place_px) / kBlock_px));
+  return static_cast<int>(std::floor(static_cast<double>(place_px) / FrameQuantisers::kBlock_px));
 }
 
 cv::Size plane_step(PixelLayout layout, int plane) {
@@ -128,7 +126,7 @@ cv::Rect CodecMatch::blocks_around(const cv::Rect& reach) const {
 
 cv::Rect CodecMatch::rect_of(const cv::Rect& blocks, int plane) const {
   const cv::Size step = plane_step(layout_, plane);
-  const cv::Size block(kBlock_px / step.width, kBlock_px / step.height);
+  const cv::Size block(FrameQuantisers::kBlock_px / step.width, FrameQuantisers::kBlock_px / step.height);
   return {quantisers_.origin_px.x / step.width + blocks.x * block.width,
           quantisers_.origin_px.y / step.height + blocks.y * block.height, blocks.width * block.width,
           blocks.height * block.height};

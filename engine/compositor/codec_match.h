@@ -14,7 +14,7 @@
 namespace sigs {
 
 // The image around the intruders goes once through the compression that the footage has been through, so that their
-// edges ring and their finest detail is lost as those of a real aircraft in this footage (video/recompression.h).
+// edges ring and their finest detail is lost as those of a real aircraft in this footage (compositor/recompression.h).
 
 enum class MatchedCodec { footage, h264, jpeg };
 
@@ -30,7 +30,7 @@ enum class MatchedCodec { footage, h264, jpeg };
 class CodecMatch {
  public:
   //   reaches     where the frame may be rewritten; what is rewritten beside them is not coded
-  //   earlier_px  of each reach: where what is in it was in images before, video/recompression.h; or empty: the
+  //   earlier_px  of each reach: where what is in it was in images before, compositor/recompression.h; or empty: the
   //               image is coded as the first one. Of reaches whose macroblocks overlap the largest one's counts
   CodecMatch(const Frame& footage, std::span<const cv::Rect> reaches, FrameQuantisers quantisers,
              std::span<const std::vector<cv::Point2d>> earlier_px = {});

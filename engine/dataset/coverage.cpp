@@ -9,6 +9,7 @@
 #include <pugixml.hpp>
 #include <string_view>
 
+#include "base/json.h"
 #include "base/parsing.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
@@ -16,8 +17,6 @@
 #include "base/xml_text.h"
 #include "dataset/footage_cache.h"
 #include "dataset/video_name.h"
-#include "evaluation/readers/text_parsing.h"
-#include "project/json_reading.h"
 #include "scene/scene_at.h"
 #include "scene/visibility.h"
 #include "truth/measure.h"

@@ -7,9 +7,9 @@
 #include <opencv2/imgproc.hpp>
 #include <span>
 
+#include "base/json.h"
 #include "base/text.h"
 #include "dataset/coverage.h"
-#include "project/json_reading.h"
 #include "telemetry/plot_axes.h"
 
 namespace sigs {

@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
+#include "base/json.h"
 #include "base/staged_outputs.h"
 #include "dataset/checksum.h"
-#include "project/json_reading.h"
 
 namespace sigs {
 
@@ -58,10 +58,6 @@ Json described(const std::vector<DatasetFile>& files, const std::string& before)
   for (const DatasetFile& file : files)
     list.push_back({{"path", before + file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   return list;
-}
-
-std::string json_text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string entry_text(const PlannedVideo& video, const VideoEntry& entry) {

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/json.h"
 #include "base/result.h"
 #include "dataset/plan.h"
-#include "project/json_reading.h"
 
 namespace sigs {
 
@@ -44,9 +44,6 @@ inline constexpr const char* kEntryName = "entry.json";
 // `before` in front of each path.
 [[nodiscard]] Json described(const PlannedVideo& video);
 [[nodiscard]] Json described(const std::vector<DatasetFile>& files, const std::string& before);
-
-// JSON as text, indented by two blanks, with a newline at the end. Bytes that are no UTF-8 become U+FFFD.
-[[nodiscard]] std::string json_text(const Json& json);
 
 // Checksums of files by device and inode, so that a file with several names is read once.
 class ChecksumCache {

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/json.h"
 #include "base/renaming.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
@@ -16,7 +17,6 @@
 #include "dataset/dataset_lock.h"
 #include "dataset/entry.h"
 #include "dataset/merge_labels.h"
-#include "project/json_reading.h"
 
 namespace sigs {
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/json.h"
 #include "base/staged_outputs.h"
 #include "dataset/merge_labels.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
-#include "project/json_reading.h"
 
 // The formats that have one file for each split: COCO, AOT and CSV. All of them are put together from the label files
 // of the videos, since nothing else that is kept of a video has what they need: NAME.xml is written only where the

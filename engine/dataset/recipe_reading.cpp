@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/json.h"
 #include "project/fields.h"
-#include "project/json_reading.h"
 
 namespace sigs {
 

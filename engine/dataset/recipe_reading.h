@@ -9,10 +9,10 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "base/json.h"
 #include "base/result.h"
 #include "dataset/recipe.h"
 #include "dataset/sample.h"
-#include "project/json_reading.h"
 
 namespace sigs {
 

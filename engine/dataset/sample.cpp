@@ -6,24 +6,17 @@
 #include <numbers>
 
 #include "base/ensure.h"
+#include "base/random.h"
 
 namespace sigs {
 
 namespace {
 
-constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15;  // SplitMix64's step
 constexpr double kMaxDeviations = 37;  // standard deviations: beyond them a double holds no probability but 0
-
-// The output function of SplitMix64.
-constexpr std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
-}
 
 std::uint64_t absorbed(std::uint64_t hash, std::string_view text) {
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;  // FNV-1a
-  return mixed(hash + kGolden);
+  return splitmix64(hash + kSplitMixStep);
 }
 
 // Of the standard normal distribution, precise in the lower tail.
@@ -73,8 +66,8 @@ double sampled_normal(const Quantity& quantity, double share) {
 }  // namespace
 
 std::uint64_t random_bits(const SampleKey& key) {
-  const std::uint64_t start = mixed(key.seed + kGolden);
-  return mixed(absorbed(absorbed(start, key.what), key.which) + kGolden);
+  const std::uint64_t start = splitmix64(key.seed + kSplitMixStep);
+  return splitmix64(absorbed(absorbed(start, key.what), key.which) + kSplitMixStep);
 }
 
 double random_share(const SampleKey& key) {

@@ -97,7 +97,7 @@ glm::dvec3 turned_to_right(const glm::dvec3& ned, double by_rad) {
   return {c * ned.x - s * ned.y, s * ned.x + c * ned.y, ned.z};
 }
 
-PathNed drawn_path(const EncounterModel& model, ModelRandom random, double length_s) {
+PathNed drawn_path(const EncounterModel& model, Random random, double length_s) {
   const SampledTrackSettings settings{.duration_s = static_cast<int>(std::ceil(length_s)) + 1,
                                       .max_redraws = kTrackRedraws};
   return [flight = sampled_track(model, settings, random)](double since_s) {
@@ -132,7 +132,7 @@ OrReason<PathNed> recorded_path(const FlightContext& context, const QuantityValu
   if (long_enough.empty())
     return tl::unexpected(fmt::format("frames: the video has {}, the longest recording {}",
                                       seconds(times.ends.length_s), seconds(longest_s)));
-  ModelRandom random(context.random_bits);
+  Random random(context.random_bits);
   const FlownTrack& track =
       *long_enough[static_cast<std::size_t>(random.uniform() * static_cast<double>(long_enough.size()))];
   const OrReason<double> begin_s = recorded_begin_s(track, values, times, random.uniform());
@@ -181,17 +181,16 @@ OrReason<PlacedPair> placed_pair(FlightKind kind, const QuantityValues& values, 
   if (kind == FlightKind::encounter_model && times.ends.length_s > kMaxDrawn_s)
     return tl::unexpected(fmt::format("frames: the video has {}; flights are drawn for up to {}",
                                       seconds(times.ends.length_s), seconds(kMaxDrawn_s)));
-  OrReason<PathNed> intruder =
-      kind == FlightKind::recorded
-          ? recorded_path(context, values, times)
-          : drawn_path(*source.model, ModelRandom(context.random_bits, 1), times.ends.length_s);
+  OrReason<PathNed> intruder = kind == FlightKind::recorded
+                                   ? recorded_path(context, values, times)
+                                   : drawn_path(*source.model, Random(context.random_bits, 1), times.ends.length_s);
   if (!intruder) return tl::unexpected(intruder.error());
   const OrReason<Trajectory> flown = trajectory_along(*intruder, times);
   if (!flown) return tl::unexpected(flown.error());
   PlacedPair pair{.intruder = *intruder, .intruder_flown = *flown};
   pair.own_motion.speed_mps = context.camera.speed_mps;
   if (source.own_model && kind == FlightKind::encounter_model) {
-    pair.ownship = drawn_path(*source.own_model, ModelRandom(context.random_bits, 2), times.ends.length_s);
+    pair.ownship = drawn_path(*source.own_model, Random(context.random_bits, 2), times.ends.length_s);
     const OrReason<Trajectory> own_flown = trajectory_along(*pair.ownship, times);
     if (!own_flown) return tl::unexpected(own_flown.error());
     pair.ownship_flown = *own_flown;

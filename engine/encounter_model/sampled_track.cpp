@@ -108,7 +108,7 @@ class Limits {
   double high_mps_ = std::numeric_limits<double>::infinity();
 };
 
-ModelFlight drawn_track(const EncounterModel& model, const SampledTrackSettings& settings, ModelRandom& random) {
+ModelFlight drawn_track(const EncounterModel& model, const SampledTrackSettings& settings, Random& random) {
   const FlightVariables variables = flight_variables(model);
   const Limits limits(model, variables);
   ModelState state = initial_state(model, random);
@@ -166,7 +166,7 @@ Result<void> check_can_fly(const EncounterModel& model) {
   return {};
 }
 
-ModelFlight sampled_track(const EncounterModel& model, const SampledTrackSettings& settings, ModelRandom& random) {
+ModelFlight sampled_track(const EncounterModel& model, const SampledTrackSettings& settings, Random& random) {
   ENSURE(settings.duration_s >= 1 && check_can_fly(model));
   ModelFlight track = drawn_track(model, settings, random);
   for (int redraws = 1; !track.is_within_limits && redraws <= settings.max_redraws; ++redraws) {

@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/random.h"
 #include "encounter_model/encounter_model.h"
-#include "encounter_model/random.h"
 
 namespace sigs {
 
@@ -60,6 +60,6 @@ struct SampledTrackSettings {
 // can fly. Bins and values of all seconds are the same bits on every machine; positions also depend on the C library's
 // sine and cosine.
 [[nodiscard]] ModelFlight sampled_track(const EncounterModel& model, const SampledTrackSettings& settings,
-                                        ModelRandom& random);
+                                        Random& random);
 
 }  // namespace sigs

@@ -45,7 +45,7 @@ int drawn_bin(std::span<const double> counts, double share, int never_counted) {
 
 }  // namespace
 
-std::vector<int> initial_bins(const EncounterModel& model, ModelRandom& random) {
+std::vector<int> initial_bins(const EncounterModel& model, Random& random) {
   std::vector<int> bins(model.variables.size(), 0);
   for (const int variable : model.initial.order) {
     const CountTable& table = model.initial.tables[static_cast<std::size_t>(variable)];
@@ -57,7 +57,7 @@ std::vector<int> initial_bins(const EncounterModel& model, ModelRandom& random) 
   return bins;
 }
 
-std::vector<int> next_bins(const EncounterModel& model, const std::vector<int>& bins, ModelRandom& random) {
+std::vector<int> next_bins(const EncounterModel& model, const std::vector<int>& bins, Random& random) {
   const std::size_t count = model.variables.size();
   ENSURE(bins.size() == count);
   const std::vector<CountTable>& tables = model.transition.tables;
@@ -75,7 +75,7 @@ std::vector<int> next_bins(const EncounterModel& model, const std::vector<int>& 
   return next;
 }
 
-double value_in_bin(const ModelVariable& variable, int bin, ModelRandom& random) {
+double value_in_bin(const ModelVariable& variable, int bin, Random& random) {
   if (variable.boundaries.empty()) return bin + 1;
   if (variable.zero_bin == bin) return 0;
   const auto at = static_cast<std::size_t>(bin);
@@ -83,14 +83,14 @@ double value_in_bin(const ModelVariable& variable, int bin, ModelRandom& random)
   return low + (variable.boundaries[at + 1] - low) * random.uniform();
 }
 
-ModelState initial_state(const EncounterModel& model, ModelRandom& random) {
+ModelState initial_state(const EncounterModel& model, Random& random) {
   ModelState state{.bins = initial_bins(model, random), .values = {}};
   for (std::size_t i = 0; i < model.variables.size(); ++i)
     state.values.push_back(value_in_bin(model.variables[i], state.bins[i], random));
   return state;
 }
 
-ModelState next_state(const EncounterModel& model, const ModelState& state, ModelRandom& random) {
+ModelState next_state(const EncounterModel& model, const ModelState& state, Random& random) {
   ModelState next{.bins = next_bins(model, state.bins, random), .values = state.values};
   for (std::size_t i = 0; i < model.variables.size(); ++i) {
     const ModelVariable& variable = model.variables[i];

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/nesting.h"
 #include "base/text.h"
 #include "project/json_reading.h"
 #include "project/places.h"
@@ -330,7 +331,7 @@ std::vector<std::string> keys_of(const std::vector<Field>& fields) {
 }
 
 Json json_or_text(const std::string& text) {
-  if (json_depth(text) > kMaxJsonNesting) return text;
+  if (json_depth(text) > kMaxNesting) return text;
   Json json = Json::parse(text, nullptr, false);
   return json.is_discarded() ? Json(text) : json;
 }

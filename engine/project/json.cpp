@@ -239,6 +239,8 @@ Result<void> check_sections(const Json& json, const std::string& file, Project& 
 Result<ReadProject> parse_project(const std::string& text, const std::filesystem::path& path) {
   const std::string file = path.string();
   const Result<Json> json = parsed_json(text, file, ErrorKind::bad_project);
+  if (!json && text.find_first_not_of(" \t\r\n") != text.find('{') && !file.ends_with(".json"))
+    return fail(file, "is not JSON; `sigs init` makes a project of a video", ErrorKind::bad_project);
   if (!json) return fail(json.error());
   ReadProject read;
   read.project.file = path;

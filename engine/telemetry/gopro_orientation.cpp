@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/interpolation.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "telemetry/log_samples.h"
@@ -84,14 +85,8 @@ std::string letters_of_model(const std::string& device) {
 
 constexpr double kApart_rad = rad_of_deg(5);
 
-// Between two samples at an even rate; before the first and after the last as these.
 glm::dquat turn_at(const Channel<glm::dquat>& channel, double time_s) {
-  const auto after = std::upper_bound(channel.times_s.begin(), channel.times_s.end(), time_s);
-  const std::size_t i = static_cast<std::size_t>(after - channel.times_s.begin());
-  if (i == 0) return channel.values.front();
-  if (i == channel.times_s.size()) return channel.values.back();
-  const double share = (time_s - channel.times_s[i - 1]) / (channel.times_s[i] - channel.times_s[i - 1]);
-  return glm::slerp(channel.values[i - 1], channel.values[i], share);
+  return value_at(channel.times_s, channel.values, time_s);
 }
 
 // The smallest turn that takes a direction to Z.

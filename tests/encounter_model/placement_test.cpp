@@ -134,7 +134,7 @@ TEST_CASE("pairs of drawn flights have the miss distances, side and bearing that
   int placed_pairs = 0;
   int refused = 0;
   for (std::uint64_t pair = 0; pair < 2000; ++pair) {
-    ModelRandom random(99, pair);
+    Random random(99, pair);
     const ModelFlight own = sampled_track(flying, {}, random);
     const ModelFlight intruder = sampled_track(flying, {}, random);
     const ApproachRequest asked{.time_s = pair % 5 == 0 ? 30 : 60 * random.uniform(),

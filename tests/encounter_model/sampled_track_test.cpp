@@ -81,9 +81,9 @@ TEST_CASE("an aircraft whose speed falls to zero stays where it is") {
 TEST_CASE("a drawn flight is continuous and flies what the model says, in the file's units") {
   const EncounterModel model = small_flying();
   for (std::uint64_t number = 0; number < 200; ++number) {
-    ModelRandom random(1, number);
+    Random random(1, number);
     const ModelFlight track = sampled_track(model, {.duration_s = 30, .level_step_ft = 0}, random);
-    ModelRandom again(1, number);
+    Random again(1, number);
     ModelState state = initial_state(model, again);
     double altitude_ft = state.values[0];
     REQUIRE(track.points.size() == 31);
@@ -108,8 +108,8 @@ TEST_CASE("the altitude of a level flight is a multiple of 500 ft, never the gro
   const EncounterModel model = small_flying();
   int level = 0;
   for (std::uint64_t number = 0; number < 500; ++number) {
-    ModelRandom random(1, number);
-    ModelRandom again(1, number);
+    Random random(1, number);
+    Random again(1, number);
     const double drawn_ft = initial_state(model, again).values[0];
     const ModelFlight track = sampled_track(model, {.duration_s = 1}, random);
     const double altitude_ft = track.initial_values[0];
@@ -131,7 +131,7 @@ TEST_CASE("flights below the ground or beyond the speeds of the model are drawn 
       read_encounter_model(real_data() / "encounters" / "models" / "uncor_1200only_fwse_v1p2.txt").value();
   int outside = 0;
   for (std::uint64_t number = 0; number < 500; ++number) {
-    ModelRandom random(4, number);
+    Random random(4, number);
     const ModelFlight free = sampled_track(model, {.duration_s = 300}, random);
     bool is_inside = true;
     for (const SampledPoint& point : free.points)
@@ -139,7 +139,7 @@ TEST_CASE("flights below the ground or beyond the speeds of the model are drawn 
           is_inside && point.position_neu_m.z >= 0 && point.speed_mps > 0 && point.speed_mps < 300 * 1852.0 / 3600;
     CHECK(free.is_within_limits == is_inside);
     outside += is_inside ? 0 : 1;
-    ModelRandom again(4, number);
+    Random again(4, number);
     const ModelFlight kept = sampled_track(model, {.duration_s = 300, .max_redraws = 1000}, again);
     CHECK(kept.is_within_limits);
     CHECK((kept.redraws > 0) == !is_inside);
@@ -154,7 +154,7 @@ TEST_CASE("every published model flies, and a seed gives the same bytes") {
     const EncounterModel model = read_encounter_model(real_data() / "encounters" / "models" / name).value();
     REQUIRE(check_can_fly(model));
     const auto bytes = [&](std::uint64_t seed) {
-      ModelRandom random(seed);
+      Random random(seed);
       const ModelFlight track = sampled_track(model, {.duration_s = 120}, random);
       std::string text(track.points.size() * sizeof(SampledPoint), '\0');
       std::memcpy(text.data(), track.points.data(), text.size());

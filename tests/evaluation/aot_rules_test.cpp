@@ -232,7 +232,7 @@ TEST_CASE("files of the challenge that are broken are refused with the place") {
   const auto entity = [](const std::string& fields) {
     return "{\"samples\":{\"f\":{\"entities\":[{\"img_name\":\"a\"," + fields + "}]}}}";
   };
-  CHECK(truth_error("{").find("is no JSON: wrong at line 1") == 0);
+  CHECK(truth_error("{").find("is not JSON: unexpected text at line 1") == 0);
   CHECK(truth_error("[]") == "has no object \"samples\" of flights");
   CHECK(truth_error("{\"samples\":{\"f\":{}}}") == "samples.f has no list \"entities\"");
   CHECK(truth_error(entity("\"blob\":{}")) == "samples.f.entities[0].frame is not a number of a magnitude up to 1e9");
@@ -241,8 +241,8 @@ TEST_CASE("files of the challenge that are broken are refused with the place") {
   CHECK(truth_error(entity("\"id\":\"Bird1\",\"blob\":{\"frame\":1},\"bb\":[1,2,3,0]")) ==
         "samples.f.entities[0].box has no area");
   CHECK(truth_error(entity("\"blob\":{\"frame\":1}")) == "read");
-  CHECK(truth_error(std::string(5000, '[')) == "is nested too deeply");
-  CHECK(truth_error("{\"samples\":1e999}").find("is no JSON") == 0);
+  CHECK(truth_error(std::string(5000, '[')) == "has more than 100 brackets within one another");
+  CHECK(truth_error("{\"samples\":1e999}").find("holds a number that is too large") == 0);
   write_file(folder / "r.json", "[{\"img_name\":\"a\",\"detections\":[{\"x\":1,\"y\":1,\"w\":1,\"s\":1}]}]");
   CHECK(read_aot_reports(folder / "r.json").error().what ==
         "[0].detections[0].h is not a number of a magnitude up to 1e9");

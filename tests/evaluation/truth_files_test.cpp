@@ -330,7 +330,7 @@ TEST_CASE("a truth that is wrong is refused in one line that says where") {
   coco(R"({"images": [{"id": 1, "file_name": "a.png"}, {"id": 1, "file_name": "b.png"}], "annotations": []})",
        "images[1].id 1 is there twice");
   coco("{\"images\": 3}", "images is not a list");
-  coco("{\"images\": [", "c.json: is no JSON");
+  coco("{\"images\": [", "c.json: is not JSON");
   coco("[]", "c.json: is not labels (.xml)");
 
   const auto aot = [&](const std::string& flight, const std::string& part) {

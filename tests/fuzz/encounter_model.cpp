@@ -26,7 +26,7 @@ void try_encounter_model(const FuzzInput& input) {
   check_network(model->initial);
   check_network(model->transition);
   if (const Result<void> flies = check_can_fly(*model); !flies) return check_message(flies.error());
-  ModelRandom random(1);
+  Random random(1);
   const ModelFlight flight = sampled_track(*model, {.duration_s = 5}, random);
   ENSURE(flight.points.size() == 6);
 }

@@ -9,6 +9,8 @@
 #include <span>
 
 #include "base/ensure.h"
+#include "base/random.h"
+#include "base/statistics.h"
 #include "evaluation/metrics/detection_score.h"
 
 namespace sigs {
@@ -17,35 +19,16 @@ namespace {
 
 constexpr int kDraws = 2000;
 
-// Numbers of a fixed sequence (splitmix64, Steele, Lea, Flood 2014).
-class Draws {
- public:
-  std::size_t below(std::size_t n) {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return static_cast<std::size_t>((z ^ (z >> 31)) % n);
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
-
 // The middle 95 % of what `figure` gives for groups drawn anew.
 Interval interval_of(std::size_t groups, const std::function<double(std::span<const std::size_t>)>& figure) {
   std::vector<double> figures;
   std::vector<std::size_t> drawn(groups);
-  Draws draws;
+  std::uint64_t state = 1;
   for (int i = 0; groups > 0 && i < kDraws; ++i) {
-    for (std::size_t& group : drawn) group = draws.below(groups);
+    for (std::size_t& group : drawn) group = splitmix64(state += kSplitMixStep) % groups;
     if (const double value = figure(drawn); std::isfinite(value)) figures.push_back(value);
   }
-  if (figures.empty()) return {std::nan(""), std::nan("")};
-  std::sort(figures.begin(), figures.end());
-  const auto at = [&](double share) {
-    return figures[static_cast<std::size_t>(std::lround(share * static_cast<double>(figures.size() - 1)))];
-  };
-  return {at(0.025), at(0.975)};
+  return {quantile(figures, 0.025), quantile(figures, 0.975)};
 }
 
 double share_of(const std::vector<GroupShare>& groups, std::span<const std::size_t> drawn) {

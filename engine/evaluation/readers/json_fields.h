@@ -3,10 +3,10 @@
 
 #include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "base/json.h"
 #include "base/result.h"
 
 namespace sigs {
@@ -18,24 +18,24 @@ class JsonFields {
   explicit JsonFields(std::filesystem::path path) : path_(std::move(path)) {}
 
   // The whole document. Errors: cannot_read; bad_data (no JSON, nested too deeply).
-  [[nodiscard]] Result<nlohmann::json> document() const;
+  [[nodiscard]] Result<Json> document() const;
 
   // The place that is read from here on, for messages: "annotations[3]".
   void enter(std::string place) { place_ = std::move(place); }
 
   // The object's value of this key; null where there is none, or it is null, or `object` is no object.
-  [[nodiscard]] static const nlohmann::json* field(const nlohmann::json& object, const char* key);
+  [[nodiscard]] static const Json* field(const Json& object, const char* key);
 
   // Values that must be there: text; a number of a magnitude up to 1e9; a whole one; a list of four such numbers. What
   // is returned where it is not so has no meaning.
-  [[nodiscard]] std::string text(const nlohmann::json& object, const char* key);
-  [[nodiscard]] double number(const nlohmann::json& object, const char* key);
-  [[nodiscard]] int whole(const nlohmann::json& object, const char* key);
-  [[nodiscard]] std::array<double, 4> four_numbers(const nlohmann::json& object, const char* key);
+  [[nodiscard]] std::string text(const Json& object, const char* key);
+  [[nodiscard]] double number(const Json& object, const char* key);
+  [[nodiscard]] int whole(const Json& object, const char* key);
+  [[nodiscard]] std::array<double, 4> four_numbers(const Json& object, const char* key);
 
   // The same of values that need not be there.
-  [[nodiscard]] std::optional<double> optional_number(const nlohmann::json& object, const char* key);
-  [[nodiscard]] std::optional<int> optional_whole(const nlohmann::json& object, const char* key);
+  [[nodiscard]] std::optional<double> optional_number(const Json& object, const char* key);
+  [[nodiscard]] std::optional<int> optional_whole(const Json& object, const char* key);
 
   // Keeps "PLACE.KEY WHAT" as the error where there is none yet.
   void wrong(const char* key, const std::string& what);

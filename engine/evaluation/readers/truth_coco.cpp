@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "evaluation/readers/json_fields.h"
@@ -13,8 +12,6 @@
 namespace sigs {
 
 namespace {
-
-using nlohmann::json;
 
 struct CocoImage {
   int id = 0;
@@ -39,15 +36,15 @@ struct CocoPlace {
 };
 
 // A list of the document; null: there is none.
-const json* list_of(JsonFields& fields, const json& document, const char* key) {
-  const json* const list = JsonFields::field(document, key);
+const Json* list_of(JsonFields& fields, const Json& document, const char* key) {
+  const Json* const list = JsonFields::field(document, key);
   if (list == nullptr || list->is_array()) return list;
   fields.enter("");
   fields.wrong(key, "is not a list");
   return nullptr;
 }
 
-CocoImage image_of(JsonFields& fields, const json& entry, bool stills) {
+CocoImage image_of(JsonFields& fields, const Json& entry, bool stills) {
   CocoImage image{.id = fields.whole(entry, "id"), .name = fields.text(entry, "file_name")};
   if (!stills) image.video = fields.optional_whole(entry, "video_id");
   if (!stills) image.frame = fields.optional_whole(entry, "footage_frame");
@@ -59,9 +56,9 @@ CocoImage image_of(JsonFields& fields, const json& entry, bool stills) {
 }
 
 // The videos of the file by rising id, or one of all images where images are of none.
-Result<std::vector<CocoVideo>> videos_of(JsonFields& fields, const json& document, const TruthOptions& options) {
+Result<std::vector<CocoVideo>> videos_of(JsonFields& fields, const Json& document, const TruthOptions& options) {
   std::map<int, CocoVideo> by_id;
-  if (const json* const videos = options.stills ? nullptr : list_of(fields, document, "videos"))
+  if (const Json* const videos = options.stills ? nullptr : list_of(fields, document, "videos"))
     for (std::size_t i = 0; i < videos->size(); ++i) {
       fields.enter(fmt::format("videos[{}]", i));
       CocoVideo video{.id = fields.whole((*videos)[i], "id")};
@@ -71,7 +68,7 @@ Result<std::vector<CocoVideo>> videos_of(JsonFields& fields, const json& documen
       if (video.rate_hz < 0) fields.wrong("fps", "is below 0");
       if (!by_id.emplace(video.id, video).second) fields.wrong("id", fmt::format("{} is there twice", video.id));
     }
-  const json* const images = list_of(fields, document, "images");
+  const Json* const images = list_of(fields, document, "images");
   const bool has_videos = !by_id.empty();
   std::set<int> ids;
   std::string whole_name = fields.path().stem().string();
@@ -137,7 +134,7 @@ TruthBuilder builder_of(const CocoVideo& video, const TruthOptions& options) {
           options};
 }
 
-HorizonSide horizon_side_in(JsonFields& fields, const json& entry) {
+HorizonSide horizon_side_in(JsonFields& fields, const Json& entry) {
   if (JsonFields::field(entry, "horizon") == nullptr) return HorizonSide::unknown;
   const std::optional<HorizonSide> side = horizon_side_named(fields.text(entry, "horizon"));
   if (!side) fields.wrong("horizon", "is not above, on, below or unknown");
@@ -150,8 +147,8 @@ Box box_of_numbers(const std::array<double, 4>& box) {
 }
 
 // true, false, 1 or 0; not there: false.
-bool flag_of(JsonFields& fields, const json& entry, const char* key) {
-  const json* const value = JsonFields::field(entry, key);
+bool flag_of(JsonFields& fields, const Json& entry, const char* key) {
+  const Json* const value = JsonFields::field(entry, key);
   if (value == nullptr) return false;
   if (value->is_boolean()) return value->get<bool>();
   const int number = fields.whole(entry, key);
@@ -160,7 +157,7 @@ bool flag_of(JsonFields& fields, const json& entry, const char* key) {
 }
 
 // An annotation; what SIGS adds to the layout is read where it is there.
-TrueBox box_of_annotation(JsonFields& fields, const json& entry, const std::map<int, std::string>& categories) {
+TrueBox box_of_annotation(JsonFields& fields, const Json& entry, const std::map<int, std::string>& categories) {
   TrueBox box{.box = box_of_numbers(fields.four_numbers(entry, "bbox"))};
   box.is_ignored = flag_of(fields, entry, "iscrowd");
   box.is_ignored |= flag_of(fields, entry, "ignore");
@@ -181,9 +178,9 @@ TrueBox box_of_annotation(JsonFields& fields, const json& entry, const std::map<
   return box;
 }
 
-std::map<int, std::string> categories_of(JsonFields& fields, const json& document) {
+std::map<int, std::string> categories_of(JsonFields& fields, const Json& document) {
   std::map<int, std::string> names;
-  const json* const list = list_of(fields, document, "categories");
+  const Json* const list = list_of(fields, document, "categories");
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     fields.enter(fmt::format("categories[{}]", i));
     names[fields.whole((*list)[i], "id")] = fields.text((*list)[i], "name");
@@ -191,10 +188,10 @@ std::map<int, std::string> categories_of(JsonFields& fields, const json& documen
   return names;
 }
 
-Result<void> add_annotations(JsonFields& fields, const json& document, const std::map<int, CocoPlace>& places,
+Result<void> add_annotations(JsonFields& fields, const Json& document, const std::map<int, CocoPlace>& places,
                              std::vector<TruthBuilder>& builders) {
   const std::map<int, std::string> categories = categories_of(fields, document);
-  const json* const annotations = list_of(fields, document, "annotations");
+  const Json* const annotations = list_of(fields, document, "annotations");
   if (annotations == nullptr && !fields.is_wrong()) return fields.failure("has no list \"annotations\"");
   for (std::size_t i = 0; annotations != nullptr && i < annotations->size(); ++i) {
     if (fields.is_wrong()) break;
@@ -221,7 +218,7 @@ Result<void> add_annotations(JsonFields& fields, const json& document, const std
 
 Result<std::vector<TruthClip>> read_coco_clips(const std::filesystem::path& path, const TruthOptions& options) {
   JsonFields fields(path);
-  const Result<json> document = fields.document();
+  const Result<Json> document = fields.document();
   if (!document) return fail(document.error());
   Result<std::vector<CocoVideo>> videos = videos_of(fields, *document, options);
   if (!videos) return fail(videos.error());

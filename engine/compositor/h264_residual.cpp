@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "video/h264_residual.h"
+#include "compositor/h264_residual.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 namespace sigs {
 namespace {
 
-constexpr int kBlock = 4;
+constexpr int kTransform_px = 4;
 constexpr int kBlocksPerSide = 4;  // of a macroblock of luma
 
 using Block = std::array<int, 16>;  // row by row
@@ -87,8 +87,8 @@ bool quantise(Block& block, int qp, std::size_t first) {
 // The difference between plane and prediction at (x, y).
 Block difference(const cv::Mat& plane, const cv::Mat& predicted, int x, int y) {
   Block block{};
-  for (int j = 0; j < kBlock; ++j)
-    for (int i = 0; i < kBlock; ++i)
+  for (int j = 0; j < kTransform_px; ++j)
+    for (int i = 0; i < kTransform_px; ++i)
       block[static_cast<std::size_t>(4 * j + i)] = plane.at<uchar>(y + j, x + i) - predicted.at<uchar>(y + j, x + i);
   return block;
 }
@@ -100,8 +100,8 @@ bool is_zero(const Block& block) {
 void reconstruct(cv::Mat& plane, const cv::Mat& predicted, int x, int y, Block block) {
   for (int i = 0; i < 4; ++i) inverse_transform(block.data() + 4 * i, 1);
   for (int i = 0; i < 4; ++i) inverse_transform(block.data() + i, 4);
-  for (int j = 0; j < kBlock; ++j)
-    for (int i = 0; i < kBlock; ++i)
+  for (int j = 0; j < kTransform_px; ++j)
+    for (int i = 0; i < kTransform_px; ++i)
       plane.at<uchar>(y + j, x + i) = cv::saturate_cast<uchar>(
           predicted.at<uchar>(y + j, x + i) + ((block[static_cast<std::size_t>(4 * j + i)] + 32) >> 6));
 }
@@ -127,7 +127,7 @@ void code_chroma_group(cv::Mat& plane, const cv::Mat& predicted, int x, int y, i
   bool differs = false;
   for (int k = 0; k < 4; ++k) {
     Block& block = blocks[static_cast<std::size_t>(k)];
-    block = difference(plane, predicted, x + kBlock * (k % 2), y + kBlock * (k / 2));
+    block = difference(plane, predicted, x + kTransform_px * (k % 2), y + kTransform_px * (k / 2));
     differs |= !is_zero(block);
     block = transformed(block);
     means[static_cast<std::size_t>(k)] = block[0];
@@ -138,7 +138,7 @@ void code_chroma_group(cv::Mat& plane, const cv::Mat& predicted, int x, int y, i
   for (int k = 0; k < 4; ++k) {
     Block& block = blocks[static_cast<std::size_t>(k)];
     block[0] = coded[static_cast<std::size_t>(k)];
-    reconstruct(plane, predicted, x + kBlock * (k % 2), y + kBlock * (k / 2), block);
+    reconstruct(plane, predicted, x + kTransform_px * (k % 2), y + kTransform_px * (k / 2), block);
   }
 }
 
@@ -274,13 +274,13 @@ int chroma_qp(int luma_qp, int offset) {
 CodedBlocks code_luma(cv::Mat& plane, const cv::Mat& predicted, const cv::Mat& qp) {
   ENSURE(plane.size() == predicted.size());
   CodedBlocks blocks{cv::Mat::zeros(kBlocksPerSide * qp.rows, kBlocksPerSide * qp.cols, CV_8UC1), qp};
-  for (int y = 0; y < plane.rows; y += kBlock)
-    for (int x = 0; x < plane.cols; x += kBlock) {
+  for (int y = 0; y < plane.rows; y += kTransform_px)
+    for (int x = 0; x < plane.cols; x += kTransform_px) {
       Block block = difference(plane, predicted, x, y);
       if (is_zero(block)) continue;
       block = transformed(block);
       const bool coded = quantise(block, qp.at<short>(y / 16, x / 16), 0);
-      blocks.coded.at<uchar>(y / kBlock, x / kBlock) = coded ? 1 : 0;
+      blocks.coded.at<uchar>(y / kTransform_px, x / kTransform_px) = coded ? 1 : 0;
       reconstruct(plane, predicted, x, y, block);
     }
   return blocks;
@@ -288,8 +288,8 @@ CodedBlocks code_luma(cv::Mat& plane, const cv::Mat& predicted, const cv::Mat& q
 
 void code_chroma(cv::Mat& plane, const cv::Mat& predicted, const cv::Mat& qp, cv::Size step, int offset) {
   ENSURE(plane.size() == predicted.size());
-  for (int y = 0; y < plane.rows; y += 2 * kBlock)
-    for (int x = 0; x < plane.cols; x += 2 * kBlock)
+  for (int y = 0; y < plane.rows; y += 2 * kTransform_px)
+    for (int x = 0; x < plane.cols; x += 2 * kTransform_px)
       code_chroma_group(plane, predicted, x, y,
                         chroma_qp(qp.at<short>(y * step.height / 16, x * step.width / 16), offset));
 }

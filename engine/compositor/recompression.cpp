@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "video/recompression.h"
+#include "compositor/recompression.h"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "base/ensure.h"
+#include "compositor/h264_residual.h"
 #include "video/frame_quantisers.h"
-#include "video/h264_residual.h"
 
 namespace sigs {
 namespace {
