@@ -12,6 +12,7 @@
 #include "base/input_file.h"
 #include "base/text.h"
 #include "evaluation/metrics/aot_rules.h"
+#include "evaluation/reports/report_files.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

@@ -78,14 +78,4 @@ struct AotScore {
 [[nodiscard]] Result<AotScore> aot_score(const AotTruth& truth, const std::vector<AotReport>& reports,
                                          const AotPolicy& policy);
 
-// The published program's summary, in its own keys.
-[[nodiscard]] std::string aot_summary_json(const AotScore& score);
-
-// Its table of encounters, by single detections or by tracks.
-[[nodiscard]] std::string aot_encounters_csv(const AotTruth& truth, const AotScore& score,
-                                             const std::vector<AotEncounterScore>& scores);
-
-// For people.
-[[nodiscard]] std::string aot_table(const AotScore& score);
-
 }  // namespace sigs

@@ -38,7 +38,10 @@ struct FrameSlice {
   std::string name;  // "100 to 300 m"
   int frames = 0;    // (frame, intruder) pairs
   int matched = 0;
-  Interval rate;  // of matched / frames, by drawing flights: one intruder of one clip
+  Interval rate;  // of share(), by drawing flights: one intruder of one clip
+
+  // matched / frames; NaN where there is no frame.
+  [[nodiscard]] double share() const { return double(matched) / frames; }
 };
 
 // What makes a frame, in which some of the intruder is visible, part of a slice.

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <array>
 
 #include "base/csv.h"
+#include "base/json.h"
 #include "base/text.h"
-#include "evaluation/metrics/aot_rules.h"
+#include "evaluation/reports/report_files.h"
 
 namespace sigs {
 
 namespace {
-
-using SummaryJson = nlohmann::ordered_json;
 
 struct AotRate {
   int detected = 0;
@@ -35,8 +34,8 @@ std::array<AotRate, kAotClasses> rates_of(const AotScore& score, const std::vect
   return rates;
 }
 
-SummaryJson json_of(const AotScore& score, const std::vector<AotEncounterScore>& scores) {
-  SummaryJson classes;
+Json json_of(const AotScore& score, const std::vector<AotEncounterScore>& scores) {
+  Json classes;
   const auto rates = rates_of(score, scores);
   for (std::size_t k = 0; k < kAotClasses; ++k)
     classes[kAotClassNames[k]] = {{"detected", rates[k].detected}, {"total", rates[k].total}, {"dr", rates[k].rate()}};
@@ -48,7 +47,7 @@ SummaryJson json_of(const AotScore& score, const std::vector<AotEncounterScore>&
 std::string aot_summary_json(const AotScore& score) {
   const auto share = [](int part, int whole) { return whole > 0 ? static_cast<double>(part) / whole : 0.0; };
   const AotPolicy& policy = score.policy;
-  SummaryJson json;
+  Json json;
   json["target_metrics"] = nullptr;
   json["target_value"] = nullptr;
   if (policy.target_fppi) json["target_metrics"] = "fppi", json["target_value"] = *policy.target_fppi;
@@ -73,7 +72,7 @@ std::string aot_summary_json(const AotScore& score) {
   json["fl_dr_below_area"] = share(score.matched_small, score.small_rows);
   json["Detection"] = json_of(score, score.by_detection);
   json["Tracking"] = json_of(score, score.by_track);
-  return json.dump(1) + "\n";
+  return json_text(json, 1);
 }
 
 std::string aot_encounters_csv(const AotTruth& truth, const AotScore& score,

@@ -1,28 +1,48 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <initializer_list>
-#include <nlohmann/json.hpp>
+#include <cmath>
 #include <span>
 
 #include "base/csv.h"
+#include "base/json.h"
 #include "base/text.h"
 #include "evaluation/reports/report_files.h"
 #include "labels/label_text.h"
+
+// The CSV and JSON files of reports. A row of most tables is an object with a value for each column, which the JSON
+// file has too: in CSV, NaN and null are empty, true is 1 and false 0.
 
 namespace sigs {
 
 namespace {
 
-// Without a line break.
-std::string cells(std::initializer_list<std::string> fields) {
-  std::string line;
-  for (const std::string& field : fields) line.append(line.empty() ? "" : ",").append(csv_field(field));
-  return line;
+std::string cell(const Json& value) {
+  if (value.is_string()) return csv_field(value.get_ref<const std::string&>());
+  if (value.is_number_float()) return exact_text(value.get<double>());
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  return value.is_null() ? "" : value.dump();
 }
 
-std::string row(std::initializer_list<std::string> fields) {
-  return cells(fields) + "\n";
+std::string header_of(const Json& row) {
+  std::string line;
+  for (const auto& [name, value] : row.items()) line += (line.empty() ? "" : ",") + name;
+  return line + "\n";
+}
+
+std::string line_of(const Json& row) {
+  std::string line;
+  for (const auto& [name, value] : row.items()) line += (&value == &row.front() ? "" : ",") + cell(value);
+  return line + "\n";
+}
+
+Json joined(Json row, Json more) {
+  append_members(row, std::move(more));
+  return row;
+}
+
+Json json_of(const std::optional<double>& number) {
+  return number ? Json(*number) : Json(nullptr);
 }
 
 // With a comma before each number. As in layout csv of results, x is the first column covered, counted from 0. Empty
@@ -35,109 +55,6 @@ std::string box_cells(const std::optional<Box>& box) {
   return text;
 }
 
-std::string flag(bool is_so) {
-  return is_so ? "1" : "0";
-}
-
-}  // namespace
-
-std::string track_figure_names() {
-  return "scored_frames,reported_frames,lost_frames,reported_absent_frames,mean_center_error_px,"
-         "median_center_error_px,p95_center_error_px,mean_x_error_px,mean_y_error_px,precision_at_20_px,success_auc,"
-         "normalized_precision_auc,mean_overlap,measured_frames_per_s";
-}
-
-std::string track_figures_csv(const TrackScore& score) {
-  return cells({std::to_string(score.scored), std::to_string(score.reported), std::to_string(score.lost),
-                std::to_string(score.reported_absent), exact_text(score.mean_center_error_px),
-                exact_text(score.median_center_error_px), exact_text(score.p95_center_error_px),
-                exact_text(score.mean_dx_px), exact_text(score.mean_dy_px), exact_text(score.precision_at_20),
-                exact_text(score.success_auc), exact_text(score.normalized_precision_auc),
-                exact_text(score.mean_overlap), exact_text(score.frames_per_s)});
-}
-
-std::string summary_csv(const TrackReport& report) {
-  std::string text = "tracker," + track_figure_names() + "\n";
-  for (const TrackScore& score : report.scores)
-    text += csv_field(line_text(score.name)) + "," + track_figures_csv(score) + "\n";
-  return text;
-}
-
-std::string frames_csv(const TrackReport& report) {
-  std::string text =
-      "tracker,frame,time_s,is_scored,is_reported,x_error_px,y_error_px,center_error_px,normalized_error,overlap,"
-      "is_lost,distance_m,true_x_px,true_y_px,true_width_px,true_height_px,reported_x_px,reported_y_px,"
-      "reported_width_px,reported_height_px\n";
-  for (const TrackScore& score : report.scores)
-    for (const FrameScore& frame : score.frames)
-      text +=
-          cells({line_text(score.name), std::to_string(frame.frame), exact_text(frame.time_s), flag(frame.is_scored),
-                 flag(frame.is_reported), exact_text(frame.dx_px), exact_text(frame.dy_px),
-                 exact_text(frame.center_error_px), exact_text(frame.normalized_error),
-                 frame.is_scored ? exact_text(frame.overlap) : "", flag(frame.is_lost), exact_text(frame.distance_m)}) +
-          box_cells(frame.truth) + box_cells(frame.reported) + "\n";
-  return text;
-}
-
-std::string summary_csv(const DetectionReport& report) {
-  std::string text =
-      "detector,encounters,encounters_too_short,encounters_too_far,detected,encounters_above,detected_above,encounters_"
-      "on,detected_on,"
-      "encounters_below,"
-      "detected_below,encounters_unknown,detected_unknown,false_alarm_tracks,false_alarms_per_hour,false_alarm_boxes,"
-      "false_boxes_per_frame,"
-      "frame_detection_rate,mean_first_range_m,frames,hours\n";
-  for (const DetectionScore& score : report.scores) {
-    const auto count = [](int number) { return std::to_string(number); };
-    text += row({line_text(score.name),
-                 count(score.all.encounters),
-                 count(score.encounters_too_short),
-                 count(score.encounters_too_far),
-                 count(score.all.detected),
-                 count(score.above_horizon.encounters),
-                 count(score.above_horizon.detected),
-                 count(score.on_horizon.encounters),
-                 count(score.on_horizon.detected),
-                 count(score.below_horizon.encounters),
-                 count(score.below_horizon.detected),
-                 count(score.unknown_horizon.encounters),
-                 count(score.unknown_horizon.detected),
-                 count(score.false_alarm_tracks),
-                 exact_text(score.false_alarms_per_hour),
-                 count(score.false_alarm_boxes),
-                 exact_text(score.false_boxes_per_frame),
-                 exact_text(score.frame_detection_rate),
-                 exact_text(score.mean_first_range_m),
-                 count(score.frames),
-                 exact_text(score.hours)});
-  }
-  return text;
-}
-
-std::string encounters_csv(const DetectionReport& report) {
-  std::string text =
-      "detector,film,target,first_frame,last_frame,horizon,is_detected,first_detection_range_m,first_detection_time_s,"
-      "confirmed_range_m,confirmed_time_s,nearest_m,frames_visible,frames_matched\n";
-  for (const DetectionScore& score : report.scores)
-    for (const EncounterScore& encounter : score.encounters)
-      text += row({line_text(score.name), line_text(encounter.clip), std::to_string(encounter.target),
-                   std::to_string(encounter.first_frame), std::to_string(encounter.last_frame),
-                   std::string(name_of(encounter.horizon)), flag(encounter.is_detected),
-                   exact_text(encounter.first_detection_range_m), exact_text(encounter.first_detection_time_s),
-                   exact_text(encounter.confirmed_range_m), exact_text(encounter.confirmed_time_s),
-                   exact_text(encounter.min_range_m), std::to_string(encounter.frames_visible),
-                   std::to_string(encounter.frames_matched)});
-  return text;
-}
-
-namespace {
-
-using Json = nlohmann::ordered_json;  // NaN and infinity are written as null
-
-Json json_of(const std::optional<double>& number) {
-  return number ? Json(*number) : Json(nullptr);
-}
-
 // A curve: thresholds from 0 in equal steps, and the share of frames at each.
 Json curve(std::span<const double> shares, double last_threshold) {
   Json thresholds = Json::array();
@@ -146,11 +63,9 @@ Json curve(std::span<const double> shares, double last_threshold) {
   return {{"thresholds", thresholds}, {"shares", std::vector<double>(shares.begin(), shares.end())}};
 }
 
-}  // namespace
-
-nlohmann::ordered_json track_json(const TrackScore& score) {
-  return {{"name", line_text(score.name)},
-          {"scored_frames", score.scored},
+// The figures of one tracker.
+Json figures_of(const TrackScore& score) {
+  return {{"scored_frames", score.scored},
           {"reported_frames", score.reported},
           {"lost_frames", score.lost},
           {"reported_absent_frames", score.reported_absent},
@@ -163,16 +78,14 @@ nlohmann::ordered_json track_json(const TrackScore& score) {
           {"success_auc", score.success_auc},
           {"normalized_precision_auc", score.normalized_precision_auc},
           {"mean_overlap", score.mean_overlap},
-          {"measured_frames_per_s", json_of(score.frames_per_s)},
-          {"precision", curve(score.precision, 50)},
-          {"success", curve(score.success, 1)},
-          {"normalized_precision", curve(score.normalized_precision, 0.5)}};
+          {"measured_frames_per_s", json_of(score.frames_per_s)}};
 }
 
-namespace {
-
 Json json_of(const TrackScore& score) {
-  return track_json(score);
+  return joined(joined({{"name", line_text(score.name)}}, figures_of(score)),
+                {{"precision", curve(score.precision, 50)},
+                 {"success", curve(score.success, 1)},
+                 {"normalized_precision", curve(score.normalized_precision, 0.5)}});
 }
 
 Json json_of(const FootageTruth& footage) {
@@ -220,17 +133,28 @@ Json json_of(const EncounterScore& encounter) {
           {"frames_matched", encounter.frames_matched}};
 }
 
+Json json_of(const FrameSlice& slice) {
+  return {{"slice", slice.name},   {"frames", slice.frames},        {"matched", slice.matched},
+          {"rate", slice.share()}, {"rate_low_95", slice.rate.low}, {"rate_high_95", slice.rate.high}};
+}
+
+Json json_of(const Interval& interval) {
+  return {interval.low, interval.high};
+}
+
+Json json_of(const TrackSlice& slice) {
+  return {{"slice", slice.name},
+          {"frames", slice.frames},
+          {"mean_overlap", slice.mean_overlap},
+          {"mean_overlap_95", json_of(slice.interval)}};
+}
+
 // By "range", "size" and so on: the slices that have frames.
-Json json_of(const std::vector<FrameSlice>& slices) {
+template <class Slice>
+Json slices_json(const std::vector<Slice>& slices) {
   Json json = Json::object();
-  for (const FrameSlice& slice : slices)
-    if (slice.frames > 0)
-      json[slice.by].push_back({{"slice", slice.name},
-                                {"frames", slice.frames},
-                                {"matched", slice.matched},
-                                {"rate", static_cast<double>(slice.matched) / slice.frames},
-                                {"rate_low_95", slice.rate.low},
-                                {"rate_high_95", slice.rate.high}});
+  for (const Slice& slice : slices)
+    if (slice.frames > 0) json[slice.by].push_back(json_of(slice));
   return json;
 }
 
@@ -264,14 +188,163 @@ Json json_lines(const std::vector<Text>& texts) {
   return lines;
 }
 
-template <class Score>
-Json scores_of(const std::vector<Score>& scores) {
+template <class Part>
+Json list_of(const std::vector<Part>& parts) {
   Json list = Json::array();
-  for (const Score& score : scores) list.push_back(json_of(score));
+  for (const Part& part : parts) list.push_back(json_of(part));
   return list;
 }
 
+Json summary_row(const std::string& name, const TrackScore& score) {
+  return joined({{"tracker", line_text(name)}}, figures_of(score));
+}
+
+Json summary_row(const DetectionScore& score) {
+  return {{"detector", line_text(score.name)},
+          {"encounters", score.all.encounters},
+          {"encounters_too_short", score.encounters_too_short},
+          {"encounters_too_far", score.encounters_too_far},
+          {"detected", score.all.detected},
+          {"encounters_above", score.above_horizon.encounters},
+          {"detected_above", score.above_horizon.detected},
+          {"encounters_on", score.on_horizon.encounters},
+          {"detected_on", score.on_horizon.detected},
+          {"encounters_below", score.below_horizon.encounters},
+          {"detected_below", score.below_horizon.detected},
+          {"encounters_unknown", score.unknown_horizon.encounters},
+          {"detected_unknown", score.unknown_horizon.detected},
+          {"false_alarm_tracks", score.false_alarm_tracks},
+          {"false_alarms_per_hour", score.false_alarms_per_hour},
+          {"false_alarm_boxes", score.false_alarm_boxes},
+          {"false_boxes_per_frame", score.false_boxes_per_frame},
+          {"frame_detection_rate", score.frame_detection_rate},
+          {"mean_first_range_m", score.mean_first_range_m},
+          {"frames", score.frames},
+          {"hours", score.hours}};
+}
+
+Json encounter_row(const std::string& detector, const EncounterScore& encounter) {
+  return joined({{"detector", line_text(detector)}}, json_of(encounter));
+}
+
+Json slice_row(const std::string& detector, const FrameSlice& slice) {
+  return joined({{"detector", line_text(detector)}, {"by", slice.by}}, json_of(slice));
+}
+
+Json slice_row(const std::string& tracker, const TrackSlice& slice) {
+  return {{"tracker", line_text(tracker)},
+          {"by", slice.by},
+          {"slice", slice.name},
+          {"frames", slice.frames},
+          {"mean_overlap", slice.mean_overlap},
+          {"mean_overlap_low_95", slice.interval.low},
+          {"mean_overlap_high_95", slice.interval.high}};
+}
+
+Json clip_row(const TrackSetClip& clip, const TrackScore& score) {
+  return joined({{"clip", line_text(clip.name)}, {"target", line_text(clip.target)}, {"from_frame", clip.from_frame}},
+                summary_row(score.name, score));
+}
+
+Json summary_row(const TrackSetFigures& figures, std::size_t clips) {
+  const TrackScore& score = figures.over_frames;
+  return joined(joined({{"tracker", line_text(score.name)}, {"clips", clips}}, figures_of(score)),
+                {{"success_auc_low_95", figures.frames_success.low},
+                 {"success_auc_high_95", figures.frames_success.high},
+                 {"clips_mean_center_error_px", figures.clips_center_error_px},
+                 {"clips_precision_at_20_px", figures.clips_precision_at_20},
+                 {"clips_success_auc", figures.clips_success_auc},
+                 {"clips_success_auc_low_95", figures.clips_success.low},
+                 {"clips_success_auc_high_95", figures.clips_success.high},
+                 {"clips_normalized_precision_auc", figures.clips_normalized_precision_auc},
+                 {"clips_mean_overlap", figures.clips_mean_overlap},
+                 {"clips_lost_share", figures.clips_lost_share}});
+}
+
+// Of one tracker in evaluation.json.
+Json json_of(const TrackSetFigures& figures, const std::vector<TrackSlice>& slices) {
+  return joined(json_of(figures.over_frames), {{"success_auc_95", json_of(figures.frames_success)},
+                                               {"over_clips",
+                                                {{"mean_center_error_px", figures.clips_center_error_px},
+                                                 {"precision_at_20_px", figures.clips_precision_at_20},
+                                                 {"success_auc", figures.clips_success_auc},
+                                                 {"success_auc_95", json_of(figures.clips_success)},
+                                                 {"normalized_precision_auc", figures.clips_normalized_precision_auc},
+                                                 {"mean_overlap", figures.clips_mean_overlap},
+                                                 {"lost_share", figures.clips_lost_share}}},
+                                               {"frames_by", slices_json(slices)}});
+}
+
+Json json_of(const TrackSetClip& clip) {
+  return {{"name", line_text(clip.name)},
+          {"target", line_text(clip.target)},
+          {"from_frame", clip.from_frame},
+          {"frames", clip.truth.size()}};
+}
+
 }  // namespace
+
+std::string summary_csv(const TrackReport& report) {
+  std::string text = header_of(summary_row("", TrackScore{}));
+  for (const TrackScore& score : report.scores) text += line_of(summary_row(score.name, score));
+  return text;
+}
+
+std::string summary_csv(const DetectionReport& report) {
+  std::string text = header_of(summary_row(DetectionScore{}));
+  for (const DetectionScore& score : report.scores) text += line_of(summary_row(score));
+  return text;
+}
+
+std::string summary_csv(const TrackSetReport& report) {
+  std::string text = header_of(summary_row(TrackSetFigures{}, 0));
+  for (const TrackSetFigures& figures : report.figures) text += line_of(summary_row(figures, report.clips.size()));
+  return text;
+}
+
+std::string frames_csv(const TrackReport& report) {
+  std::string text =
+      "tracker,frame,time_s,is_scored,is_reported,x_error_px,y_error_px,center_error_px,normalized_error,overlap,"
+      "is_lost,distance_m,true_x_px,true_y_px,true_width_px,true_height_px,reported_x_px,reported_y_px,"
+      "reported_width_px,reported_height_px\n";
+  for (const TrackScore& score : report.scores)
+    for (const FrameScore& frame : score.frames)
+      text +=
+          fmt::format("{},{},{},{:d},{:d},{},{},{},{},{},{:d},{}{}{}\n", csv_field(line_text(score.name)), frame.frame,
+                      exact_text(frame.time_s), frame.is_scored, frame.is_reported, exact_text(frame.dx_px),
+                      exact_text(frame.dy_px), exact_text(frame.center_error_px), exact_text(frame.normalized_error),
+                      frame.is_scored ? exact_text(frame.overlap) : "", frame.is_lost, exact_text(frame.distance_m),
+                      box_cells(frame.truth), box_cells(frame.reported));
+  return text;
+}
+
+std::string encounters_csv(const DetectionReport& report) {
+  std::string text = header_of(encounter_row("", EncounterScore{}));
+  for (const DetectionScore& score : report.scores)
+    for (const EncounterScore& encounter : score.encounters) text += line_of(encounter_row(score.name, encounter));
+  return text;
+}
+
+std::string clips_csv(const TrackSetReport& report) {
+  std::string text = header_of(clip_row(TrackSetClip{}, TrackScore{}));
+  for (const TrackSetClip& clip : report.clips)
+    for (const TrackScore& score : clip.scores) text += line_of(clip_row(clip, score));
+  return text;
+}
+
+std::string slices_csv(const DetectionReport& report) {
+  std::string text = header_of(slice_row("", FrameSlice{}));
+  for (std::size_t i = 0; i < report.slices.size(); ++i)
+    for (const FrameSlice& slice : report.slices[i]) text += line_of(slice_row(report.scores[i].name, slice));
+  return text;
+}
+
+std::string slices_csv(const TrackSetReport& report) {
+  std::string text = header_of(slice_row("", TrackSlice{}));
+  for (std::size_t i = 0; i < report.slices.size(); ++i)
+    for (const TrackSlice& slice : report.slices[i]) text += line_of(slice_row(report.trackers[i], slice));
+  return text;
+}
 
 std::string evaluation_json(const TrackReport& report) {
   const Json json{{"sigs_evaluation", 1},
@@ -280,9 +353,9 @@ std::string evaluation_json(const TrackReport& report) {
                   {"footage", json_of(report.footage)},
                   {"target", line_text(report.target)},
                   {"policy", json_of(report.policy, report)},
-                  {"trackers", scores_of(report.scores)},
+                  {"trackers", list_of(report.scores)},
                   {"remarks", json_lines(report.remarks)}};
-  return json.dump(1) + "\n";
+  return json_text(json, 1);
 }
 
 std::string evaluation_json(const DetectionReport& report) {
@@ -290,10 +363,28 @@ std::string evaluation_json(const DetectionReport& report) {
             {"kind", "detect"},
             {"films", json_lines(report.clips)},
             {"policy", json_of(report.policy, report)},
-            {"detectors", scores_of(report.scores)},
+            {"detectors", list_of(report.scores)},
             {"remarks", json_lines(report.remarks)}};
-  for (std::size_t i = 0; i < report.slices.size(); ++i) json["detectors"][i]["frames_by"] = json_of(report.slices[i]);
-  return json.dump(1) + "\n";
+  for (std::size_t i = 0; i < report.slices.size(); ++i)
+    json["detectors"][i]["frames_by"] = slices_json(report.slices[i]);
+  return json_text(json, 1);
+}
+
+std::string evaluation_json(const TrackSetReport& report) {
+  Json trackers = Json::array();
+  for (std::size_t i = 0; i < report.figures.size(); ++i)
+    trackers.push_back(json_of(report.figures[i], report.slices[i]));
+  const Json json{{"sigs_evaluation", 1},
+                  {"kind", "track_set"},
+                  {"clips", list_of(report.clips)},
+                  {"policy",
+                   {{"truth", report.policy.truth == TruthBox::visible ? "visible" : "silhouette"},
+                    {"least_visible_fraction", report.policy.min_visible_fraction},
+                    {"least_side_px", report.min_side_px},
+                    {"in_words", policies_of(report)}}},
+                  {"trackers", trackers},
+                  {"remarks", json_lines(report.remarks)}};
+  return json_text(json, 1);
 }
 
 }  // namespace sigs

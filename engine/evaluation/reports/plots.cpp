@@ -168,6 +168,14 @@ Plot detection_rate_plot(const DetectionReport& report) {
   return plot;
 }
 
+// All frames of all clips as the report of one clip, for the curves.
+TrackReport as_one_clip(const TrackSetReport& report) {
+  TrackReport one{.clip = count_text(std::ssize(report.clips), "clip"), .policy = report.policy};
+  for (const TrackSetFigures& figures : report.figures) one.scores.push_back(figures.over_frames);
+  for (TrackScore& score : one.scores) score.frames.clear();
+  return one;
+}
+
 }  // namespace
 
 std::vector<Plot> plots_of(const TrackReport& report) {
@@ -194,6 +202,12 @@ std::vector<Plot> plots_of(const TrackReport& report) {
 
 std::vector<Plot> plots_of(const DetectionReport& report) {
   return {detection_rate_plot(report), first_range_plot(report)};
+}
+
+std::vector<Plot> plots_of(const TrackSetReport& report) {
+  std::vector<Plot> plots = plots_of(as_one_clip(report));
+  std::erase_if(plots, [](const Plot& plot) { return plot.name.ends_with("_error"); });  // over frames of one clip
+  return plots;
 }
 
 }  // namespace sigs

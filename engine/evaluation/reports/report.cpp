@@ -122,6 +122,11 @@ std::string min_visible_text(const TrackPolicy& policy) {
   return fmt::format(" and of which at least {} % can be seen", exact_text(100 * policy.min_visible_fraction));
 }
 
+std::string truth_text(const TrackPolicy& policy) {
+  return std::string("Truth: the box around ") +
+         (policy.truth == TruthBox::visible ? "the intruder's visible pixels." : "the whole intruder, hidden or not.");
+}
+
 std::string not_counted(int encounters) {
   return fmt::format("{} {} not counted: ", encounters, encounters == 1 ? "encounter is" : "encounters are");
 }
@@ -149,8 +154,7 @@ std::vector<std::string> policies_of(const TrackReport& report) {
   const TrackPolicy& policy = report.policy;
   const bool is_visible = policy.truth == TruthBox::visible;
   return {
-      std::string("Truth: the box around ") +
-          (is_visible ? "the intruder's visible pixels." : "the whole intruder, hidden or not."),
+      truth_text(report.policy),
       "Centre: the middle of a box's edges. Errors are reported less true centre, x to the right, y down; CLE is the "
       "length of (X, Y). The middles x + w/2 and x + (w-1)/2 differ alike in both and give the same errors.",
       fmt::format("Scored: frames from {} to {} in which the intruder has such a box{}. OpenCV's trackers are given "
@@ -188,6 +192,22 @@ std::vector<std::string> policies_of(const DetectionReport& report) {
                   exact_text(policy.detect_range_m), exact_text(policy.window_s)),
       "HFAR: the reporter's tracks that hold a false alarm, for each hour of film. FPPI: false alarms for each frame. "
       "AFDR: matched among all pairs of a frame and an intruder within range."};
+}
+
+std::vector<std::string> policies_of(const TrackSetReport& report) {
+  return {
+      truth_text(report.policy),
+      "Clip: one intruder of one video, from the first frame on in which both sides of the true box have at least " +
+          exact_text(report.min_side_px) + " px and at least " + exact_text(100 * report.policy.min_visible_fraction) +
+          " % of it can be seen. OpenCV's trackers are given the true box there.",
+      "Over frames: all frames scored of all clips, each counting alike. Over clips: the mean of the clips' own "
+      "figures, each clip counting alike, however long it is.",
+      "A tracker that cannot be started in a clip reports nothing there: its frames are lost.",
+      "Intervals: the middle 95 % of 2000 draws of as many clips as there are.",
+      "Nothing reported in a scored frame: lost, and past every threshold. CLE is over the frames with a report "
+      "alone.",
+      "Speed: frames a second of the trackers alone, beside whatever ran at the same time. It differs from run to "
+      "run; all other figures do not, whatever the number of jobs."};
 }
 
 }  // namespace sigs

@@ -40,6 +40,8 @@ struct DetectionReport {
 [[nodiscard]] std::string table_text(const DetectionReport& report);
 [[nodiscard]] std::string table_text(const TrackSetReport& report);
 
+[[nodiscard]] std::string aot_table(const AotScore& score);  // by the rules of the Airborne Object Tracking challenge
+
 // What the figures count and what they leave out, as sentences; docs/evaluation.md gives the reasons.
 [[nodiscard]] std::vector<std::string> policies_of(const TrackReport& report);
 [[nodiscard]] std::vector<std::string> policies_of(const DetectionReport& report);

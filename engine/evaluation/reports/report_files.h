@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -27,12 +26,11 @@ namespace sigs {
 [[nodiscard]] std::string slices_csv(const TrackSetReport& report);
 [[nodiscard]] std::string evaluation_json(const TrackSetReport& report);
 
-// Fields of a row of summary.csv and clips.csv: the figures of one tracker, and their names.
-[[nodiscard]] std::string track_figures_csv(const TrackScore& score);
-[[nodiscard]] std::string track_figure_names();
-
-// The figures and curves of one tracker in evaluation.json.
-[[nodiscard]] nlohmann::ordered_json track_json(const TrackScore& score);
+// The files of the program that was published with the Airborne Object Tracking challenge: its summary in its own keys,
+// and its table of encounters, by single detections or by tracks.
+[[nodiscard]] std::string aot_summary_json(const AotScore& score);
+[[nodiscard]] std::string aot_encounters_csv(const AotTruth& truth, const AotScore& score,
+                                             const std::vector<AotEncounterScore>& scores);
 
 // A plot as the content of an SVG file.
 struct ReportPlot {
@@ -67,10 +65,6 @@ struct TableColumn {
 
 // A row for each slice that has frames, a column for each tracker.
 [[nodiscard]] std::vector<TableColumn> slices_of(const TrackSetReport& report);
-
-// Lines that say how sure a share of groups is: one for each name, then one for each name against the first.
-[[nodiscard]] std::string interval_lines(const std::string& title, const std::vector<std::string>& names,
-                                         const std::vector<std::vector<GroupShare>>& shares);
 
 // A row for each detector and encounter.
 [[nodiscard]] std::vector<TableColumn> encounters_of(const DetectionReport& report);

@@ -90,8 +90,60 @@ TableColumn text_column(std::string title, std::string unit) {
   return {.title = std::move(title), .unit = std::move(unit)};
 }
 
+void add_row(std::vector<TableColumn>& columns, const std::vector<std::string>& cells) {
+  ENSURE(cells.size() == columns.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    columns[i].cells.push_back(cells[i]);
+    columns[i].is_best.push_back(false);
+  }
+}
+
 std::string frame_range_text(const EncounterScore& encounter) {
   return fmt::format("{} to {}", encounter.first_frame, encounter.last_frame);
+}
+
+// Of a table of slices: what they are by, their names and numbers of frames, and a column for each tracker or detector.
+template <class Slice, class Text>
+std::vector<TableColumn> slice_columns(const std::string& title, const std::string& unit,
+                                       const std::vector<std::string>& names,
+                                       const std::vector<std::vector<Slice>>& slices, const Text& text_of) {
+  std::vector<TableColumn> columns{text_column(title, "by"), {}, text_column("frames", "")};
+  for (const std::string& name : names) columns.push_back(text_column(line_text(name), unit));
+  for (std::size_t s = 0; !slices.empty() && s < slices.front().size(); ++s) {
+    // A tracker that was given the truth on its way is not scored there, so trackers may differ in frames.
+    int most = 0;
+    for (const std::vector<Slice>& of_one : slices) most = std::max(most, of_one[s].frames);
+    if (most == 0) continue;
+    std::vector<std::string> cells{slices.front()[s].by, slices.front()[s].name, std::to_string(most)};
+    for (const std::vector<Slice>& of_one : slices) cells.push_back(text_of(of_one[s]));
+    add_row(columns, cells);
+  }
+  return columns;
+}
+
+std::vector<GroupShare> encounter_shares(const DetectionScore& score) {
+  std::vector<GroupShare> shares;
+  for (const EncounterScore& encounter : score.encounters) shares.push_back({encounter.is_detected ? 1.0 : 0.0, 1});
+  return shares;
+}
+
+std::string interval_text(const Interval& interval) {
+  return fixed_text(interval.low, 3) + " to " + fixed_text(interval.high, 3);
+}
+
+std::string interval_lines(const std::string& title, const std::vector<std::string>& names,
+                           const std::vector<std::vector<GroupShare>>& shares) {
+  std::string text = title + "\n";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("  {}: {}\n", line_text(names[i]), interval_text(share_interval(shares[i])));
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    const Interval interval = difference_interval(shares[i], shares.front());
+    const bool is_apart = interval.low > 0 || interval.high < 0;
+    text +=
+        fmt::format("  {} less {}: {}, {}\n", line_text(names[i]), line_text(names.front()), interval_text(interval),
+                    is_apart ? "they can be distinguished" : "they cannot be distinguished");
+  }
+  return text;
 }
 
 std::string padded(const std::string& text, std::size_t width, bool to_left) {
@@ -152,6 +204,43 @@ std::vector<TableColumn> table_of(const DetectionReport& report) {
   return columns;
 }
 
+std::vector<TableColumn> table_of(const TrackSetReport& report) {
+  using F = TrackSetFigures;
+  const auto figure = [&](const char* title, const char* unit, int decimals, Best best,
+                          const std::function<double(const F&)>& value) {
+    return column<F>(report.figures, title, unit, decimals, best, value);
+  };
+  // As in the table of one clip, no error is shown where few frames have a report.
+  const auto error = [&](const char* unit, const std::function<double(const F&)>& value) {
+    return figure("CLE px", unit, 2, Best::none,
+                  [&](const F& f) { return has_few_reports(f.over_frames) ? std::nan("") : value(f); });
+  };
+  TableColumn names{.title = "tracker", .is_best = std::vector<bool>(report.trackers.size(), false)};
+  for (const std::string& name : report.trackers) names.cells.push_back(line_text(name));
+  return {
+      names,
+      error("frames", [](const F& f) { return f.over_frames.mean_center_error_px; }),
+      error("clips", [](const F& f) { return f.clips_center_error_px; }),
+      figure("prec.@20", "frames", 3, Best::most, [](const F& f) { return f.over_frames.precision_at_20; }),
+      figure("prec.@20", "clips", 3, Best::most, [](const F& f) { return f.clips_precision_at_20; }),
+      figure("success", "frames", 3, Best::most, [](const F& f) { return f.over_frames.success_auc; }),
+      figure("success", "clips", 3, Best::most, [](const F& f) { return f.clips_success_auc; }),
+      figure("norm.pr.", "frames", 3, Best::most, [](const F& f) { return f.over_frames.normalized_precision_auc; }),
+      figure("norm.pr.", "clips", 3, Best::most, [](const F& f) { return f.clips_normalized_precision_auc; }),
+      figure("lost", "share", 3, Best::least,
+             [](const F& f) { return static_cast<double>(f.over_frames.lost) / f.over_frames.scored; }),
+      figure("lost", "clips", 3, Best::least, [](const F& f) { return f.clips_lost_share; }),
+      figure("scored", "frames", 0, Best::none, [](const F& f) { return double(f.over_frames.scored); }),
+      figure("speed", "frames/s", 1, Best::none,
+             [](const F& f) { return f.over_frames.frames_per_s.value_or(std::nan("")); })};
+}
+
+std::vector<TableColumn> slices_of(const TrackSetReport& report) {
+  return slice_columns("mean overlap", "IoU", report.trackers, report.slices, [](const TrackSlice& slice) {
+    return fmt::format("{} ({})", fixed_text(slice.mean_overlap, 3), interval_text(slice.interval));
+  });
+}
+
 std::vector<TableColumn> encounters_of(const DetectionReport& report) {
   std::vector<TableColumn> columns{
       text_column("detector", ""),        text_column("film", ""),          text_column("intruder", ""),
@@ -161,22 +250,12 @@ std::vector<TableColumn> encounters_of(const DetectionReport& report) {
   for (const DetectionScore& score : report.scores)
     for (const EncounterScore& encounter : score.encounters) {
       const double none = std::numeric_limits<double>::quiet_NaN();
-      const std::vector<std::string> cells{line_text(score.name),
-                                           line_text(encounter.clip),
-                                           std::to_string(encounter.target),
-                                           frame_range_text(encounter),
-                                           std::string(name_of(encounter.horizon)),
-                                           fixed_text(encounter.min_range_m, 0),
-                                           encounter.is_detected ? "yes" : "no",
-                                           fixed_text(encounter.first_detection_range_m.value_or(none), 0),
-                                           fixed_text(encounter.first_detection_time_s.value_or(none), 2),
-                                           std::to_string(encounter.frames_matched),
-                                           std::to_string(encounter.frames_visible)};
-      ENSURE(cells.size() == columns.size());
-      for (std::size_t i = 0; i < cells.size(); ++i) {
-        columns[i].cells.push_back(cells[i]);
-        columns[i].is_best.push_back(false);
-      }
+      add_row(columns, {line_text(score.name), line_text(encounter.clip), std::to_string(encounter.target),
+                        frame_range_text(encounter), std::string(name_of(encounter.horizon)),
+                        fixed_text(encounter.min_range_m, 0), encounter.is_detected ? "yes" : "no",
+                        fixed_text(encounter.first_detection_range_m.value_or(none), 0),
+                        fixed_text(encounter.first_detection_time_s.value_or(none), 2),
+                        std::to_string(encounter.frames_matched), std::to_string(encounter.frames_visible)});
     }
   return columns;
 }
@@ -230,6 +309,46 @@ std::string table_text(const TrackReport& report) {
 
 std::string table_text(const DetectionReport& report) {
   return with_notes(table_of(report));
+}
+
+std::string table_text(const TrackSetReport& report) {
+  return with_notes(table_of(report));
+}
+
+std::string slices_text(const DetectionReport& report) {
+  std::vector<std::string> names;
+  for (const DetectionScore& score : report.scores) names.push_back(score.name);
+  const auto columns = slice_columns("frames matched", "share", names, report.slices, [](const FrameSlice& slice) {
+    return fmt::format("{} ({})", fixed_text(slice.share(), 3), interval_text(slice.rate));
+  });
+  return columns.front().cells.empty() ? "" : aligned(columns);
+}
+
+std::string slices_text(const TrackSetReport& report) {
+  const std::vector<TableColumn> columns = slices_of(report);
+  return columns.front().cells.empty() ? "" : aligned(columns);
+}
+
+std::string intervals_text(const DetectionReport& report) {
+  if (report.scores.empty() || report.scores.front().encounters.empty()) return "";
+  std::vector<std::vector<GroupShare>> shares;
+  std::vector<std::string> names;
+  for (const DetectionScore& score : report.scores) {
+    names.push_back(score.name);
+    shares.push_back(encounter_shares(score));
+  }
+  return interval_lines("EDR, 95 % when encounters are drawn anew", names, shares);
+}
+
+std::string intervals_text(const TrackSetReport& report) {
+  std::vector<std::vector<GroupShare>> by_frames;
+  std::vector<std::vector<GroupShare>> by_clips;
+  for (std::size_t i = 0; i < report.trackers.size(); ++i) {
+    by_frames.push_back(success_by_frames(report, i));
+    by_clips.push_back(success_by_clips(report, i));
+  }
+  return interval_lines("success AUC over all frames, 95 % when clips are drawn anew", report.trackers, by_frames) +
+         interval_lines("success AUC, mean over clips, 95 % when clips are drawn anew", report.trackers, by_clips);
 }
 
 }  // namespace sigs
