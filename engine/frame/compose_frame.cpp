@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -29,9 +30,8 @@
 namespace sigs {
 namespace {
 
-// Luma of the footage where an intruder will be blended onto it, and around.
+// Luma of the footage where an intruder will be blended onto it, and around. Empty where it will not be.
 struct FootageLuma {
-  int id = 0;  // of the intruder
   cv::Rect rect;
   cv::Mat luma;  // CV_8UC1 over rect, of its own
 };
@@ -55,31 +55,15 @@ LuminanceOfCode luminance_of_code(const Frame& frame) {
   return luminance;
 }
 
-// One for each intruder that will be blended. To be called before that, since blending rewrites the footage in place.
+// Of each intruder. To be called before they are blended, since that rewrites the footage in place.
 std::vector<FootageLuma> footage_luma_of(const Frame& footage, const std::vector<IntruderLayers>& far_to_near) {
-  std::vector<FootageLuma> all;
-  for (const IntruderLayers& layers : far_to_near) {
-    if (layers.occluded.empty()) continue;
-    const cv::Rect rect = background_rect(layers.occluded.rect, footage.size_px());
-    all.push_back({layers.placed.id, rect, luma_of_part(footage, rect).clone()});
+  std::vector<FootageLuma> all(far_to_near.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (far_to_near[i].occluded.empty()) continue;
+    const cv::Rect rect = background_rect(far_to_near[i].occluded.rect, footage.size_px());
+    all[i] = {rect, luma_of_part(footage, rect).clone()};
   }
   return all;
-}
-
-// Fills IntruderTruth::detectability (truth/detectability.h) of the intruders that can be seen.
-//   image  the frame with the intruders
-void add_detectability(std::vector<IntruderTruth>& intruders, const Frame& image,
-                       const std::vector<FootageLuma>& footage, const Scene& scene) {
-  if (footage.empty()) return;
-  const LuminanceOfCode luminance = luminance_of_code(image);
-  for (IntruderTruth& intruder : intruders) {
-    const auto behind =
-        std::find_if(footage.begin(), footage.end(), [&](const FootageLuma& patch) { return patch.id == intruder.id; });
-    if (behind == footage.end() || !intruder.visible_box) continue;
-    const cv::Rect rect = background_rect(*intruder.visible_box, image.size_px()) & behind->rect;
-    intruder.detectability = detectability(intruder, luma_of_part(image, *intruder.visible_box),
-                                           behind->luma(rect - behind->rect.tl()), rect, scene.own_body, luminance);
-  }
 }
 
 // The classic method blurs whole images of its own. Of a single intruder's layer it needs the coverage alone, which
@@ -146,7 +130,7 @@ std::vector<MeasuredLayers> measured_layers(const Scene& scene, const std::vecto
     all.push_back({.id = layers.placed.id,
                    .name = intruder.name,
                    .camera_from_body = layers.placed.camera_from_body,
-                   .attitude = layers.placed.attitude,
+                   .world_from_body = layers.placed.world_from_body,
                    .silhouette = layers.silhouette,
                    .outermost_m = intruder.model->outermost_m,
                    .whole_area_px = layers.whole_area_px,
@@ -157,46 +141,50 @@ std::vector<MeasuredLayers> measured_layers(const Scene& scene, const std::vecto
   return all;
 }
 
-CameraTruth camera_truth(const Scene& scene, const SceneMoment& moment) {
-  return {.position_source = scene.motion.source.position,
-          .attitude_source = scene.motion.source.attitude,
-          .attitude_sd_rad = attitude_sd_at(scene.motion.deviations, moment.time_s)};
+// How well an intruder that can be seen stands out in the image.
+std::optional<Detectability> detectability_in(const Frame& image, const IntruderTruth& truth, const FootageLuma& behind,
+                                              const Scene& scene) {
+  if (behind.luma.empty() || !truth.visible_box) return std::nullopt;
+  const cv::Rect rect = background_rect(*truth.visible_box, image.size_px()) & behind.rect;
+  return detectability(truth, luma_of_part(image, *truth.visible_box), behind.luma(rect - behind.rect.tl()), rect,
+                       scene.own_body, luminance_of_code(image));
+}
+
+// The truth of every intruder, by id: what is measured in the composed image, and what the scene says.
+std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment& moment, const ComposedFrame& composed,
+                                           const std::vector<IntruderLayers>& far_to_near,
+                                           const std::vector<FootageLuma>& footage_luma) {
+  const std::vector<MeasuredLayers> all = measured_layers(scene, far_to_near);
+  const auto up = scene.horizon_is_known ? std::optional(up_in_camera(moment)) : std::nullopt;
+  const bool has_haze = scene.compositing.method == MethodChoice::direct;
+  std::vector<IntruderTruth> truths;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    IntruderTruth truth = measured(all[i], std::span(all).subspan(i + 1), composed.mask, up);
+    truth.detectability = detectability_in(composed.image, truth, footage_luma[i], scene);
+    truth.image_formation = {.blur_px = far_to_near[i].sigma_px,
+                             .motion_blur_px = far_to_near[i].motion_px,
+                             .visibility_m = has_haze ? scene.appearance.haze.visibility_m : std::nullopt};
+    if (scene.earth) truth.place = scene.earth->place_of(moment.world_from_camera * truth.position_m);
+    truth.is_distractor = scene.intruders[static_cast<std::size_t>(truth.id)].is_distractor;
+    truths.push_back(std::move(truth));
+  }
+  std::ranges::sort(truths, {}, &IntruderTruth::id);
+  return truths;
 }
 
 FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, const ComposedFrame& composed,
-                    const std::vector<IntruderLayers>& far_to_near) {
+                    std::vector<IntruderTruth> intruders) {
+  const glm::dvec3& position_m = moment.world_from_camera.translation_m;
   return {.index = frame,
           .time_s = moment.time_s,
           .substituted = composed.image.damaged,
-          .camera_position_m = moment.world_from_camera.translation_m,
-          .camera_attitude = attitude_of(moment.world_from_camera.rotation),
-          .camera = camera_truth(scene, moment),
-          .intruders = measured(measured_layers(scene, far_to_near), composed.mask,
-                                scene.horizon_is_known ? std::optional(up_in_camera(moment)) : std::nullopt)};
-}
-
-// How the image of each intruder was formed.
-void add_image_formation(const Scene& scene, const std::vector<IntruderLayers>& far_to_near, FrameTruth& truth) {
-  const bool is_direct = scene.compositing.method == MethodChoice::direct;
-  for (const IntruderLayers& layers : far_to_near)
-    for (IntruderTruth& intruder : truth.intruders)
-      if (intruder.id == layers.placed.id)
-        intruder.image_formation = {.blur_px = layers.sigma_px,
-                                    .motion_blur_px = layers.motion_px,
-                                    .visibility_m = is_direct ? scene.appearance.haze.visibility_m : std::nullopt};
-}
-
-void mark_distractors(const Scene& scene, FrameTruth& truth) {
-  for (IntruderTruth& intruder : truth.intruders)
-    intruder.is_distractor = scene.intruders[static_cast<std::size_t>(intruder.id)].is_distractor;
-}
-
-// Places of the camera and of the intruders on the Earth.
-void add_places(const Scene& scene, const SceneMoment& moment, FrameTruth& truth) {
-  if (!scene.earth) return;
-  truth.camera.place = scene.earth->place_of(moment.world_from_camera.translation_m);
-  for (IntruderTruth& intruder : truth.intruders)
-    intruder.place = scene.earth->place_of(moment.world_from_camera * intruder.position_m);
+          .camera_position_m = position_m,
+          .world_from_camera = moment.world_from_camera.rotation,
+          .camera = {.position_source = scene.motion.source.position,
+                     .attitude_source = scene.motion.source.attitude,
+                     .attitude_sd_rad = attitude_sd_at(scene.motion.deviations, moment.time_s),
+                     .place = scene.earth ? std::optional(scene.earth->place_of(position_m)) : std::nullopt},
+          .intruders = std::move(intruders)};
 }
 
 }  // namespace
@@ -242,11 +230,8 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   }
   const std::vector<FootageLuma> footage_luma = footage_luma_of(background, far_to_near);
   ComposedFrame composed = composited(std::move(background), scene, frame, far_to_near, context, stages);
-  composed.truth = truth_of(scene, moment, frame, composed, far_to_near);
-  add_detectability(composed.truth.intruders, composed.image, footage_luma, scene);
-  add_image_formation(scene, far_to_near, composed.truth);
-  add_places(scene, moment, composed.truth);
-  mark_distractors(scene, composed.truth);
+  composed.truth =
+      truth_of(scene, moment, frame, composed, intruder_truths(scene, moment, composed, far_to_near, footage_luma));
   for (const IntruderLayers& layers : far_to_near) {
     composed.op_counts += layers.op_counts;
     composed.times.draw_s += layers.draw_s;

@@ -23,7 +23,8 @@ std::string joined(const glm::dvec3& v, const char* separator) {
   return number(v.x) + separator + number(v.y) + separator + number(v.z);
 }
 
-glm::dvec3 degrees(const Attitude& attitude) {
+glm::dvec3 degrees(const glm::dquat& rotation) {
+  const Attitude attitude = attitude_of(rotation);
   return {deg_of_rad(attitude.roll_rad), deg_of_rad(attitude.pitch_rad), deg_of_rad(attitude.yaw_rad)};
 }
 
@@ -61,7 +62,7 @@ std::string camera_source_fields(const CameraTruth& camera) {
 
 std::string camera_csv_row(const FrameTruth& frame) {
   return fmt::format("{},{},{},{},{}\n", frame.index, number(frame.time_s), joined(frame.camera_position_m, ","),
-                     joined(degrees(frame.camera_attitude), ","), camera_source_fields(frame.camera));
+                     joined(degrees(frame.world_from_camera), ","), camera_source_fields(frame.camera));
 }
 
 std::string camera_json(const FrameTruth& frame) {
@@ -69,7 +70,7 @@ std::string camera_json(const FrameTruth& frame) {
   std::string text =
       fmt::format(R"({{"position_m": [{}], "attitude_deg": [{}], "position_source": {}, )"
                   R"("attitude_source": {})",
-                  joined(frame.camera_position_m, ", "), joined(degrees(frame.camera_attitude), ", "),
+                  joined(frame.camera_position_m, ", "), joined(degrees(frame.world_from_camera), ", "),
                   json_string(source_text(camera.position_source)), json_string(source_text(camera.attitude_source)));
   if (const std::optional<glm::dvec3> sd_deg = attitude_sd_deg(camera))
     text += fmt::format(R"(, "attitude_sd_deg": [{}])", joined(*sd_deg, ", "));
@@ -80,7 +81,7 @@ std::string camera_json(const FrameTruth& frame) {
 }
 
 std::string kitti_pose_row(const FrameTruth& frame) {
-  const glm::dquat world_from_camera = rotation_of(frame.camera_attitude);
+  const glm::dquat& world_from_camera = frame.world_from_camera;
   std::array<glm::dvec3, 3> columns;
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 unit(0);

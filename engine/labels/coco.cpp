@@ -167,7 +167,7 @@ class CocoLabels : public LabelWriter {
     annotation["horizon"] = name_of(intruder.horizon);
     annotation["distance_m"] = rounded(glm::length(intruder.position_m));
     annotation["position_m"] = json_of(intruder.position_m);
-    annotation["attitude_deg"] = json_of(intruder.attitude);
+    annotation["attitude_deg"] = json_of(attitude_of(intruder.world_from_body));
     if (intruder.amodal_box) annotation["amodal_bbox"] = json_of(*intruder.amodal_box);
     if (intruder.detectability) annotation.update(appearance_of(intruder));
     return annotation;

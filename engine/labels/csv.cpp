@@ -130,7 +130,7 @@ class CsvLabels : public LabelWriter {
     row.add(frame.index);
     row.add(frame.time_s);
     row.add(frame.camera_position_m);
-    row.add(frame.camera_attitude);
+    row.add(attitude_of(frame.world_from_camera));
     row.add(truth.id);
     row.add(xml_text(truth.name));
     row.add(xml_text(labelled_intruder(sequence_, truth.id).category));
@@ -140,7 +140,7 @@ class CsvLabels : public LabelWriter {
     row.add(name_of(truth.horizon));
     row.add(truth.position_m);
     row.add(glm::length(truth.position_m));
-    row.add(truth.attitude);
+    row.add(attitude_of(truth.world_from_body));
     add_box_fields(row, truth);
     add_footage(row);
     row.add(frame.substituted ? "true" : "false");

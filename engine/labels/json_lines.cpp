@@ -67,7 +67,7 @@ void add_place_json(JsonObject& object, const std::optional<GeodeticPosition>& p
 JsonObject camera_object(const FrameTruth& truth) {
   JsonObject object;
   object.add("position", position_json(truth.camera_position_m));
-  object.add("attitude", attitude_json(truth.camera_attitude));
+  object.add("attitude", attitude_json(attitude_of(truth.world_from_camera)));
   const CameraTruth& camera = truth.camera;
   if (!camera.position_source.empty()) object.add_text("position_source", camera.position_source);
   if (!camera.attitude_source.empty()) object.add_text("attitude_source", camera.attitude_source);
@@ -148,7 +148,7 @@ std::string intruder_json(const IntruderTruth& truth, const LabelSequence& seque
   object.add_text("horizon", name_of(truth.horizon));
   object.add("position", position_json(truth.position_m));
   object.add("distance_m", glm::length(truth.position_m));
-  object.add("attitude", attitude_json(truth.attitude));
+  object.add("attitude", attitude_json(attitude_of(truth.world_from_body)));
   add_place_json(object, truth.place);
   add_boxes_json(object, truth);
   add_appearance_json(object, truth);

@@ -144,8 +144,7 @@ std::string seqmap(const std::string& name, const FootageTruth& footage) {
 
 KittiBox kitti_box(const FrameTruth& frame, const IntruderTruth& intruder, const glm::dvec3& low_m,
                    const glm::dvec3& high_m) {
-  const glm::dquat camera_from_body =
-      glm::conjugate(rotation_of(frame.camera_attitude)) * rotation_of(intruder.attitude);
+  const glm::dquat camera_from_body = glm::conjugate(frame.world_from_camera) * intruder.world_from_body;
   const glm::dvec3 size_m = high_m - low_m;
   const glm::dvec3 center_optical_m = optical_of(intruder.position_m + camera_from_body * (0.5 * (low_m + high_m)));
   const glm::dvec3 nose_optical = optical_of(camera_from_body * glm::dvec3(1, 0, 0));

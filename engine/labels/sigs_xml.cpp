@@ -119,7 +119,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   node.append_attribute("horizon") = name_of(truth.horizon).data();
   set_position(node.append_child("position"), truth.position_m);
   set(node.append_child("distance"), "m", glm::length(truth.position_m));
-  set_attitude(node.append_child("attitude"), truth.attitude);
+  set_attitude(node.append_child("attitude"), attitude_of(truth.world_from_body));
   add_place(node, truth.place);
   add_box_elements(node, truth);
   add_appearance(node, truth);
@@ -152,7 +152,7 @@ std::string xml_of(const FrameTruth& truth) {
   if (truth.substituted) frame.append_attribute("substituted") = true;
   pugi::xml_node camera = frame.append_child("camera");
   set_position(camera, truth.camera_position_m);
-  set_attitude(camera, truth.camera_attitude);
+  set_attitude(camera, attitude_of(truth.world_from_camera));
   add_source(camera, truth.camera);
   for (const IntruderTruth& intruder : truth.intruders) add_intruder(frame, intruder);
   std::ostringstream text;

@@ -102,7 +102,7 @@ SceneMoment scene_at(const Scene& scene, int frame) {
         scene.intruders[i].trajectory.world_from_body(moment.time_s);
     moment.intruders.push_back({.id = static_cast<int>(i),
                                 .camera_from_body = seen_from(moment.world_from_camera, world_from_body),
-                                .attitude = attitude_of(world_from_body.rotation)});
+                                .world_from_body = world_from_body.rotation});
   }
   std::stable_sort(moment.intruders.begin(), moment.intruders.end(),
                    [](const PlacedIntruder& a, const PlacedIntruder& b) { return a.distance_m() > b.distance_m(); });

@@ -14,7 +14,7 @@ namespace sigs {
 struct PlacedIntruder {
   int id = 0;  // index in Scene::intruders
   Pose<frame::Camera, frame::Body> camera_from_body;
-  Attitude attitude;  // in the world
+  glm::dquat world_from_body{1, 0, 0, 0};  // its attitude
 
   // From the camera to the intruder's reference point.
   [[nodiscard]] double distance_m() const { return glm::length(camera_from_body.translation_m); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -78,11 +79,11 @@ struct EncounterTruth {
 struct IntruderTruth {
   int id = 0;
   std::string name;
-  glm::dvec3 position_m{0, 0, 0};       // of the reference point, in the camera frame
-  Attitude attitude;                    // in the world
-  bool in_image = false;                // some of it lies within the image and in front of the lens, hidden or not
-  double visible_fraction = 0;          // of the whole silhouette's area: what lies in the image and is not hidden
-  std::optional<cv::Rect> visible_box;  // visible pixels; none where nothing is visible
+  glm::dvec3 position_m{0, 0, 0};          // of the reference point, in the camera frame
+  glm::dquat world_from_body{1, 0, 0, 0};  // its attitude
+  bool in_image = false;                   // some of it lies within the image and in front of the lens, hidden or not
+  double visible_fraction = 0;             // of the whole silhouette's area: what lies in the image and is not hidden
+  std::optional<cv::Rect> visible_box;     // visible pixels; none where nothing is visible
   cv::Mat visible;                // CV_8UC1 over visible_box: 255 where a pixel shows it, else 0; empty: not measured
   int visible_pixels = 0;         // how many of them there are
   std::optional<Box> amodal_box;  // the whole of it through the lens; none where no part of it has an image
@@ -92,7 +93,7 @@ struct IntruderTruth {
   std::optional<Detectability> detectability = {};  // none where no pixel shows it
   ImageFormation image_formation = {};
   std::optional<EncounterTruth> encounter = {};  // none where it was not asked for
-  bool is_distractor = false;  // what detectors should not report, such as a bird
+  bool is_distractor = false;                    // what detectors should not report, such as a bird
 };
 
 // What the frames are counted in, and which of them a set of labels holds.
@@ -118,9 +119,9 @@ struct CameraTruth {
 struct FrameTruth {
   int index = 0;  // counts the footage's frames from 0
   double time_s = 0;
-  bool substituted = false;               // the footage's own frame is damaged and substituted by another one
-  glm::dvec3 camera_position_m{0, 0, 0};  // in the world
-  Attitude camera_attitude;
+  bool substituted = false;                  // the footage's own frame is damaged and substituted by another one
+  glm::dvec3 camera_position_m{0, 0, 0};     // in the world
+  glm::dquat world_from_camera{1, 0, 0, 0};  // its attitude
   CameraTruth camera = {};
   std::vector<IntruderTruth> intruders;  // by id
 };

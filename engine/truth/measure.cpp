@@ -44,27 +44,6 @@ void measure_visible(IntruderTruth& truth, const MeasuredLayers& layers, const c
   truth.visible_fraction = visible_px < kRounding * inside_px ? 0.0 : std::min(visible_px / whole_px, 1.0);
 }
 
-IntruderTruth measured_one(const MeasuredLayers& layers, std::span<const MeasuredLayers> nearer, const cv::Mat& mask,
-                           const std::optional<glm::dvec3>& up_in_camera) {
-  IntruderTruth truth{.id = layers.id,
-                      .name = layers.name,
-                      .position_m = layers.camera_from_body.translation_m,
-                      .attitude = layers.attitude};
-  if (layers.silhouette) truth.amodal_box = layers.silhouette->box;
-  if (up_in_camera) truth.horizon = horizon_side_of(layers.outermost_m, layers.camera_from_body, *up_in_camera);
-  const double inside_px = area_px(layers.inside.coverage);
-  // Relative to its own maximum: a distant one may cover no pixel by more than a hundredth.
-  const float min_coverage = kMinCoverageShare * layers.max_coverage;
-  truth.in_image =
-      common(covered_box(layers.inside.coverage, layers.inside.rect, min_coverage), outline_of(layers.silhouette))
-          .has_value();
-  if (!truth.in_image) return truth;
-  truth.inside_fraction = std::min(inside_px / std::max(layers.whole_area_px, inside_px), 1.0);
-  if (!layers.occluded.empty() && !mask.empty())
-    measure_visible(truth, layers, visible_coverage(layers, nearer, mask), min_coverage, inside_px);
-  return truth;
-}
-
 }  // namespace
 
 float max_coverage(const cv::Mat& coverage) {
@@ -130,13 +109,25 @@ void occlude_coverage(cv::Mat& coverage, const cv::Rect& rect, const Layer& near
           1.0F - nearer.color.at<cv::Vec4f>(y - nearer.rect.y, x - nearer.rect.x)[3];
 }
 
-std::vector<IntruderTruth> measured(std::span<const MeasuredLayers> far_to_near, const cv::Mat& mask,
-                                    const std::optional<glm::dvec3>& up_in_camera) {
-  std::vector<IntruderTruth> truths;
-  for (std::size_t i = 0; i < far_to_near.size(); ++i)
-    truths.push_back(measured_one(far_to_near[i], far_to_near.subspan(i + 1), mask, up_in_camera));
-  std::sort(truths.begin(), truths.end(), [](const IntruderTruth& a, const IntruderTruth& b) { return a.id < b.id; });
-  return truths;
+IntruderTruth measured(const MeasuredLayers& layers, std::span<const MeasuredLayers> nearer, const cv::Mat& mask,
+                       const std::optional<glm::dvec3>& up_in_camera) {
+  IntruderTruth truth{.id = layers.id,
+                      .name = layers.name,
+                      .position_m = layers.camera_from_body.translation_m,
+                      .world_from_body = layers.world_from_body};
+  if (layers.silhouette) truth.amodal_box = layers.silhouette->box;
+  if (up_in_camera) truth.horizon = horizon_side_of(layers.outermost_m, layers.camera_from_body, *up_in_camera);
+  const double inside_px = area_px(layers.inside.coverage);
+  // Relative to its own maximum: a distant one may cover no pixel by more than a hundredth.
+  const float min_coverage = kMinCoverageShare * layers.max_coverage;
+  truth.in_image =
+      common(covered_box(layers.inside.coverage, layers.inside.rect, min_coverage), outline_of(layers.silhouette))
+          .has_value();
+  if (!truth.in_image) return truth;
+  truth.inside_fraction = std::min(inside_px / std::max(layers.whole_area_px, inside_px), 1.0);
+  if (!layers.occluded.empty() && !mask.empty())
+    measure_visible(truth, layers, visible_coverage(layers, nearer, mask), min_coverage, inside_px);
+  return truth;
 }
 
 }  // namespace sigs

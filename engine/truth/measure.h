@@ -52,7 +52,7 @@ struct MeasuredLayers {
   int id = 0;
   std::string name;
   Pose<frame::Camera, frame::Body> camera_from_body;
-  Attitude attitude;                       // in the world
+  glm::dquat world_from_body{1, 0, 0, 0};
   std::optional<Silhouette> silhouette;    // none where no point of the model has an image
   std::span<const glm::vec3> outermost_m;  // vertices that bound the model, body axes
   double whole_area_px = 0;                // of the silhouette, the part outside the image included
@@ -61,12 +61,13 @@ struct MeasuredLayers {
   Layer occluded;                          // as it was blended: blurred, without what the own body hides
 };
 
-// The truth of every intruder, by id. Nearer intruders hide farther ones.
+// What can be measured of an intruder.
+//   nearer        intruders that hide it, far to near
 //   mask          ComposedFrame::mask; what was not composited is not visible in it (the classic method cannot show
 //                 what lies beyond the edge of its undistorted image). Empty: nothing is visible
 //   up_in_camera  unit vector away from the ground, camera frame; none: where the horizon lies is not known
-[[nodiscard]] std::vector<IntruderTruth> measured(std::span<const MeasuredLayers> far_to_near, const cv::Mat& mask,
-                                                  const std::optional<glm::dvec3>& up_in_camera);
+[[nodiscard]] IntruderTruth measured(const MeasuredLayers& layers, std::span<const MeasuredLayers> nearer,
+                                     const cv::Mat& mask, const std::optional<glm::dvec3>& up_in_camera);
 
 // The share of an intruder's part in the image that the own body or nearer intruders hide: 0 to 1. 0 where
 // nothing of it lies there.

@@ -29,8 +29,9 @@ struct Silhouette {
 
 // The same box, but where the body is seen under a small angle, groups of points that cannot widen it are not sent
 // through the lens. That is decided by the lens' magnification, measured at the corners of the body's extent: a group
-// is left out where its images cannot reach the edge of the box found so far with 1.3 times the largest of them. A body near by, near the edge of
-// the lens' field, or where the magnification differs across it by more than a fifth is measured by all points.
+// is left out where its images cannot reach the edge of the box found so far with 1.3 times the largest of them. A body
+// near by, near the edge of the lens' field, or where the magnification differs across it by more than a fifth is
+// measured by all points.
 [[nodiscard]] std::optional<Silhouette> silhouette_by_groups(const PointTree& points_in_body,
                                                              const Pose<frame::Camera, frame::Body>& camera_from_body,
                                                              const Lens& lens);

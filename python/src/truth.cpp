@@ -85,7 +85,7 @@ py::object object_of(const IntruderTruth& truth) {
       "id"_a = truth.id, "name"_a = truth.name, "role"_a = truth.is_distractor ? "distractor" : "intruder",
       "in_picture"_a = truth.in_image, "visible_fraction"_a = truth.visible_fraction,
       "horizon"_a = std::string(name_of(truth.horizon)), "position_m"_a = tuple_of(truth.position_m),
-      "distance_m"_a = glm::length(truth.position_m), "attitude_deg"_a = object_of(truth.attitude),
+      "distance_m"_a = glm::length(truth.position_m), "attitude_deg"_a = object_of(attitude_of(truth.world_from_body)),
       "place"_a = object_of(truth.place), "box"_a = box_of(truth.visible_box), "pixels"_a = truth.visible_pixels,
       "silhouette"_a = silhouette_of(truth.amodal_box), "appearance"_a = appearance_of(truth),
       "encounter"_a = encounter_of(truth));
@@ -93,11 +93,12 @@ py::object object_of(const IntruderTruth& truth) {
 
 py::object camera_object(const FrameTruth& truth) {
   const std::optional<glm::dvec3> sd_deg = attitude_sd_deg(truth.camera);
-  return class_of("CameraTruth")(
-      "position_m"_a = tuple_of(truth.camera_position_m), "attitude_deg"_a = object_of(truth.camera_attitude),
-      "position_source"_a = truth.camera.position_source, "attitude_source"_a = truth.camera.attitude_source,
-      "attitude_sd_deg"_a = sd_deg ? py::object(tuple_of(*sd_deg)) : py::none(),
-      "place"_a = object_of(truth.camera.place));
+  return class_of("CameraTruth")("position_m"_a = tuple_of(truth.camera_position_m),
+                                 "attitude_deg"_a = object_of(attitude_of(truth.world_from_camera)),
+                                 "position_source"_a = truth.camera.position_source,
+                                 "attitude_source"_a = truth.camera.attitude_source,
+                                 "attitude_sd_deg"_a = sd_deg ? py::object(tuple_of(*sd_deg)) : py::none(),
+                                 "place"_a = object_of(truth.camera.place));
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ void check_valid(const Layer& layer, double brightest) {
 
 void check_valid(const IntruderTruth& truth, cv::Size image_size_px) {
   CHECK(is_finite(truth.position_m));
-  CHECK(is_valid(truth.attitude));
+  CHECK(is_valid(attitude_of(truth.world_from_body)));
   CHECK(is_share(truth.visible_fraction));
   if (!truth.in_image) CHECK(truth.visible_fraction == 0);
   if (truth.visible_box) {
@@ -143,7 +143,7 @@ void check_valid(const IntruderTruth& truth, cv::Size image_size_px) {
 void check_valid(const FrameTruth& truth, cv::Size image_size_px) {
   CHECK(std::isfinite(truth.time_s));
   CHECK(is_finite(truth.camera_position_m));
-  CHECK(is_valid(truth.camera_attitude));
+  CHECK(is_valid(attitude_of(truth.world_from_camera)));
   for (const IntruderTruth& intruder : truth.intruders) check_valid(intruder, image_size_px);
   pugi::xml_document document;
   REQUIRE(document.load_string(xml_of(truth).c_str()));

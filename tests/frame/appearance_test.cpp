@@ -111,7 +111,7 @@ TEST_CASE("an aircraft that turns right has its right wing low") {
         {.frame = 25.0 * i + 1, .position_m = {100 + 400 * std::sin(angle), 400 * (1 - std::cos(angle)), -150}});
   }
   const ComposedFrame frame = painted(kRightAndLeft, turn);
-  CHECK(frame.truth.intruders.front().attitude.roll_rad > 0.5);
+  CHECK(attitude_of(frame.truth.intruders.front().world_from_body).roll_rad > 0.5);
   CHECK(middle_of(frame, 2).y > middle_of(frame, 1).y + 8);
 }
 

@@ -26,7 +26,7 @@ namespace {
 FrameTruth logged_frame(int index) {
   FrameTruth frame = frame_of(index, {visible_intruder(0, {10, 20, 30, 40})});
   frame.camera_position_m = {12.5, -3, -150};
-  frame.camera_attitude = {rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)};
+  frame.world_from_camera = rotation_of({rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)});
   frame.camera = {.position_source = "PX4 ULog: \"gps\", raw",
                   .attitude_source = "PX4 ULog: vehicle_attitude",
                   .attitude_sd_rad = glm::dvec3(rad_of_deg(0.25), rad_of_deg(0.5), rad_of_deg(1)),
@@ -112,7 +112,7 @@ TEST_CASE("KITTI's poses take points of the camera's optical axes to those of a 
   // A point 100 m ahead, 7 m right and 3 m down, by the world's axes: x right = Y, y down = Z, z forward = X.
   const glm::dvec3 in_camera(100, 7, 3);
   const FrameTruth frame = logged_frame(117);
-  const glm::dvec3 in_world = rotation_of(frame.camera_attitude) * in_camera + frame.camera_position_m;
+  const glm::dvec3 in_world = frame.world_from_camera * in_camera + frame.camera_position_m;
   const glm::dvec3 optical(7, 3, 100);
   const glm::dvec3 expected(in_world.y, in_world.z, in_world.x);
   for (int r = 0; r < 3; ++r) {

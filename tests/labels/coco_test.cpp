@@ -101,7 +101,7 @@ TEST_CASE("coco: an annotation has the box, mask and place of the intruder") {
   truth.visible_fraction = 0.25;
   truth.inside_fraction = 0.5;
   truth.position_m = {3e3, -4e3, 12e3};
-  truth.attitude = {rad_of_deg(10), rad_of_deg(-20), rad_of_deg(170)};
+  truth.world_from_body = rotation_of({rad_of_deg(10), rad_of_deg(-20), rad_of_deg(170)});
   truth.amodal_box = Box{9.25, 19.5, 6, 2.5};
   truth.horizon = HorizonSide::above;
   truth.detectability = Detectability{-0.5, 0.75, 12};

@@ -60,7 +60,7 @@ std::vector<std::map<std::string, std::string>> table_of(const fs::path& path) {
 IntruderTruth full(int id) {
   IntruderTruth truth = visible_intruder(id, {301, 0, 41, 13});
   truth.position_m = {899.2345678, -250.1, -20.00000049};
-  truth.attitude = {rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)};
+  truth.world_from_body = rotation_of({rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)});
   truth.visible_fraction = 2.0 / 3;
   truth.amodal_box = Box{300.62341, -1.8833333, 41.375, 13.02};
   truth.detectability = Detectability{-0.4123456789, 0.447, 7.25};
@@ -81,7 +81,7 @@ IntruderTruth full(int id) {
 FrameTruth full_frame() {
   FrameTruth frame = frame_of(117, {full(0), invisible_intruder(1)});
   frame.camera_position_m = {39.123456789, -0.0, -150};
-  frame.camera_attitude = {rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)};
+  frame.world_from_camera = rotation_of({rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)});
   return frame;
 }
 

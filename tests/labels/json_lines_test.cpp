@@ -28,7 +28,7 @@ IntruderTruth everything(int id, const std::string& name) {
   IntruderTruth truth = visible_intruder(id, {301, 0, 41, 13});
   truth.name = name;
   truth.position_m = {899.2345678, -250.1, -20.00000049};
-  truth.attitude = {rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)};
+  truth.world_from_body = rotation_of({rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)});
   truth.visible_fraction = 2.0 / 3;
   truth.amodal_box = Box{300.62341, -1.8833333, 41.375, 13.02};
   truth.horizon = HorizonSide::above;
@@ -53,7 +53,7 @@ FrameTruth whole_frame(const std::string& name) {
   FrameTruth frame = frame_of(117, {everything(0, name), everything(1, name), invisible_intruder(2)});
   frame.substituted = true;
   frame.camera_position_m = {39.123456789, -0.0, -150};
-  frame.camera_attitude = {rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)};
+  frame.world_from_camera = rotation_of({rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)});
   frame.camera = {.position_source = "a log",
                   .attitude_source = name,
                   .attitude_sd_rad = glm::dvec3(0.001, 0.002, 0.1),

@@ -63,7 +63,7 @@ std::vector<KittiRow> written_kitti(const LabelSequence& clip, const std::vector
 IntruderTruth at(const glm::dvec3& position_m, double yaw_deg) {
   IntruderTruth truth = visible_intruder(0, {1, 1, 2, 2});
   truth.position_m = position_m;
-  truth.attitude.yaw_rad = rad_of_deg(yaw_deg);
+  truth.world_from_body = rotation_of({.yaw_rad = rad_of_deg(yaw_deg)});
   return truth;
 }
 
@@ -150,15 +150,14 @@ TEST_CASE("the corners of kitti's box are the model's where it lies level before
   const glm::dvec3 high(3, 6, 1);
   for (const double yaw_deg : {0.0, 37.0, 120.0, -150.0}) {
     FrameTruth frame = frame_of(0, {});
-    frame.camera_attitude.yaw_rad = rad_of_deg(20);
+    frame.world_from_camera = rotation_of({.yaw_rad = rad_of_deg(20)});
     const IntruderTruth truth = at({80, -12, 5}, yaw_deg);
     const KittiBox box = kitti_box(frame, truth, low, high);
     const double c = std::cos(box.rotation_y_rad);
     const double s = std::sin(box.rotation_y_rad);
     for (int i = 0; i < 8; ++i) {
       const glm::dvec3 corner(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-      const glm::dquat camera_from_body =
-          glm::conjugate(rotation_of(frame.camera_attitude)) * rotation_of(truth.attitude);
+      const glm::dquat camera_from_body = glm::conjugate(frame.world_from_camera) * truth.world_from_body;
       const glm::dvec3 expected = optical_of(truth.position_m + camera_from_body * corner);
       // Object axes: x along the length, y down from the lower face, z to the right of a nose that points along x, of
       // which the right wing lies at -z.
@@ -173,10 +172,9 @@ TEST_CASE("the corners of kitti's box are the model's where it lies level before
 
 TEST_CASE("a pitched and rolled body's kitti box keeps its centre and size") {
   FrameTruth frame = frame_of(0, {});
-  frame.camera_attitude = {0.3, -0.2, 1.1};
+  frame.world_from_camera = rotation_of({0.3, -0.2, 1.1});
   IntruderTruth truth = at({500, 30, -20}, 40);
-  truth.attitude.pitch_rad = 0.5;
-  truth.attitude.roll_rad = -0.9;
+  truth.world_from_body = rotation_of({.roll_rad = -0.9, .pitch_rad = 0.5, .yaw_rad = rad_of_deg(40)});
   const KittiBox box = kitti_box(frame, truth, {-4, -5, -1}, {4, 5, 1});
   CHECK(box.length_m == 8);
   CHECK(box.width_m == 10);
@@ -187,7 +185,7 @@ TEST_CASE("a pitched and rolled body's kitti box keeps its centre and size") {
 
 TEST_CASE("a nose straight up has no heading and so the heading 0") {
   IntruderTruth truth = at({100, 0, 0}, 77);
-  truth.attitude.pitch_rad = kPi / 2;
+  truth.world_from_body = rotation_of({.pitch_rad = kPi / 2, .yaw_rad = rad_of_deg(77)});
   const KittiBox box = kitti_box(frame_of(0, {}), truth, {-4, -5, -1}, {4, 5, 1});
   CHECK(box.rotation_y_rad == 0);
 }

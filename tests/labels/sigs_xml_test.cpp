@@ -25,7 +25,7 @@ IntruderTruth some_intruder() {
   return {.id = 3,
           .name = "airliner",
           .position_m = {899.2345678, -250.1, -20.00000049},
-          .attitude = {rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)},
+          .world_from_body = rotation_of({rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)}),
           .in_image = true,
           .visible_fraction = 2.0 / 3,
           .visible_box = cv::Rect(301, 0, 41, 13),
@@ -38,7 +38,7 @@ FrameTruth some_frame() {
   return {.index = 117,
           .time_s = 117 * 1001.0 / 30000,
           .camera_position_m = {39.123456789, -0.0, -150},
-          .camera_attitude = {rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)},
+          .world_from_camera = rotation_of({rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)}),
           .intruders = {some_intruder()}};
 }
 
@@ -233,9 +233,9 @@ TEST_CASE("a number that is not finite stops the program before it is written") 
   CHECK_FALSE(write([](FrameTruth&) {}));
   CHECK(write([](FrameTruth& truth) { truth.time_s = kNotANumber; }));
   CHECK(write([](FrameTruth& truth) { truth.camera_position_m.y = kNotANumber; }));
-  CHECK(write([](FrameTruth& truth) { truth.camera_attitude.pitch_rad = kNotANumber; }));
+  CHECK(write([](FrameTruth& truth) { truth.world_from_camera.x = kNotANumber; }));
   CHECK(write([](FrameTruth& truth) { truth.intruders[0].position_m.z = kNotANumber; }));
-  CHECK(write([](FrameTruth& truth) { truth.intruders[0].attitude.roll_rad = kNotANumber; }));
+  CHECK(write([](FrameTruth& truth) { truth.intruders[0].world_from_body.y = kNotANumber; }));
   CHECK(write([](FrameTruth& truth) { truth.intruders[0].visible_fraction = kNotANumber; }));
   CHECK(write([](FrameTruth& truth) { truth.intruders[0].amodal_box->width = kNotANumber; }));
 }
