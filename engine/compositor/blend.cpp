@@ -166,7 +166,7 @@ cv::Vec3f over_in_display_values(const cv::Vec4f& layer, const cv::Vec3f& below,
   return out;
 }
 
-template <BlendSpace space>
+template <BlendChoice space>
 struct LayerRow {
   const cv::Vec4f* colors;
   int left;
@@ -176,12 +176,12 @@ struct LayerRow {
 
   [[nodiscard]] cv::Vec3f over(int x, const cv::Vec3f& below) const {
     const cv::Vec4f& color = colors[x - left];
-    return space == BlendSpace::linear ? over_in_linear_light(color, below, curve)
-                                       : over_in_display_values(color, below, curve);
+    return space == BlendChoice::linear ? over_in_linear_light(color, below, curve)
+                                        : over_in_display_values(color, below, curve);
   }
 };
 
-template <BlendSpace space>
+template <BlendChoice space>
 struct LayerPixels {
   const cv::Mat& color;  // in the footage's primaries
   const cv::Rect& rect;
@@ -191,18 +191,18 @@ struct LayerPixels {
 };
 
 template <class Sample, class Target>
-std::int64_t blend_into(const Target& target, const Frame& frame, const Layer& layer, BlendSpace space) {
+std::int64_t blend_into(const Target& target, const Frame& frame, const Layer& layer, BlendChoice space) {
   PlaneWriter<Sample, Target> planes(frame, target);
   const cv::Mat color = in_footage_primaries(layer.color, frame.color);
   const TransferCurve curve = transfer_curve_of(frame.color);
-  return space == BlendSpace::linear
-             ? planes.rewrite(layer.rect, LayerPixels<BlendSpace::linear>{color, layer.rect, curve})
-             : planes.rewrite(layer.rect, LayerPixels<BlendSpace::display>{color, layer.rect, curve});
+  return space == BlendChoice::linear
+             ? planes.rewrite(layer.rect, LayerPixels<BlendChoice::linear>{color, layer.rect, curve})
+             : planes.rewrite(layer.rect, LayerPixels<BlendChoice::display>{color, layer.rect, curve});
 }
 
 }  // namespace
 
-std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
+std::int64_t blend_over(Frame& frame, const Layer& layer, BlendChoice space) {
   if (layer.empty()) return 0;
   ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
   return with_sample_type(frame.bit_depth, [&](auto sample) {
@@ -211,7 +211,7 @@ std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
   });
 }
 
-CodePatch blended_patch(const Frame& frame, const Layer& layer, BlendSpace space, int margin_px,
+CodePatch blended_patch(const Frame& frame, const Layer& layer, BlendChoice space, int margin_px,
                         const cv::Mat& own_body) {
   ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
   CodePatch patch = patch_of(frame, layer.rect, margin_px, own_body);

@@ -6,14 +6,10 @@
 
 #include "base/image.h"
 #include "compositor/code_patch.h"
+#include "project/project.h"
 #include "video/frame.h"
 
 namespace sigs {
-
-enum class BlendSpace {
-  linear,   // light adds, as in the lens
-  display,  // code values are mixed, as the paper does
-};
 
 // Composites the layer over the frame, in the frame's own planes. Only samples that the layer covers are converted and
 // rewritten; every other sample keeps its bits. A luma sample is covered where the opacity of its pixel is above 0, a
@@ -21,13 +17,13 @@ enum class BlendSpace {
 // columns by two rows. The background's chroma is read between its samples, as it was before.
 // Code values are converted to light and back by the footage's transfer function and primaries (video/color_space.h).
 // The layer lies within the image. Gives back how many pixels were rewritten.
-std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space);
+std::int64_t blend_over(Frame& frame, const Layer& layer, BlendChoice space);
 
 // The same into a copy of the samples around the layer, not rounded (compositor/code_patch.h), for stages that work on
 // what the layer changes. The frame stays as it is.
 //   margin_px  of the copy beyond the layer, on each side
 //   own_body   as for patch_of()
-[[nodiscard]] CodePatch blended_patch(const Frame& frame, const Layer& layer, BlendSpace space, int margin_px,
+[[nodiscard]] CodePatch blended_patch(const Frame& frame, const Layer& layer, BlendChoice space, int margin_px,
                                       const cv::Mat& own_body);
 
 // Puts pixels of an 8-bit BGR image into the frame's own planes, in the part of it that rect names. Gives back how

@@ -17,9 +17,9 @@ FrameQuantisers uniform(QuantiserKind kind, double value) {
   return {.kind = kind, .mean = quality, .tables = jpeg_tables(quality)};
 }
 
-QuantiserKind kind_of(MatchedCodec codec, const FrameQuantisers* stated) {
-  if (codec == MatchedCodec::jpeg) return QuantiserKind::jpeg;
-  return codec == MatchedCodec::footage && stated != nullptr ? stated->kind : QuantiserKind::h264;
+QuantiserKind kind_of(CodecMatchChoice codec, const FrameQuantisers* stated) {
+  if (codec == CodecMatchChoice::mjpeg) return QuantiserKind::jpeg;
+  return codec == CodecMatchChoice::footage && stated != nullptr ? stated->kind : QuantiserKind::h264;
 }
 
 double default_of(QuantiserKind kind) {
@@ -80,7 +80,7 @@ void mark(cv::Mat& mask, cv::Point sample, cv::Size step) {
 
 }  // namespace
 
-std::optional<FrameQuantisers> matched_quantisers(MatchedCodec codec, std::optional<double> quantiser,
+std::optional<FrameQuantisers> matched_quantisers(CodecMatchChoice codec, std::optional<double> quantiser,
                                                   const FrameQuantisers* stated) {
   const QuantiserKind kind = kind_of(codec, stated);
   if (kind == QuantiserKind::none) return std::nullopt;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "project/project.h"
 #include "video/frame.h"
 #include "video/frame_quantisers.h"
 
@@ -16,13 +17,11 @@ namespace sigs {
 // The image around the intruders goes once through the compression that the footage has been through, so that their
 // edges ring and their finest detail is lost as those of a real aircraft in this footage (compositor/recompression.h).
 
-enum class MatchedCodec { footage, h264, jpeg };
-
 // The quantisers that a frame's patches are coded with; nothing where the codec keeps every sample.
 //   stated     those of the frame, null where its stream states none; then kDefaultQp or kDefaultJpegQuality_percent
 //   quantiser  replaces the stated ones: QP of H.264, JPEG's quality in percent, MPEG-4's quantiser (MPEG-2's scale
 //              halved) by the codec that is matched. Beyond the codec's range: the end of the range
-[[nodiscard]] std::optional<FrameQuantisers> matched_quantisers(MatchedCodec codec, std::optional<double> quantiser,
+[[nodiscard]] std::optional<FrameQuantisers> matched_quantisers(CodecMatchChoice codec, std::optional<double> quantiser,
                                                                 const FrameQuantisers* stated);
 
 // The codec match of one frame. It is made before anything is composited, as it keeps the footage around the intruders:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/random.h"
 #include "compositor/blur.h"
 #include "compositor/code_patch.h"
 #include "video/bit_depth.h"
@@ -17,17 +18,16 @@ namespace {
 
 constexpr double kRounding_code2 = 1.0 / 12;  // variance of rounding to whole codes
 
-// A bijection of 64 bits in which each bit of the input changes half of the output's (multiplications by odd numbers
-// and shifts, as Steele, Lea and Flood 2014 finish their counters).
-std::uint64_t mixed(std::uint64_t bits) {
-  bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9U;
-  bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBU;
-  return bits ^ (bits >> 31);
-}
+// A noise of its own: by the settings' seed and the intruder.
+struct NoiseSource {
+  const GrainSettings& grain;
+  int intruder = 0;
 
-std::uint64_t key_of(const Grain& grain, int plane, std::int64_t frame) {
-  return mixed(mixed(grain.seed * 4 + static_cast<std::uint64_t>(plane)) + static_cast<std::uint64_t>(frame));
-}
+  [[nodiscard]] std::uint64_t key(int plane, std::int64_t frame) const {
+    const std::uint64_t seed = static_cast<std::uint64_t>(grain.seed) + (static_cast<std::uint64_t>(intruder) << 32);
+    return splitmix64(splitmix64(seed * 4 + static_cast<std::uint64_t>(plane)) + static_cast<std::uint64_t>(frame));
+  }
+};
 
 // Mean 0, variance 1: the sum of four uniform numbers of 16 bits, each with the variance 2^32 / 12.
 float white(std::uint64_t key, int x, int y) {
@@ -35,7 +35,7 @@ float white(std::uint64_t key, int x, int y) {
   constexpr float kScale = 1.7320508F / 65536;
   const std::uint64_t place =
       static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32 | static_cast<std::uint32_t>(x);
-  const std::uint64_t bits = mixed(key ^ mixed(place + 0x9E3779B97F4A7C15U));
+  const std::uint64_t bits = splitmix64(key ^ splitmix64(place + kSplitMixStep));
   const auto sum =
       static_cast<std::int32_t>((bits & 0xFFFF) + (bits >> 16 & 0xFFFF) + (bits >> 32 & 0xFFFF) + (bits >> 48));
   return kScale * (static_cast<float>(sum) - kMean);
@@ -55,11 +55,11 @@ std::vector<float> weights_in_time(double persistence) {
 }
 
 // White in space, correlated in time.
-cv::Mat uncorrelated_field(const Grain& grain, int plane, std::int64_t frame, const cv::Rect& rect) {
+cv::Mat uncorrelated_field(const NoiseSource& source, int plane, std::int64_t frame, const cv::Rect& rect) {
   cv::Mat field = cv::Mat::zeros(rect.size(), CV_32FC1);
-  const std::vector<float> weights = weights_in_time(grain.persistence);
+  const std::vector<float> weights = weights_in_time(source.grain.persistence);
   for (std::size_t k = 0; k < weights.size(); ++k) {
-    const std::uint64_t key = key_of(grain, plane, frame - static_cast<std::int64_t>(k));
+    const std::uint64_t key = source.key(plane, frame - static_cast<std::int64_t>(k));
     for (int y = 0; y < rect.height; ++y) {
       float* const row = field.ptr<float>(y);
       for (int x = 0; x < rect.width; ++x) row[x] += weights[k] * white(key, rect.x + x, rect.y + y);
@@ -97,14 +97,14 @@ cv::Mat noise_over(const PatchPlane& plane, const cv::Rect& part, const cv::Mat&
 // Noise for one plane, by the luma that its samples are worth, or by none.
 class PlaneGrain {
  public:
-  PlaneGrain(const Grain& grain, std::int64_t frame, const cv::Vec2d& black_and_white)
-      : grain_(grain), frame_(frame), black_and_white_(black_and_white) {}
+  PlaneGrain(const NoiseSource& source, std::int64_t frame, const cv::Vec2d& black_and_white)
+      : source_(source), frame_(frame), black_and_white_(black_and_white) {}
 
   // What is to be added to the plane's samples; empty: nothing. sd at black and at white, in code values.
   [[nodiscard]] cv::Mat change_of(const PatchPlane& plane, int index, double sd_black, double sd_white) {
     const cv::Rect part = covered(plane);
     if (part.empty() || (sd_black == 0 && sd_white == 0)) return {};
-    const cv::Mat noise = noise_field(grain_, index, frame_, part + plane.rect.tl());
+    const cv::Mat noise = noise_field(source_.grain, index, frame_, part + plane.rect.tl(), source_.intruder);
     samples_ += static_cast<std::int64_t>(noise.total());
     const double dark = sd_black * sd_black;
     const double bright = sd_white * sd_white;
@@ -117,7 +117,7 @@ class PlaneGrain {
   [[nodiscard]] std::int64_t samples() const { return samples_; }
 
  private:
-  const Grain& grain_;
+  const NoiseSource& source_;
   std::int64_t frame_;
   cv::Vec2d black_and_white_;
   std::int64_t samples_ = 0;
@@ -142,23 +142,25 @@ void add_chroma_to_rgb(CodePatch& patch, const cv::Mat& of_luma, const cv::Mat& 
 
 }  // namespace
 
-cv::Mat noise_field(const Grain& grain, int plane, std::int64_t frame, const cv::Rect& rect) {
-  if (grain.spread_px == 0) return uncorrelated_field(grain, plane, frame, rect);
+cv::Mat noise_field(const GrainSettings& grain, int plane, std::int64_t frame, const cv::Rect& rect, int intruder) {
+  const NoiseSource source{grain, intruder};
+  if (grain.spread_px == 0) return uncorrelated_field(source, plane, frame, rect);
   const int margin = blur_margin_px(grain.spread_px);
   cv::Mat kernel = sampled_gaussian(grain.spread_px, margin);
   kernel /= cv::norm(kernel);
-  cv::Mat field = uncorrelated_field(grain, plane, frame, grown(rect, margin));
+  cv::Mat field = uncorrelated_field(source, plane, frame, grown(rect, margin));
   cv::sepFilter2D(field, field, CV_32F, kernel, kernel);
   return field(cv::Rect({margin, margin}, rect.size())).clone();
 }
 
-std::int64_t add_grain(CodePatch& patch, const Grain& grain, std::int64_t frame) {
+std::int64_t add_grain(CodePatch& patch, const GrainSettings& grain, std::int64_t frame, int intruder) {
   if (grain.is_none()) return 0;
   const bool is_rgb = patch.layout == PixelLayout::rgb;
   const bool is_limited = !is_rgb && patch.color.range == ColorRange::limited;
   const double step = codes_per_8_bit_step(patch.bit_depth);
   const cv::Vec2d range = is_limited ? cv::Vec2d(16 * step, 235 * step) : cv::Vec2d(0, max_code(patch.bit_depth));
-  PlaneGrain noise(grain, frame, range);
+  const NoiseSource source{grain, intruder};
+  PlaneGrain noise(source, frame, range);
   const double sd_chroma = grain.sd_chroma * step;
   const cv::Mat of_luma =
       noise.change_of(is_rgb ? luma_of_rgb(patch) : patch.planes[0], 0, grain.sd_dark * step, grain.sd_bright * step);

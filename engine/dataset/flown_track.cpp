@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/interpolation.h"
 #include "encounter/daa_file.h"
 #include "geo/geodetic.h"
 #include "geo/recorded_path.h"
@@ -15,17 +16,6 @@ namespace sigs {
 namespace {
 
 constexpr int kSmoothingSteps = 32;  // places that a mean is made of
-
-// On the straight lines between the points.
-glm::dvec3 on_lines(const FlownTrack& track, double time_s) {
-  const std::vector<double>& times_s = track.times_s;
-  if (time_s <= times_s.front()) return track.places_ned_m.front();
-  if (time_s >= times_s.back()) return track.places_ned_m.back();
-  const auto after =
-      static_cast<std::size_t>(std::upper_bound(times_s.begin(), times_s.end(), time_s) - times_s.begin());
-  const double share = (time_s - times_s[after - 1]) / (times_s[after] - times_s[after - 1]);
-  return glm::mix(track.places_ned_m[after - 1], track.places_ned_m[after], share);
-}
 
 // Adds a point; one that is not later than the last is left out.
 void add_point(FlownTrack& track, double time_s, const glm::dvec3& place_ned_m) {
@@ -84,10 +74,10 @@ ReadFlights flights_of(const EncounterFile& encounter) {
 
 glm::dvec3 place_at(const FlownTrack& track, double time_s, double smoothing_s) {
   const double half_s = std::min({smoothing_s / 2, time_s - track.times_s.front(), track.times_s.back() - time_s});
-  if (!(half_s > 0)) return on_lines(track, time_s);
+  if (!(half_s > 0)) return value_at(track.times_s, track.places_ned_m, time_s);
   glm::dvec3 sum_m(0);
   for (int i = 0; i < kSmoothingSteps; ++i)
-    sum_m += on_lines(track, time_s + half_s * ((2 * i + 1.0) / kSmoothingSteps - 1));
+    sum_m += value_at(track.times_s, track.places_ned_m, time_s + half_s * ((2 * i + 1.0) / kSmoothingSteps - 1));
   return sum_m / double(kSmoothingSteps);
 }
 

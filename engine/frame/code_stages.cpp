@@ -14,17 +14,6 @@
 namespace sigs {
 namespace {
 
-// Noise of each intruder of its own: where one shows through another, both are there.
-Grain grain_for(const GrainSettings& settings, int intruder) {
-  const auto seed = static_cast<std::uint64_t>(settings.seed) + (static_cast<std::uint64_t>(intruder) << 32);
-  return {.sd_dark = settings.sd_dark,
-          .sd_bright = settings.sd_bright,
-          .sd_chroma = settings.sd_chroma,
-          .spread_px = settings.spread_px,
-          .persistence = settings.persistence,
-          .seed = seed};
-}
-
 std::int64_t samples_of(const CodePatch& patch, int first_plane, int end_plane) {
   std::int64_t count = 0;
   for (int plane = first_plane; plane < std::min(end_plane, patch.plane_count()); ++plane)
@@ -52,9 +41,9 @@ class CodeStages {
     tell("chroma_spread");
   }
 
-  void with_grain(const Grain& grain, int number) {
+  void with_grain(const GrainSettings& grain, int number, int intruder) {
     if (grain.is_none()) return;
-    composed_.op_counts.samples_of_noise += add_grain(patch_, grain, number);
+    composed_.op_counts.samples_of_noise += add_grain(patch_, grain, number, intruder);
     tell("grain");
   }
 
@@ -78,19 +67,18 @@ int code_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layo
 }
 
 bool has_code_stages(const AppearanceSettings& appearance) {
-  return appearance.sharpening > 0 || appearance.chroma_spread_px > 0 || !grain_for(appearance.grain, 0).is_none();
+  return appearance.sharpening > 0 || appearance.chroma_spread_px > 0 || !appearance.grain.is_none();
 }
 
 Rewritten blend_with_code_stages(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int number,
                                  const StageDone& done) {
   const AppearanceSettings& look = scene.appearance;
-  const BlendSpace space = scene.compositing.blend == BlendChoice::linear ? BlendSpace::linear : BlendSpace::display;
-  CodePatch patch = blended_patch(composed.image, layers.occluded, space,
+  CodePatch patch = blended_patch(composed.image, layers.occluded, scene.compositing.blend,
                                   code_stages_margin_px(look, composed.image.layout), scene.own_body);
   CodeStages stages(patch, composed, done);
   stages.sharpened(look.sharpening, look.sharpening_px);
   stages.with_chroma_spread(look.chroma_spread_px);
-  stages.with_grain(grain_for(look.grain, layers.placed.id), number);
+  stages.with_grain(look.grain, number, layers.placed.id);
   return {patch.planes[0].rect, write_patch(patch, composed.image)};
 }
 
@@ -110,11 +98,8 @@ std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& 
       earlier_px.push_back(earlier_places(scene, frame, intruder.placed, lens, settings.carried_frames));
   }
   if (reaches.empty()) return std::nullopt;
-  const MatchedCodec codec = settings.match == CodecMatchChoice::h264    ? MatchedCodec::h264
-                             : settings.match == CodecMatchChoice::mjpeg ? MatchedCodec::jpeg
-                                                                         : MatchedCodec::footage;
   std::optional<FrameQuantisers> quantisers =
-      matched_quantisers(codec, settings.quantiser, background.quantisers.get());
+      matched_quantisers(settings.match, settings.quantiser, background.quantisers.get());
   if (!quantisers) return std::nullopt;
   return CodecMatch(background, reaches, std::move(*quantisers), earlier_px);
 }

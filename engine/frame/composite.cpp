@@ -105,8 +105,7 @@ std::string stage_name(const std::string& name, const IntruderLayers& layers, co
 }
 
 void composite_direct(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers) {
-  const BlendSpace space = scene.compositing.blend == BlendChoice::linear ? BlendSpace::linear : BlendSpace::display;
-  composed.op_counts.pixels_blended += blend_over(composed.image, layers.occluded, space);
+  composed.op_counts.pixels_blended += blend_over(composed.image, layers.occluded, scene.compositing.blend);
   add_to_mask(composed.mask, scene.footage.size_px, layers.occluded.rect, layers.occluded.color);
 }
 

@@ -219,7 +219,7 @@ struct IntruderSettings {
 };
 
 // How the intruder gets into the image: directly through the lens, by section 3.2 of the paper, or by a keyed paste;
-// and whether light or code values are mixed.
+// and whether light is mixed, which adds as in the lens, or code values, as the paper does.
 enum class MethodChoice { direct, classic, plain };
 enum class BlendChoice { linear, display };
 
@@ -252,6 +252,7 @@ struct GrainSettings {
   double persistence = 0;  // correlation from one frame to the next, 0..1
   int seed = 1;
 
+  [[nodiscard]] bool is_none() const { return sd_dark == 0 && sd_bright == 0 && sd_chroma == 0; }
   [[nodiscard]] bool operator==(const GrainSettings&) const = default;
 };
 

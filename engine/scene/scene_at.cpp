@@ -3,36 +3,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
+#include "base/interpolation.h"
 #include "scene/scene_light.h"
 
 namespace sigs {
 
+namespace {
+
+// What samples have at a time (base/interpolation.h).
+template <class Sample, class Value>
+Value value_of(const std::vector<Sample>& samples, Value Sample::*value, double time_s) {
+  const Neighbours at = neighbours_of(samples, time_s, &Sample::time_s);
+  const Value& before = samples[at.before].*value;
+  return at.before == at.after ? before : interpolated(before, samples[at.after].*value, at.share);
+}
+
+}  // namespace
+
 glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s) {
   if (turns.empty()) return {1, 0, 0, 0};
-  const auto after = std::upper_bound(turns.begin(), turns.end(), time_s,
-                                      [](double time, const CarrierAttitude& turn) { return time < turn.time_s; });
-  if (after == turns.begin()) return after->world_from_carrier;
-  const auto before = std::prev(after);
-  if (after == turns.end() || before->time_s == time_s) return before->world_from_carrier;
-  const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
-  return glm::slerp(before->world_from_carrier, after->world_from_carrier, share);
+  return value_of(turns, &CarrierAttitude::world_from_carrier, time_s);
 }
 
 std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& deviations, double time_s) {
   if (deviations.empty()) return std::nullopt;
-  const auto after = std::upper_bound(deviations.begin(), deviations.end(), time_s,
-                                      [](double time, const AttitudeDeviation& one) { return time < one.time_s; });
-  if (after == deviations.begin()) return after->sd_rad;
-  const auto before = std::prev(after);
-  if (after == deviations.end() || before->time_s == time_s) return before->sd_rad;
-  const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
-  glm::dvec3 sd_rad;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = before->sd_rad[axis];
-    const double b = after->sd_rad[axis];
-    sd_rad[axis] = std::isfinite(a) && std::isfinite(b) ? glm::mix(a, b, share) : std::max(a, b);
+  const Neighbours at = neighbours_of(deviations, time_s, &AttitudeDeviation::time_s);
+  glm::dvec3 sd_rad = deviations[at.before].sd_rad;
+  for (int axis = 0; axis < 3 && at.before != at.after; ++axis) {
+    const double after = deviations[at.after].sd_rad[axis];
+    const bool is_known = std::isfinite(sd_rad[axis]) && std::isfinite(after);
+    sd_rad[axis] = is_known ? interpolated(sd_rad[axis], after, at.share) : std::max(sd_rad[axis], after);
   }
   return sd_rad;
 }
@@ -48,14 +49,7 @@ int unknown_attitudes(const CameraMotion& motion, const FootageShape& footage, c
 }
 
 double exposure_at(const std::vector<ExposureTime>& exposures, double time_s) {
-  if (exposures.empty()) return 0;
-  const auto after = std::upper_bound(exposures.begin(), exposures.end(), time_s,
-                                      [](double time, const ExposureTime& one) { return time < one.time_s; });
-  if (after == exposures.begin()) return after->exposure_s;
-  const auto before = std::prev(after);
-  if (after == exposures.end() || before->time_s == time_s) return before->exposure_s;
-  const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
-  return glm::mix(before->exposure_s, after->exposure_s, share);
+  return exposures.empty() ? 0 : value_of(exposures, &ExposureTime::exposure_s, time_s);
 }
 
 Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s) {

@@ -86,11 +86,11 @@ double mirrored_curve(double (*curve)(double), double value) {
   return std::copysign(curve(std::abs(value)), value);
 }
 
-cv::Vec3d over(const cv::Vec4f& layer, const cv::Vec3d& below, BlendSpace space) {
+cv::Vec3d over(const cv::Vec4f& layer, const cv::Vec3d& below, BlendChoice space) {
   cv::Vec3d out;
   const double through = 1 - double{layer[3]};
   for (int c = 0; c < 3; ++c)
-    out[c] = space == BlendSpace::linear
+    out[c] = space == BlendChoice::linear
                  ? mirrored_curve(display_value, layer[c] + through * mirrored_curve(linear_value, below[c]))
                  : layer[3] * display_value(double{layer[c]} / layer[3]) + through * below[c];
   return out;
@@ -111,7 +111,7 @@ TEST_CASE("samples of more than 8 bits that a layer does not cover are bit-ident
       Frame frame = deep_grainy(sort, {37, 23}, depth);
       const Frame before = cloned(frame);
       const Layer layer = cloudy_layer({5, 4, 21, 15}, 11);
-      blend_over(frame, layer, BlendSpace::linear);
+      blend_over(frame, layer, BlendChoice::linear);
       int changed = 0;
       for (int plane = 0; plane < frame.plane_count(); ++plane) {
         const cv::Mat& old_plane = before.planes[static_cast<std::size_t>(plane)];
@@ -132,7 +132,7 @@ TEST_CASE("samples of more than 8 bits that a layer does not cover are bit-ident
 TEST_CASE("where pixels have samples of their own, blending is right to half a code of the footage's depth") {
   for (const int depth : kDepths)
     for (const Sort& sort : all_sorts())
-      for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display}) {
+      for (const BlendChoice space : {BlendChoice::linear, BlendChoice::display}) {
         if (sort.step != cv::Size(1, 1)) continue;
         CAPTURE(sort.name);
         CAPTURE(depth);
@@ -169,8 +169,8 @@ TEST_CASE("over an even colour a half-transparent layer gives the same codes in 
       cv::Vec3d below = codes.of({0.3, 0.45, 0.55});
       for (int c = 0; c < 3; ++c) below[c] = std::round(below[c]);
       Frame frame = evenly_colored(sort, {40, 32}, depth, below);
-      blend_over(frame, even_layer({8, 8, 24, 16}, color), BlendSpace::linear);
-      const cv::Vec3d want = codes.of(over(color, codes.to_rgb(below), BlendSpace::linear));
+      blend_over(frame, even_layer({8, 8, 24, 16}, color), BlendChoice::linear);
+      const cv::Vec3d want = codes.of(over(color, codes.to_rgb(below), BlendChoice::linear));
       for (int plane = 0; plane < frame.plane_count(); ++plane) {
         const cv::Size step = plane == 0 ? cv::Size(1, 1) : sort.step;
         const int code = frame.planes[static_cast<std::size_t>(plane)].at<ushort>(16 / step.height, 20 / step.width);
@@ -194,7 +194,7 @@ TEST_CASE("PQ light of 10 bits is blended to half a code") {
   Frame frame = evenly_colored(sort, {16, 16}, 10, {430, 520, 505});
   frame.color.transfer = 16;
   const cv::Vec4f color(0.2F, 0.5F, 1.1F, 0.5F);
-  blend_over(frame, even_layer({4, 4, 8, 8}, color), BlendSpace::linear);
+  blend_over(frame, even_layer({4, 4, 8, 8}, color), BlendChoice::linear);
   const cv::Vec3d below = codes.to_rgb({430, 520, 505});
   cv::Vec3d mixed;
   for (int c = 0; c < 3; ++c) mixed[c] = display_of(color[c] + 0.5 * light_of(below[c]));
@@ -208,7 +208,7 @@ TEST_CASE("a gradient under a transparent layer has no steps of 8 bits") {
   Frame frame = evenly_colored(sort, {512, 8}, 10, {0, 0, 0});
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 512; ++x) frame.planes[0].at<ushort>(y, x) = static_cast<ushort>(400 + x / 4);
-  blend_over(frame, even_layer({0, 0, 512, 8}, {0.03F, 0.03F, 0.03F, 0.3F}), BlendSpace::linear);
+  blend_over(frame, even_layer({0, 0, 512, 8}, {0.03F, 0.03F, 0.03F, 0.3F}), BlendChoice::linear);
   std::set<int> codes;
   int largest_step = 0;
   for (int x = 0; x < 512; ++x) {
@@ -240,7 +240,7 @@ TEST_CASE("grain of one 8-bit code has four codes of 10 bits, and fine grain is 
   for (const double sd_code : {1.0, 0.25}) {
     Frame frame = evenly_colored(sort, {128, 128}, 10, {500, 0, 0});
     CodePatch patch =
-        blended_patch(frame, even_layer({0, 0, 128, 128}, {0.2F, 0.2F, 0.2F, 1}), BlendSpace::linear, 0, {});
+        blended_patch(frame, even_layer({0, 0, 128, 128}, {0.2F, 0.2F, 0.2F, 1}), BlendChoice::linear, 0, {});
     add_grain(patch, {.sd_dark = sd_code, .sd_bright = sd_code}, 3);
     (void)write_patch(patch, frame);
     cv::Scalar mean, deviation;

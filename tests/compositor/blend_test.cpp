@@ -36,7 +36,7 @@ Layer opaque(const cv::Rect& rect, const cv::Vec3d& linear, double opacity = 1) 
 
 TEST_CASE("samples that a layer does not cover are bit-identical in every layout") {
   for (const Sort& sort : all_sorts())
-    for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display}) {
+    for (const BlendChoice space : {BlendChoice::linear, BlendChoice::display}) {
       CAPTURE(sort.name);
       Frame frame = grainy(sort, {37, 23});
       const Frame before = cloned(frame);
@@ -68,7 +68,7 @@ TEST_CASE("an opaque layer gives its own colour whatever lies below") {
   int compared = 0;
   for (const Sort& sort : all_sorts())
     for (const cv::Vec3d& linear : colors)
-      for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display}) {
+      for (const BlendChoice space : {BlendChoice::linear, BlendChoice::display}) {
         CAPTURE(sort.name);
         CAPTURE(linear);
         const auto wanted =
@@ -102,8 +102,8 @@ TEST_CASE("half opacity mixes light in closed form and code values where asked t
         Frame by_light = even(sort, {8, 6}, static_cast<uchar>(below));
         Frame by_codes = cloned(by_light);
         const Layer layer = opaque({0, 0, 8, 6}, cv::Vec3d::all(above), 0.5);
-        blend_over(by_light, layer, BlendSpace::linear);
-        blend_over(by_codes, layer, BlendSpace::display);
+        blend_over(by_light, layer, BlendChoice::linear);
+        blend_over(by_codes, layer, BlendChoice::display);
         // Rounding to a code value, and a few 24-bit roundings more.
         CHECK(std::abs(by_light.planes[0].at<uchar>(3, 4) - (low + span * mixed_light)) < 0.501);
         CHECK(std::abs(by_codes.planes[0].at<uchar>(3, 4) - (low + span * mixed_codes)) < 0.501);
@@ -116,7 +116,7 @@ TEST_CASE("half opacity mixes light in closed form and code values where asked t
 
 TEST_CASE("an opacity near zero leaves the image unchanged") {
   for (const Sort& sort : all_sorts())
-    for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display})
+    for (const BlendChoice space : {BlendChoice::linear, BlendChoice::display})
       for (const double opacity : {1e-4, 1e-7, 1e-20, 1e-38, 1e-44}) {
         CAPTURE(sort.name);
         CAPTURE(opacity);
@@ -137,7 +137,7 @@ TEST_CASE("the blended value is monotonic in opacity") {
   int before = 60;
   for (int i = 1; i <= 400; ++i) {
     Frame frame = even(sort, {2, 2}, 60);
-    blend_over(frame, opaque({0, 0, 2, 2}, {0.8, 0.8, 0.8}, i / 400.0), BlendSpace::linear);
+    blend_over(frame, opaque({0, 0, 2, 2}, {0.8, 0.8, 0.8}, i / 400.0), BlendChoice::linear);
     const int code = frame.planes[0].at<uchar>(0, 0);
     REQUIRE(code >= before);
     REQUIRE(code - before <= 8);  // linear light is steepest at the dark end
@@ -153,7 +153,7 @@ TEST_CASE("a chroma sample moves by the weight of the pixels that are covered") 
     for (const cv::Point& pixel : {cv::Point(4, 4), cv::Point(5, 4), cv::Point(4, 5), cv::Point(5, 5)}) {
       CAPTURE(pixel);
       Frame frame = even(sort, {8, 8}, 100);
-      blend_over(frame, opaque({pixel, cv::Size(1, 1)}, {1, 0, 0}), BlendSpace::linear);
+      blend_over(frame, opaque({pixel, cv::Size(1, 1)}, {1, 0, 0}), BlendChoice::linear);
       for (int plane = 1; plane < 3; ++plane) {
         const cv::Mat& codes = frame.planes[static_cast<std::size_t>(plane)];
         for (int y = 0; y < codes.rows; ++y)
@@ -176,7 +176,7 @@ TEST_CASE("at the edges of an odd image a chroma sample takes the weight of the 
     for (const cv::Point corner : {cv::Point(0, 0), cv::Point(6, 0), cv::Point(0, 4), cv::Point(6, 4)}) {
       CAPTURE(corner);
       Frame frame = even(sort, size, 80);
-      blend_over(frame, opaque({corner, cv::Size(1, 1)}, {0, 0, 1}), BlendSpace::linear);
+      blend_over(frame, opaque({corner, cv::Size(1, 1)}, {0, 0, 1}), BlendChoice::linear);
       const cv::Vec3d blue = codes_of(sort, {0, 0, 1});
       CHECK(std::abs(frame.planes[0].at<uchar>(corner) - blue[0]) < 0.501);
       if (frame.plane_count() == 1) continue;
@@ -206,7 +206,7 @@ TEST_CASE("code values beyond black and white are kept where nothing is added") 
       CAPTURE(code);
       Frame frame = even(sort, {6, 6}, static_cast<uchar>(code));
       const Frame before = cloned(frame);
-      blend_over(frame, opaque({0, 0, 6, 6}, {1, 1, 1}, 1e-9), BlendSpace::linear);
+      blend_over(frame, opaque({0, 0, 6, 6}, {1, 1, 1}, 1e-9), BlendChoice::linear);
       for (int plane = 0; plane < frame.plane_count(); ++plane)
         CHECK(
             same_bytes(frame.planes[static_cast<std::size_t>(plane)], before.planes[static_cast<std::size_t>(plane)]));
@@ -217,8 +217,8 @@ TEST_CASE("an empty layer changes nothing") {
   for (const Sort& sort : all_sorts()) {
     Frame frame = grainy(sort, {9, 7});
     const Frame before = cloned(frame);
-    blend_over(frame, Layer{}, BlendSpace::linear);
-    blend_over(frame, opaque({2, 2, 0, 0}, {1, 1, 1}), BlendSpace::display);
+    blend_over(frame, Layer{}, BlendChoice::linear);
+    blend_over(frame, opaque({2, 2, 0, 0}, {1, 1, 1}), BlendChoice::display);
     for (int plane = 0; plane < frame.plane_count(); ++plane)
       CHECK(same_bytes(frame.planes[static_cast<std::size_t>(plane)], before.planes[static_cast<std::size_t>(plane)]));
   }

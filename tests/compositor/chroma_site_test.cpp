@@ -82,12 +82,12 @@ double mirrored(double (*curve)(double), double x) {
 }
 
 // The layer's pixel over a pixel's code values.
-cv::Vec3d blended(const Sort& sort, const cv::Vec4f& layer, const cv::Vec3d& codes, BlendSpace space) {
+cv::Vec3d blended(const Sort& sort, const cv::Vec4f& layer, const cv::Vec3d& codes, BlendChoice space) {
   if (!(layer[3] > 0)) return codes;
   const cv::Vec3d below = display_of(sort, codes);
   cv::Vec3d out;
   for (int c = 0; c < 3; ++c)
-    out[c] = space == BlendSpace::linear
+    out[c] = space == BlendChoice::linear
                  ? mirrored(display_value, layer[c] + (1.0 - layer[3]) * mirrored(linear_value, below[c]))
                  : layer[3] * mirrored(display_value, double(layer[c]) / layer[3]) + (1.0 - layer[3]) * below[c];
   return codes_of(sort, out);
@@ -98,7 +98,7 @@ cv::Vec4f color_at(const Layer& layer, int x, int y) {
   return layer.color.at<cv::Vec4f>(y - layer.rect.y, x - layer.rect.x);
 }
 
-cv::Mat blended(const Sort& sort, const Layer& layer, const cv::Mat& codes, BlendSpace space) {
+cv::Mat blended(const Sort& sort, const Layer& layer, const cv::Mat& codes, BlendChoice space) {
   cv::Mat out = codes.clone();
   for (int y = 0; y < out.rows; ++y)
     for (int x = 0; x < out.cols; ++x)
@@ -157,7 +157,7 @@ const Place kPlaces[] = {{{38, 24}, {11, 7, 9, 8}},  {{38, 24}, {12, 6, 8, 9}}, 
 
 TEST_CASE("planes are those of the blended full-resolution image averaged at the chroma's site") {
   for (const Sort& sort : sorts_with_shared_chroma())
-    for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display})
+    for (const BlendChoice space : {BlendChoice::linear, BlendChoice::display})
       for (const Place& place : kPlaces) {
         CAPTURE(sort.name);
         CAPTURE(place.size_px);
@@ -178,8 +178,8 @@ TEST_CASE("an opaque layer of many colours leaves nothing of the chroma below") 
     Frame frame = grainy(sort, size);
     Layer layer = speckled_layer({{0, 0}, size}, 5);
     for (cv::Vec4f& color : cv::Mat_<cv::Vec4f>(layer.color)) color[3] = 1;
-    const cv::Mat codes = blended(sort, layer, whole_codes(frame, sort), BlendSpace::linear);
-    blend_over(frame, layer, BlendSpace::linear);
+    const cv::Mat codes = blended(sort, layer, whole_codes(frame, sort), BlendChoice::linear);
+    blend_over(frame, layer, BlendChoice::linear);
     CHECK(largest_error(frame, codes, sort) < kBlendRounding);
   }
 }
@@ -199,8 +199,8 @@ TEST_CASE("an even opacity keeps the rest of every chroma sample below") {
         color[3] = 1;
         layer.color.at<cv::Vec4f>(y, x) = color * kOpacity;
       }
-    const cv::Mat above = blended(sort, opaque, whole_codes(frame, sort), BlendSpace::display);
-    blend_over(frame, layer, BlendSpace::display);
+    const cv::Mat above = blended(sort, opaque, whole_codes(frame, sort), BlendChoice::display);
+    blend_over(frame, layer, BlendChoice::display);
     for (int plane = 1; plane < 3; ++plane) {
       const cv::Mat& samples = frame.planes[static_cast<std::size_t>(plane)];
       for (int y = 0; y < samples.rows; ++y)
@@ -227,7 +227,7 @@ TEST_CASE("the colour of a soft spot lies where its brightness does") {
           const auto opacity = static_cast<float>(std::exp(-square / (2 * 3.0 * 3.0)));
           layer.color.at<cv::Vec4f>(y, x) = cv::Vec4f(1, 0.1F, 0, 1) * opacity;
         }
-      blend_over(frame, layer, BlendSpace::display);
+      blend_over(frame, layer, BlendChoice::display);
       const cv::Mat codes = whole_codes(frame, sort);
       const cv::Vec3d ground = codes_of(sort, display_of(sort, codes.at<cv::Vec3d>(0, 0)));
       for (const int plane : {0, 1, 2}) {
@@ -279,10 +279,10 @@ TEST_CASE("two layers far from each other give the same planes in either order")
     Frame second = cloned(first);
     const Layer left = speckled_layer({5, 4, 8, 9}, 1);
     const Layer right = speckled_layer({17, 9, 9, 7}, 2);
-    blend_over(first, left, BlendSpace::linear);
-    blend_over(first, right, BlendSpace::linear);
-    blend_over(second, right, BlendSpace::linear);
-    blend_over(second, left, BlendSpace::linear);
+    blend_over(first, left, BlendChoice::linear);
+    blend_over(first, right, BlendChoice::linear);
+    blend_over(second, right, BlendChoice::linear);
+    blend_over(second, left, BlendChoice::linear);
     for (std::size_t plane = 0; plane < 3; ++plane) CHECK(same_bytes(first.planes[plane], second.planes[plane]));
   }
 }

@@ -59,14 +59,14 @@ CodePatch step_patch(uchar below, double above_display) {
   sort.is_limited = false;
   const auto light = static_cast<float>(linear_value(above_display));
   return blended_patch(even(sort, {80, 40}, below), even_layer({kEdge, 0, 50, 40}, {light, light, light, 1}),
-                       BlendSpace::linear, 40, {});
+                       BlendChoice::linear, 40, {});
 }
 
 }  // namespace
 
 TEST_CASE("a patch without stages rounds to what blending makes, bit for bit") {
   for (const Sort& sort : all_sorts())
-    for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display})
+    for (const BlendChoice space : {BlendChoice::linear, BlendChoice::display})
       for (const cv::Rect& place : places()) {
         CAPTURE(sort.name);
         CAPTURE(place);
@@ -84,7 +84,7 @@ TEST_CASE("a patch without stages rounds to what blending makes, bit for bit") {
 TEST_CASE("stages at zero change nothing") {
   for (const Sort& sort : all_sorts()) {
     const Frame frame = grainy(sort, kImage);
-    CodePatch patch = blended_patch(frame, cloudy_layer({10, 9, 30, 20}, 4), BlendSpace::linear, 6, {});
+    CodePatch patch = blended_patch(frame, cloudy_layer({10, 9, 30, 20}, 4), BlendChoice::linear, 6, {});
     const CodePatch before = patch;
     std::array<cv::Mat, 3> codes;
     for (std::size_t i = 0; i < 3; ++i) codes[i] = patch.planes[i].after.clone();
@@ -103,7 +103,7 @@ TEST_CASE("all stages rewrite what they say and nothing else, in every layout an
       CAPTURE(place);
       const Frame before = grainy(sort, kImage);
       Frame after = cloned(before);
-      CodePatch patch = blended_patch(after, white_layer(place, 0.8F), BlendSpace::linear, margin_of(sort.layout), {});
+      CodePatch patch = blended_patch(after, white_layer(place, 0.8F), BlendChoice::linear, margin_of(sort.layout), {});
       all_stages(patch);
       const cv::Mat changed = write_patch(patch, after);
       cv::Mat touched = cv::Mat::zeros(kImage, CV_8UC1);
@@ -122,7 +122,7 @@ TEST_CASE("samples of the own body keep their bits under all stages") {
     body.colRange(30, kImage.width).setTo(1);
     // What is left of a layer from column 15 to 45.
     const Layer layer = white_layer({15, 10, 15, 20}, 1);
-    CodePatch patch = blended_patch(after, layer, BlendSpace::linear, margin_of(sort.layout), body);
+    CodePatch patch = blended_patch(after, layer, BlendChoice::linear, margin_of(sort.layout), body);
     all_stages(patch);
     write_patch(patch, after);
     for (int plane = 0; plane < before.plane_count(); ++plane) {
@@ -157,7 +157,7 @@ TEST_CASE("sharpening an edge overshoots as the Gaussian's error function says")
 TEST_CASE("sharpening keeps the mean of what the layer changes") {
   const Sort sort = all_sorts().front();
   const Frame frame = even(sort, {120, 90}, 90);
-  CodePatch patch = blended_patch(frame, cloudy_layer({30, 25, 50, 40}, 8), BlendSpace::linear, 12, {});
+  CodePatch patch = blended_patch(frame, cloudy_layer({30, 25, 50, 40}, 8), BlendChoice::linear, 12, {});
   const double before = cv::sum(patch.planes[0].after)[0];
   sharpen(patch, 1.5, 2);
   // Of an even background the layer's whole detail sums to 0; what opacity leaves of an even image's detail is 0.
@@ -169,7 +169,7 @@ TEST_CASE("an opaque layer shows nothing of the footage's detail behind it, shar
     CAPTURE(sort.name);
     const cv::Rect all({0, 0}, kImage);
     CodePatch busy =
-        blended_patch(grainy(sort, kImage), even_layer(all, {0.3F, 0.1F, 0.05F, 1}), BlendSpace::linear, 9, {});
+        blended_patch(grainy(sort, kImage), even_layer(all, {0.3F, 0.1F, 0.05F, 1}), BlendChoice::linear, 9, {});
     sharpen(busy, 3, 1);
     spread_chroma(busy, 1);
     for (int plane = 0; plane < busy.plane_count(); ++plane) {
@@ -187,7 +187,7 @@ TEST_CASE("a point of colour becomes the Gaussian, with its sum kept and luma un
     if (sort.step.area() != 1 || sort.layout == PixelLayout::gray) continue;
     CAPTURE(sort.name);
     const Frame frame = even(sort, {41, 41}, 120);
-    CodePatch patch = blended_patch(frame, even_layer({20, 20, 1, 1}, {0.4F, 0.1F, 0.1F, 1}), BlendSpace::linear,
+    CodePatch patch = blended_patch(frame, even_layer({20, 20, 1, 1}, {0.4F, 0.1F, 0.1F, 1}), BlendChoice::linear,
                                     chroma_spread_margin_px(sort.layout, sigma), {});
     const std::array<cv::Mat, 3> before{patch.planes[0].after.clone(), patch.planes[1].after.clone(),
                                         patch.planes[2].after.clone()};

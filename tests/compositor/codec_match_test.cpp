@@ -36,13 +36,13 @@ Pasted pasted(const Sort& sort, cv::Size size_px, const cv::Rect& reach) {
 }
 
 FrameQuantisers h264(int qp) {
-  return *matched_quantisers(MatchedCodec::h264, qp, nullptr);
+  return *matched_quantisers(CodecMatchChoice::h264, qp, nullptr);
 }
 
 std::vector<FrameQuantisers> all_codecs() {
   const FrameQuantisers mpeg{.kind = QuantiserKind::mpeg, .mean = 14};
-  return {h264(30), *matched_quantisers(MatchedCodec::jpeg, 60.0, nullptr),
-          *matched_quantisers(MatchedCodec::footage, std::nullopt, &mpeg)};
+  return {h264(30), *matched_quantisers(CodecMatchChoice::mjpeg, 60.0, nullptr),
+          *matched_quantisers(CodecMatchChoice::footage, std::nullopt, &mpeg)};
 }
 
 int changed(const Frame& a, const Frame& b) {
@@ -153,7 +153,7 @@ TEST_CASE("each macroblock is coded by its own quantiser, on the grid where the 
   Pasted made = pasted(sort, size, reach);
   const Frame uncoded = cloned(made.frame);
   const CodecMatch match(made.footage, std::vector{reach},
-                         *matched_quantisers(MatchedCodec::footage, std::nullopt, &stated));
+                         *matched_quantisers(CodecMatchChoice::footage, std::nullopt, &stated));
   static_cast<void>(match.apply(made.frame, made.mask, {}));
   cv::Mat off;
   cv::absdiff(made.frame.planes[0], uncoded.planes[0], off);
@@ -167,20 +167,20 @@ TEST_CASE("each macroblock is coded by its own quantiser, on the grid where the 
 
 TEST_CASE("which quantisers are taken: the project's before the stream's before a default") {
   FrameQuantisers stated{.kind = QuantiserKind::h264, .mean = 31, .blocks = cv::Mat(2, 2, CV_16SC1, cv::Scalar(31))};
-  CHECK(matched_quantisers(MatchedCodec::footage, std::nullopt, &stated)->at(0, 0) == 31);
-  CHECK(matched_quantisers(MatchedCodec::h264, std::nullopt, &stated)->at(0, 0) == 31);
-  CHECK(matched_quantisers(MatchedCodec::footage, 40.0, &stated)->at(0, 0) == 40);
-  CHECK(matched_quantisers(MatchedCodec::footage, std::nullopt, nullptr)->at(0, 0) == kDefaultQp);
-  CHECK(matched_quantisers(MatchedCodec::jpeg, std::nullopt, &stated)->tables ==
+  CHECK(matched_quantisers(CodecMatchChoice::footage, std::nullopt, &stated)->at(0, 0) == 31);
+  CHECK(matched_quantisers(CodecMatchChoice::h264, std::nullopt, &stated)->at(0, 0) == 31);
+  CHECK(matched_quantisers(CodecMatchChoice::footage, 40.0, &stated)->at(0, 0) == 40);
+  CHECK(matched_quantisers(CodecMatchChoice::footage, std::nullopt, nullptr)->at(0, 0) == kDefaultQp);
+  CHECK(matched_quantisers(CodecMatchChoice::mjpeg, std::nullopt, &stated)->tables ==
         jpeg_tables(kDefaultJpegQuality_percent));
-  CHECK(matched_quantisers(MatchedCodec::jpeg, 35.0, nullptr)->tables == jpeg_tables(35));
+  CHECK(matched_quantisers(CodecMatchChoice::mjpeg, 35.0, nullptr)->tables == jpeg_tables(35));
   const FrameQuantisers mpeg{.kind = QuantiserKind::mpeg, .mean = 10};
-  CHECK(matched_quantisers(MatchedCodec::footage, std::nullopt, &mpeg)->at(0, 0) == 10);
-  CHECK(matched_quantisers(MatchedCodec::footage, 4.0, &mpeg)->at(0, 0) == 8);
-  CHECK(matched_quantisers(MatchedCodec::h264, std::nullopt, &mpeg)->at(0, 0) == kDefaultQp);
+  CHECK(matched_quantisers(CodecMatchChoice::footage, std::nullopt, &mpeg)->at(0, 0) == 10);
+  CHECK(matched_quantisers(CodecMatchChoice::footage, 4.0, &mpeg)->at(0, 0) == 8);
+  CHECK(matched_quantisers(CodecMatchChoice::h264, std::nullopt, &mpeg)->at(0, 0) == kDefaultQp);
   const FrameQuantisers lossless{.kind = QuantiserKind::none};
-  CHECK(!matched_quantisers(MatchedCodec::footage, std::nullopt, &lossless));
-  CHECK(matched_quantisers(MatchedCodec::h264, 20.0, &lossless)->at(0, 0) == 20);
+  CHECK(!matched_quantisers(CodecMatchChoice::footage, std::nullopt, &lossless));
+  CHECK(matched_quantisers(CodecMatchChoice::h264, 20.0, &lossless)->at(0, 0) == 20);
 }
 
 TEST_CASE("without anything composited nothing is done") {

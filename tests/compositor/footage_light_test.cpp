@@ -67,8 +67,8 @@ TEST_CASE("half an opacity mixes light by the footage's own transfer function") 
           frame.color.transfer = curve.transfer;
           Frame by_codes = cloned(frame);
           const Layer layer = even_layer({0, 0, 8, 6}, {above / 2, above / 2, above / 2, 0.5F});
-          blend_over(frame, layer, BlendSpace::linear);
-          blend_over(by_codes, layer, BlendSpace::display);
+          blend_over(frame, layer, BlendChoice::linear);
+          blend_over(by_codes, layer, BlendChoice::display);
           const double light = low + span * curve.display(0.5 * above + 0.5 * curve.light(old_display));
           const double codes = low + span * (0.5 * curve.display(above) + 0.5 * old_display);
           CHECK(std::abs(frame.planes[0].at<uchar>(3, 4) - std::min(light, 255.0)) < kLightRounding);
@@ -82,7 +82,7 @@ TEST_CASE("diffuse white has the signals of HDR reference white") {
   for (const auto& [transfer, percent] : {std::pair{16, 58.0}, {18, 75.0}, {1, 100.0}}) {
     Frame frame = even(sort, {4, 4}, 10);
     frame.color.transfer = transfer;
-    blend_over(frame, even_layer({0, 0, 4, 4}, {1, 1, 1, 1}), BlendSpace::linear);
+    blend_over(frame, even_layer({0, 0, 4, 4}, {1, 1, 1, 1}), BlendChoice::linear);
     for (const cv::Mat& plane : frame.planes) CHECK(std::abs(plane.at<uchar>(1, 1) / 2.55 - percent) < 0.5);
   }
 }
@@ -97,7 +97,7 @@ TEST_CASE("an intruder's colour comes out in the footage's primaries") {
     frame.color.primaries = 9;
     cv::Vec4f color(0, 0, 0, 1);
     color[primary] = 1;
-    blend_over(frame, even_layer({0, 0, 4, 4}, color), BlendSpace::linear);
+    blend_over(frame, even_layer({0, 0, 4, 4}, color), BlendChoice::linear);
     for (int c = 0; c < 3; ++c) {
       const double wanted = 255 * pq_display(203 * bt2020[c][primary]);
       // Four digits of the matrix are a twentieth of a code value at PQ's dark end.
@@ -112,12 +112,12 @@ TEST_CASE("footage of standard dynamic range is mixed by one curve whatever its 
     Frame unstated = grainy(sort, {21, 15});
     const Layer layer = cloudy_layer({3, 2, 15, 11}, 4);
     Frame plain = cloned(unstated);
-    blend_over(plain, layer, BlendSpace::linear);
+    blend_over(plain, layer, BlendChoice::linear);
     for (const int transfer : {1, 6, 7, 11, 13, 14, 15}) {
       Frame frame = cloned(unstated);
       frame.color.transfer = transfer;
       frame.color.primaries = 1;
-      blend_over(frame, layer, BlendSpace::linear);
+      blend_over(frame, layer, BlendChoice::linear);
       for (int plane = 0; plane < frame.plane_count(); ++plane)
         CHECK(same_bytes(frame.planes[static_cast<std::size_t>(plane)], plain.planes[static_cast<std::size_t>(plane)]));
     }
@@ -133,7 +133,7 @@ TEST_CASE("samples that no light reaches keep their bits in footage of high dyna
       frame.color.transfer = transfer;
       frame.color.primaries = 9;
       const Frame before = cloned(frame);
-      blend_over(frame, even_layer({2, 2, 8, 5}, {0, 0, 0, 1e-7F}), BlendSpace::linear);
+      blend_over(frame, even_layer({2, 2, 8, 5}, {0, 0, 0, 1e-7F}), BlendChoice::linear);
       for (int plane = 0; plane < frame.plane_count(); ++plane)
         CHECK(
             same_bytes(frame.planes[static_cast<std::size_t>(plane)], before.planes[static_cast<std::size_t>(plane)]));

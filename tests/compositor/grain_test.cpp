@@ -47,12 +47,12 @@ Sort sort_named(const std::string& name) {
 }
 
 // A flat surface of a code, in front of all of an even image, with grain.
-Frame with_grain(const Sort& sort, const Grain& grain, double display, float opacity, std::int64_t frame = 3) {
+Frame with_grain(const Sort& sort, const GrainSettings& grain, double display, float opacity, std::int64_t frame = 3) {
   const cv::Size size(640, 512);
   Frame image = even(sort, size, 100);
   const auto light = static_cast<float>(linear_value(display)) * opacity;
   CodePatch patch =
-      blended_patch(image, even_layer({{0, 0}, size}, {light, light, light, opacity}), BlendSpace::display, 0, {});
+      blended_patch(image, even_layer({{0, 0}, size}, {light, light, light, opacity}), BlendChoice::display, 0, {});
   add_grain(patch, grain, frame);
   write_patch(patch, image);
   return image;
@@ -82,7 +82,7 @@ TEST_CASE("a field of noise has mean 0 and variance 1, and its neighbours correl
 TEST_CASE("noise persists from frame to frame as asked") {
   for (const double persistence : {0.0, 0.3, 0.6, 0.9}) {
     CAPTURE(persistence);
-    const Grain grain{.spread_px = 0.8, .persistence = persistence};
+    const GrainSettings grain{.spread_px = 0.8, .persistence = persistence};
     const cv::Mat now = noise_field(grain, 0, 40, kLarge);
     CHECK(variance_of(now) == doctest::Approx(1).epsilon(0.03));
     CHECK(std::abs(correlation_of(now, noise_field(grain, 0, 41, kLarge)) - persistence) < 0.03);
@@ -99,7 +99,7 @@ TEST_CASE("planes, seeds and distant frames are independent, and frames below 0 
 }
 
 TEST_CASE("any part of a field by itself, on any thread, is that part of the whole") {
-  const Grain grain{.spread_px = 1.2, .persistence = 0.5, .seed = 11};
+  const GrainSettings grain{.spread_px = 1.2, .persistence = 0.5, .seed = 11};
   const cv::Mat whole = noise_field(grain, 0, 9, kLarge);
   std::array<cv::Mat, 4> parts;
   std::vector<std::thread> threads;
@@ -113,7 +113,7 @@ TEST_CASE("any part of a field by itself, on any thread, is that part of the who
 
 TEST_CASE("an opaque surface gets the footage's variance at its brightness, rounding included") {
   const Sort sort = sort_named("4:2:0 left BT.709 limited");
-  const Grain grain{.sd_dark = 1.5, .sd_bright = 5, .sd_chroma = 2.5, .spread_px = 0.8};
+  const GrainSettings grain{.sd_dark = 1.5, .sd_bright = 5, .sd_chroma = 2.5, .spread_px = 0.8};
   for (const double display : {0.2, 0.5, 0.8}) {
     CAPTURE(display);
     const Frame image = with_grain(sort, grain, display, 1);

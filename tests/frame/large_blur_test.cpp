@@ -104,9 +104,9 @@ double rmse(const cv::Mat& a, const cv::Mat& b) {
 // plane.
 void check_against_full(const Layer& soft, const Layer& full, double sigma_px, const Frame& background) {
   Frame wanted = cloned(background);
-  blend_over(wanted, full, BlendSpace::linear);
+  blend_over(wanted, full, BlendChoice::linear);
   Frame got = cloned(background);
-  if (!soft.empty()) blend_over(got, soft, BlendSpace::linear);
+  if (!soft.empty()) blend_over(got, soft, BlendChoice::linear);
   const double off = rmse(got.planes[0], wanted.planes[0]);
   const double maximum = cv::norm(got.planes[0], wanted.planes[0], cv::NORM_INF);
   MESSAGE("sigma " << sigma_px << ": off by " << off << " code values (root of mean square), at most " << maximum
