@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/bounded_queue.h"
+#include "base/interrupt.h"
 #include "base/threads.h"
 #include "video/bit_depth.h"
 #include "video/frame.h"
@@ -188,8 +189,8 @@ Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frame
   };
   while (std::optional<Result<NumberedFrame>> frame = stream.next()) {
     if (!*frame) return fail(frame->error());
-    if (control.cancel != nullptr && *control.cancel)
-      return fail(footage.info().path.string(), "interrupted", ErrorKind::interrupted);
+    if (const Result<void> on = check_interrupt(control.cancel, footage.info().path.string()); !on)
+      return fail(on.error());
     NumberedFrame& current = **frame;
     if (waiting) use(current.number == waiting->number + 1 && !current.frame.damaged ? &current.frame : nullptr);
     if (is_sample.contains(current.number) && !current.frame.damaged) waiting = std::move(current);

@@ -4,32 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "base/statistics.h"
 
 namespace sigs {
 namespace {
 
 constexpr int kBlock = 8;
 
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double sd_of(const std::vector<double>& values) {
-  if (values.size() < 2) return 0;
-  const double mean = mean_of(values);
-  double sum = 0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
 // The mean of what frames have shown, with the standard deviation of that mean.
 Estimate mean_estimate(const std::vector<double>& values, const char* why_not) {
   if (values.empty()) return {.why = why_not};
-  return {
-      .value = mean_of(values), .sd = sd_of(values) / std::sqrt(static_cast<double>(values.size())), .is_known = true};
+  const auto others = static_cast<double>(std::max<std::size_t>(values.size() - 1, 1));
+  return {.value = mean(values), .sd = standard_deviation(values) / std::sqrt(others), .is_known = true};
 }
 
 // Sums and numbers of absolute steps between neighbours: of those across an edge of the grid, and of all others.
@@ -152,7 +141,7 @@ void CodecEstimator::add_ringing(const cv::Mat& luma) {
 CodecEstimate CodecEstimator::finish() const {
   CodecEstimate found{.codec = codec_, .kind = kind_, .predicts = predicts_};
   if (!means_.empty())
-    found.quantiser = {.value = mean_of(means_), .sd = sd_of(means_), .is_known = true};
+    found.quantiser = {.value = mean(means_), .sd = standard_deviation(means_), .is_known = true};
   else
     found.quantiser = {.value = kDefaultQp,
                        .why = frames_ == 0 ? "no frames" : "the footage's stream does not state its quantisers"};

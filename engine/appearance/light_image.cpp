@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/pose.h"
+#include "base/statistics.h"
 #include "video/color_space.h"
 
 namespace sigs {
@@ -237,9 +238,7 @@ glm::dvec3 fitted_plane(const std::vector<EdgePoint>& points, glm::dvec3 up) {
   for (int round = 0; round < 4; ++round) {
     std::vector<double> off;
     for (const EdgePoint& p : points) off.push_back(std::abs(glm::dot(p.ray, up)));
-    std::vector<double> sorted = off;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const double most = std::max(2.5 * sorted[sorted.size() / 2], 1e-4);
+    const double most = std::max(2.5 * median(off), 1e-4);
     const glm::dvec3 u = glm::normalize(glm::cross(up, glm::dvec3(0.01, 1, 0.02)));
     const glm::dvec3 v = glm::cross(up, u);
     double uu = 1e-12, uv = 0, vv = 1e-12, ue = 0, ve = 0;

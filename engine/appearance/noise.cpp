@@ -10,6 +10,7 @@
 
 #include "appearance/estimate.h"
 #include "appearance/noise_blocks.h"
+#include "base/statistics.h"
 
 namespace sigs {
 
@@ -243,7 +244,7 @@ class NoiseFit {
   [[nodiscard]] static Floor left_by_codec(const std::vector<double>& variances) {
     constexpr double kMostLeft = 4;
     if (std::ssize(variances) < kFewestBlocks) return {};
-    const double middle = quantile(variances, 0.5);
+    const double middle = median(variances);
     return {middle, middle < kMostLeft, static_cast<int>(variances.size() / 2)};
   }
 
@@ -253,7 +254,7 @@ class NoiseFit {
     std::vector<double> by_blocks;
     for (const NoiseLevel& level : levels_)
       by_blocks.insert(by_blocks.end(), level.blocks.size() / kFewestBlocks + 1, level.variance);
-    const double usual = quantile(by_blocks, 0.5);
+    const double usual = median(by_blocks);
     std::erase_if(levels_, [&](const NoiseLevel& level) { return level.variance > kMostAboveUsual * usual + 0.5; });
   }
 

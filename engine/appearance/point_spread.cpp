@@ -9,6 +9,7 @@
 #include <span>
 
 #include "appearance/straight_edges.h"
+#include "base/statistics.h"
 #include "video/chroma.h"
 #include "video/frame_quantisers.h"
 #include "video/luma_stream.h"
@@ -182,6 +183,7 @@ PointSpread::SharpEnd PointSpread::sharp_end() const {
   const std::vector<const Edge*> counted = counted_edges();
   SharpEnd end{.edges_counted = counted.size()};
   for (const Edge* const* const edge : thinned(counted, kMostEdges)) end.edges.push_back(*edge);
+  if (end.edges.empty()) return end;
   for (int round = 0; round < 2; ++round) {
     std::vector<double> values, errors;
     end.sigmas_px.clear();
@@ -191,7 +193,7 @@ PointSpread::SharpEnd PointSpread::sharp_end() const {
       errors.push_back(end.sigmas_px.back().sd);
     }
     const double spread_px = (quantile(values, 0.84) - quantile(values, 0.16)) / 2;
-    end.error_px = std::min(quantile(errors, 0.5), spread_px);
+    end.error_px = std::min(median(errors), spread_px);
     end.sigma_px.value = quantile(values, kLowQuantile) + kNormalAtLow * end.error_px;
     const double below_px = (quantile(values, 2 * kLowQuantile) - quantile(values, kLowQuantile / 2)) / 2;
     end.sigma_px.sd = std::max(below_px - 0.4 * end.error_px, end.error_px / std::sqrt(std::ssize(values)));
@@ -256,17 +258,17 @@ void PointSpread::find_luma(PointSpreadFound& found, const SharpEnd& end) const 
     sizes.push_back(shape.sharpening_px);
   }
   const double factor = std::sqrt(static_cast<double>(kParts - 1));  // of the jackknife: (n - 1) / n * n
-  const double amount_sd = factor * deviation(amounts);
+  const double amount_sd = factor * standard_deviation(amounts);
   const double natural_sd = end.sigma_px.sd;
   const EdgeShape& shape = end.shape;
   constexpr double kOfModel = 0.03;  // no lens' blur is exactly a Gaussian
-  found.sigma_px = {shape.sigma_px, std::hypot(factor * deviation(sigmas), natural_sd, kOfModel * shape.sigma_px), true,
-                    ""};
+  found.sigma_px = {shape.sigma_px,
+                    std::hypot(factor * standard_deviation(sigmas), natural_sd, kOfModel * shape.sigma_px), true, ""};
   found.edges_used = static_cast<int>(end.agreeing.size());
   constexpr double kSureAmount = 0.2;  // half of a usual camera's
   if (shape.sharpening > 0 && amount_sd < std::max(kSureAmount, 0.35 * shape.sharpening)) {
     found.sharpening = {shape.sharpening, amount_sd, true, ""};
-    found.sharpening_px = {shape.sharpening_px, factor * deviation(sizes), true, ""};
+    found.sharpening_px = {shape.sharpening_px, factor * standard_deviation(sizes), true, ""};
   } else if (shape.sharpening == 0) {
     found.sharpening = {0, natural_sd / shape.sigma_px, true, ""};
     found.sharpening_px.why = "no sharpening";
@@ -322,7 +324,7 @@ void PointSpread::find_chroma(PointSpreadFound& found, const SharpEnd& end) cons
   }
   const double quartiles = quantile(spreads_px, 0.75) - quantile(spreads_px, 0.25);
   const double sd = 1.25 * 0.741 * quartiles / std::sqrt(static_cast<double>(spreads_px.size()));
-  spread = {quantile(spreads_px, 0.5), std::max(sd, 0.02), true, ""};
+  spread = {median(spreads_px), std::max(sd, 0.02), true, ""};
   found.panels.push_back(
       {.title = "chroma across edges, 0 dark side, 1 bright side",
        .x_title = "distance from the edge, luma px",

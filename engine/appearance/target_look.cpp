@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "appearance/target_silhouette.h"
+#include "base/statistics.h"
 
 namespace sigs {
 
@@ -51,22 +52,13 @@ double rms_over(const cv::Mat& plane, const cv::Mat& where) {
   return std::sqrt(cv::mean(plane.mul(plane), where)[0]);
 }
 
-// Values of a plane under a mask, in order.
-std::vector<float> sorted_over(const cv::Mat& plane, const cv::Mat& where) {
+// Values of a plane under a mask.
+std::vector<float> values_over(const cv::Mat& plane, const cv::Mat& where) {
   std::vector<float> values;
   for (int y = 0; y < plane.rows; ++y)
     for (int x = 0; x < plane.cols; ++x)
       if (where.at<uchar>(y, x) != 0) values.push_back(plane.at<float>(y, x));
-  std::sort(values.begin(), values.end());
   return values;
-}
-
-// Between two values, linear.
-double percentile(const std::vector<float>& sorted, double percent) {
-  const double at = percent / 100 * static_cast<double>(sorted.size() - 1);
-  const auto i = static_cast<std::size_t>(at);
-  const double next = sorted[std::min(i + 1, sorted.size() - 1)];
-  return sorted[i] + (at - static_cast<double>(i)) * (next - sorted[i]);
 }
 
 // Where the grain is measured: the silhouette without its outline, where enough is left.
@@ -86,11 +78,11 @@ void add_contrast(TargetLook& look, const TargetSilhouette& target) {
   const double background = std::max(1.0, target.background);
   look.weber_mean = cv::mean(target.difference, target.mask)[0] / background;
   look.weber_rms = rms_over(target.difference, target.mask) / background;
-  const std::vector<float> values = sorted_over(target.difference, target.mask);
-  look.darkest_1 = percentile(values, 1);
-  look.darkest_5 = percentile(values, 5);
-  look.brightest_95 = percentile(values, 95);
-  look.brightest_99 = percentile(values, 99);
+  const std::vector<float> values = values_over(target.difference, target.mask);
+  look.darkest_1 = quantile(values, 0.01);
+  look.darkest_5 = quantile(values, 0.05);
+  look.brightest_95 = quantile(values, 0.95);
+  look.brightest_99 = quantile(values, 0.99);
 }
 
 cv::Mat length_of(const cv::Mat& a, const cv::Mat& b) {

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "base/statistics.h"
 #include "video/chroma.h"
 
 namespace sigs {
@@ -30,13 +31,6 @@ using Terms = cv::Matx<double, 6, 1>;
 Terms terms_at(int x, int y, cv::Size size) {
   const double u = 2.0 * x / size.width - 1, v = 2.0 * y / size.height - 1;
   return {1, u, v, u * u, u * v, v * v};
-}
-
-double median_of(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // A background's surface, and how the samples that it was fitted to scatter about it.
@@ -77,7 +71,7 @@ Surface surface_through(const cv::Mat& plane, const cv::Mat& around) {
     found = normal.solve(right, cv::DECOMP_CHOLESKY);
     std::vector<double> off;
     for (const Sample& sample : samples) off.push_back(std::abs(sample.value - found.dot(sample.terms)));
-    sd = std::max(kLeastSd, 1.4826 * median_of(off));  // of a Gaussian
+    sd = std::max(kLeastSd, 1.4826 * median(off));  // of a Gaussian
     limit = kOutlier_sd * sd;
   }
   Surface surface{.values = cv::Mat(plane.size(), CV_32FC1), .sd = sd};
@@ -305,12 +299,6 @@ Profile upright(Profile profile) {
   return profile;
 }
 
-double quantile_of_profile(std::vector<double>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 // Mean of the profiles over their contrasts, shifted so that their edges coincide; negated lowest value outside.
 double overshoot_of(const std::vector<Profile>& profiles, const std::vector<Edge>& edges) {
   constexpr int kOutside = 4 * kStepsPerPixel;
@@ -343,7 +331,7 @@ std::optional<double> chroma_width(const TargetSilhouette& target, const std::ve
       widths.push_back(edge->width_px);
   }
   if (widths.size() < kLeastProfiles) return std::nullopt;
-  return quantile_of_profile(widths, 0.5);
+  return median(widths);
 }
 
 }  // namespace
@@ -368,8 +356,8 @@ EdgeProfiles edge_profiles(const TargetSilhouette& target) {
     widths.push_back(edge.width_px);
     slopes.push_back(edge.slope);
   }
-  found.width_px = quantile_of_profile(widths, 0.5);
-  found.slope = quantile_of_profile(slopes, 0.75);
+  found.width_px = median(widths);
+  found.slope = quantile(slopes, 0.75);
   found.overshoot = overshoot_of(profiles, edges);
   return found;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "appearance/target_silhouette.h"
+#include "base/interrupt.h"
 #include "base/statistics.h"
 #include "comparison/inserted_target.h"
 #include "frame/compose_context.h"
@@ -122,8 +123,7 @@ class Views {
 
  private:
   Result<void> count() {
-    if (control_.cancel != nullptr && *control_.cancel)
-      return fail(project_.file.string(), "interrupted", ErrorKind::interrupted);
+    if (const Result<void> on = check_interrupt(control_.cancel, project_.file.string()); !on) return on;
     if (control_.progress) control_.progress(++done_, (1 + kRounds) * kViews);
     return {};
   }

@@ -17,6 +17,7 @@ extern "C" {
 
 #include "base/ensure.h"
 #include "base/input_file.h"
+#include "base/interrupt.h"
 #include "mesh/materials.h"
 #include "project/fields.h"
 #include "project/json.h"
@@ -76,7 +77,7 @@ Result<std::string> checksum_of_file(const fs::path& file, const std::atomic<boo
   Checksum checksum;
   std::vector<char> piece(kPieceBytes);
   while (in) {
-    if (cancel != nullptr && *cancel) return fail("", "interrupted", ErrorKind::interrupted);
+    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
     in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     checksum.add({piece.data(), static_cast<std::size_t>(in.gcount())});
   }

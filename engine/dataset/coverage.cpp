@@ -9,6 +9,7 @@
 #include <pugixml.hpp>
 #include <string_view>
 
+#include "base/interrupt.h"
 #include "base/json.h"
 #include "base/parsing.h"
 #include "base/pose.h"
@@ -59,10 +60,6 @@ void add_sights(const Project& project, const Scene& scene, const VisibilityEsti
                                                     : HorizonSide::unknown,
                   .cell = cell_of_box(estimates[i].silhouette, scene.camera.size_px)});
   }
-}
-
-bool is_set(const std::atomic<bool>* cancel) {
-  return cancel != nullptr && *cancel;
 }
 
 // A number of an annotation; not a number where it is missing.
@@ -181,7 +178,7 @@ Result<Coverage> predicted_coverage(const std::vector<const PlannedVideo*>& vide
   VideoVisibility opener;
   Coverage coverage;
   for (const PlannedVideo* const video : videos) {
-    if (is_set(cancel)) return fail("", "interrupted", ErrorKind::interrupted);
+    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
     const std::optional<Scene> scene = opener.scene_of(video->project);
     if (!scene) {
       ++coverage.unopened;
@@ -201,7 +198,7 @@ Result<Coverage> counted_coverage(const std::filesystem::path& folder, const std
   if (!names) return fail(names.error());
   Coverage coverage;
   for (const std::string& name : *names) {
-    if (is_set(cancel)) return fail("", "interrupted", ErrorKind::interrupted);
+    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
     if (const Result<void> counted = count_video(folder, name, coverage); !counted) return fail(counted.error());
   }
   return coverage;

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "base/interrupt.h"
 #include "export/export_project.h"
 #include "scene/model.h"
 #include "scene/opened_project.h"
@@ -182,7 +183,7 @@ std::vector<std::optional<Visibility>> visibilities_of(const std::vector<const P
                                                        const std::atomic<bool>* cancel) {
   VideoVisibility estimator;
   std::vector<std::optional<Visibility>> visibilities(videos.size());
-  for (std::size_t i = 0; i < videos.size() && !(cancel != nullptr && *cancel); ++i)
+  for (std::size_t i = 0; i < videos.size() && !is_cancelled(cancel); ++i)
     visibilities[i] = estimator.visibility_of(videos[i]->project, frames);
   return visibilities;
 }

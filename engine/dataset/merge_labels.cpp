@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/interrupt.h"
 #include "base/text.h"
 #include "dataset/video_name.h"
 #include "labels/label_text.h"
@@ -108,7 +109,7 @@ Result<void> check_labels_agree(const Plan& plan) {
 Result<void> merge_labels(const MergeRequest& request, const std::vector<FinishedVideo>& videos) {
   for (const Merger& merger : kMergers) {
     for (const SplitLabels& labels : labels_of(merger.format, request, videos)) {
-      if (request.cancel != nullptr && *request.cancel) return fail("", "interrupted", ErrorKind::interrupted);
+      if (const Result<void> on = check_interrupt(request.cancel); !on) return on;
       const Result<fs::path> folder = made(request.folder / merger.format);
       if (!folder) return fail(folder.error());
       const bool is_file = !merger.suffix.empty();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "base/text.h"
 #include "dataset/footage_cache.h"
 #include "dataset/splits.h"
@@ -156,7 +157,7 @@ Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
   Plan plan{.name = recipe.name};
   Planner planner(recipe, *backgrounds);
   for (const VideoSpec& spec : *specs) {
-    if (cancel != nullptr && *cancel) return fail("", "interrupted", ErrorKind::interrupted);
+    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
     planner.add(spec, plan);
   }
   Result<void> step = check_projects(recipe, plan);

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "base/paths.h"
 #include "base/staging_folder.h"
 #include "base/stopwatch.h"
@@ -83,7 +84,7 @@ class DatasetRun {
   [[nodiscard]] Result<DatasetReport> all();
 
  private:
-  [[nodiscard]] bool is_cancelled() const { return control_.cancel != nullptr && *control_.cancel; }
+  [[nodiscard]] bool is_cancelled() const { return sigs::is_cancelled(control_.cancel); }
   [[nodiscard]] Error interrupted() const;
   void warn(const Warning& warning);
   void inspect(Task& task);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/interrupt.h"
 #include "occlusion/mask_geometry.h"
 #include "video/luma_stream.h"
 
@@ -80,8 +81,7 @@ class Detection {
   [[nodiscard]] Result<void> process_frames() {
     LumaStream stream(footage_, steps_);
     while (std::optional<Result<LumaFrame>> frame = stream.next()) {
-      if (control_.cancel != nullptr && control_.cancel->load())
-        return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+      if (const Result<void> on = check_interrupt(control_.cancel); !on) return on;
       if (!*frame) return fail(unreadable(frame->error()));
       add(**frame);
       if (control_.progress) control_.progress(passed_, passed_of_all());

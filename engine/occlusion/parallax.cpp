@@ -10,6 +10,8 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "base/ensure.h"
+#include "base/interrupt.h"
+#include "base/statistics.h"
 
 namespace sigs {
 
@@ -114,15 +116,9 @@ cv::Mat textured(const cv::Mat& gray) {
   return has_texture;
 }
 
-// A third of the values are smaller. Beside something near, what is far is covered in the frames of one side, and its
-// flow there is that of the near; in those of the other side it is right, and smaller.
-float lower_third(std::vector<float>& values) {
-  const auto third = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 3);
-  std::nth_element(values.begin(), third, values.end());
-  return *third;
-}
-
-// Over the comparisons in which a pixel is known; unknown without texture.
+// Over the comparisons in which a pixel is known; unknown without texture. A third of the values are smaller: beside
+// something near, what is far is covered in the frames of one side, and its flow there is that of the near; in those of
+// the other side it is right, and smaller.
 cv::Mat combined(const std::vector<cv::Mat>& all, const cv::Mat& has_texture) {
   cv::Mat out(has_texture.size(), CV_32FC1, cv::Scalar(kUnknown));
   std::vector<float> known;
@@ -132,7 +128,7 @@ cv::Mat combined(const std::vector<cv::Mat>& all, const cv::Mat& has_texture) {
       known.clear();
       for (const cv::Mat& one : all)
         if (const float value = one.at<float>(y, x); !std::isnan(value)) known.push_back(value);
-      if (!known.empty()) out.at<float>(y, x) = lower_third(known);
+      if (!known.empty()) out.at<float>(y, x) = static_cast<float>(quantile(known, 1.0 / 3));
     }
   return out;
 }
@@ -254,15 +250,12 @@ double known_share_of(const cv::Mat& values) {
   return static_cast<double>(cv::countNonZero(values == values)) / static_cast<double>(values.total());
 }
 
-double quantile(const cv::Mat& values, double share) {
+double known_quantile(const cv::Mat& values, double share) {
   std::vector<float> known;
   for (int y = 0; y < values.rows; ++y)
     for (int x = 0; x < values.cols; ++x)
       if (!std::isnan(values.at<float>(y, x))) known.push_back(values.at<float>(y, x));
-  if (known.empty()) return 0;
-  const auto at = known.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(known.size() - 1));
-  std::nth_element(known.begin(), at, known.end());
-  return *at;
+  return known.empty() ? 0 : quantile(std::move(known), share);
 }
 
 // Motion against infinity within the span, from all frames that are compared; px of the reduced image.
@@ -274,7 +267,7 @@ Result<cv::Mat> parallax_around(const Reduced& here, FrameSource& footage, const
   if (others.empty()) return fail(place, "has no other frame to compare with; parallax needs two");
   std::vector<cv::Mat> motions;
   for (const int frame : others) {
-    if (control.cancel != nullptr && control.cancel->load()) return fail(place, "interrupted", ErrorKind::interrupted);
+    if (const Result<void> on = check_interrupt(control.cancel, place); !on) return fail(on.error());
     const Result<Frame> other = footage.read(frame);
     if (!other) return fail(other.error());
     const glm::dquat other_from_here = glm::conjugate(pose_at(frame).rotation) * pose_at(settings.frame).rotation;
@@ -303,7 +296,7 @@ Result<NearScenery> near_scenery(FrameSource& footage, const Camera& camera, con
   if (found.known_share < kMinKnownShare)
     return fail(place, fmt::format("frame {} has texture in {:.1f} % of the image, too little to see a parallax in",
                                    settings.frame, 100 * found.known_share));
-  found.largest_parallax_px = quantile(*parallax_px, 0.95) / scale;
+  found.largest_parallax_px = known_quantile(*parallax_px, 0.95) / scale;
   const cv::Mat mask = cut_by_color(here.bgr, verdicts(*parallax_px, settings, pose_at, rays, scale));
   cv::resize(mask, found.mask, camera.size_px, 0, 0, cv::INTER_LINEAR);
   found.mask = found.mask >= 128;

@@ -14,6 +14,7 @@
 
 #include "base/ensure.h"
 #include "base/image.h"
+#include "base/statistics.h"
 #include "occlusion/mask_geometry.h"
 
 namespace sigs {
@@ -147,15 +148,12 @@ cv::Mat square(int radius) {
   return cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8UC1);
 }
 
-double median(const cv::Mat& values, const cv::Mat& mask) {
-  std::vector<float> sorted;
+double median_in(const cv::Mat& values, const cv::Mat& mask) {
+  std::vector<float> inside;
   for (int y = 0; y < values.rows; ++y)
     for (int x = 0; x < values.cols; ++x)
-      if (mask.at<std::uint8_t>(y, x) != 0) sorted.push_back(values.at<float>(y, x));
-  if (sorted.empty()) return 0;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+      if (mask.at<std::uint8_t>(y, x) != 0) inside.push_back(values.at<float>(y, x));
+  return median(std::move(inside));
 }
 
 // The centre lines of boundaries may lie on either side of the border of the labels.
@@ -200,7 +198,7 @@ double odds_of_rim(const Zones& zones, const Rim& rim) {
 }
 
 double odds_of_inside(const Zones& zones, const cv::Mat& variation, const cv::Mat& drift) {
-  const double restless = std::max(1.0, median(variation, zones.inside) / kRestlessness);
+  const double restless = std::max(1.0, median_in(variation, zones.inside) / kRestlessness);
   return -std::log2(restless) - cv::mean(drift, zones.inside)[0] / kDriftUnit;
 }
 

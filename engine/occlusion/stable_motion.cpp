@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/ensure.h"
+#include "base/statistics.h"
 #include "occlusion/mask_geometry.h"
 
 namespace sigs {
@@ -27,16 +28,13 @@ constexpr double kShakenMargin = 0.8;   // most of a body are lines and areas, w
 constexpr double kMinShaken = 0.15;     // light and codec alone vary an edge's energy by less
 constexpr double kMinSpan = 4;          // ratio from which it surely moves, at least
 
-float quantile(const cv::Mat& values, double share, double above) {
+double quantile_above(const cv::Mat& values, double share, double above) {
   std::vector<float> sorted;
   sorted.reserve(values.total());
   for (int y = 0; y < values.rows; ++y)
     std::copy_if(values.ptr<float>(y), values.ptr<float>(y) + values.cols, std::back_inserter(sorted),
                  [&](float value) { return value > above; });
-  if (sorted.empty()) return 0;
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
-  std::nth_element(sorted.begin(), at, sorted.end());
-  return *at;
+  return sorted.empty() ? 0 : quantile(std::move(sorted), share);
 }
 
 cv::Mat where(const cv::Mat& values, const cv::Mat& mask) {
@@ -56,8 +54,8 @@ struct NoiseRange {
 // belongs to the world: the result is therefore limited to that of the strongest sensor noise, less in a mean of
 // frames.
 double stillest(const cv::Mat& variation, double share, const NoiseRange& range) {
-  return std::clamp<double>(quantile(variation, share, range.no_signal), range.minimum,
-                            std::max(range.maximum, range.minimum));
+  return std::clamp(quantile_above(variation, share, range.no_signal), range.minimum,
+                    std::max(range.maximum, range.minimum));
 }
 
 // Variation of the gradient of a shaken spot by the energy of its mean gradient: shaking spreads the spot, and its
@@ -68,7 +66,7 @@ double shaken_share(double vibration, double frames_per_mean) {
 
 // The ratio from which a pixel surely moves: the geometric mean of the noise and of the world's median.
 double sure_ratio(const cv::Mat& variation, const cv::Mat& ratio, double noise) {
-  const double typical = quantile(where(variation, ratio > 1), 0.5, 0);
+  const double typical = quantile_above(where(variation, ratio > 1), 0.5, 0);
   return std::max(kMinSpan, std::sqrt(typical / (kNoiseMargin * noise)));
 }
 

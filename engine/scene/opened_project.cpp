@@ -74,11 +74,6 @@ Result<Scene> open_scene(const Project& project, const FootageShape& footage) {
   return open_scene(project, footage, files);
 }
 
-Result<void> check_interrupt(const std::atomic<bool>* cancel) {
-  if (cancel != nullptr && cancel->load()) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-  return {};
-}
-
 Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel) {
   if (const Result<void> valid = check_valid(project); !valid) return fail(valid.error());
   Result<FrameSource> source = open_footage(project, cancel, quantisers_for(project));

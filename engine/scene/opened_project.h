@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "base/result.h"
 #include "project/project.h"
 #include "scene/scene.h"
@@ -41,9 +42,6 @@ struct OpenedProject {
 // Validates the project and opens all that it names. Errors name the project file and the field.
 //   cancel  set to true: ends soon with the error `interrupted`. May be null; must outlive the opened project.
 [[nodiscard]] Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel);
-
-// The error `interrupted` once *cancel is true. cancel may be null: never.
-[[nodiscard]] Result<void> check_interrupt(const std::atomic<bool>* cancel);
 
 // Whether the frames of a project's footage need their quantisers: where the codec match is to be by the footage's own.
 [[nodiscard]] Quantisers quantisers_for(const Project& project);

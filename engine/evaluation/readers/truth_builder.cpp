@@ -159,44 +159,4 @@ Result<void> check_length(int frames, std::size_t boxes, const char* stated_by) 
                               count_text(static_cast<std::int64_t>(boxes), "row")));
 }
 
-namespace {
-
-int big_endian(const std::string& bytes, std::size_t at, int count) {
-  unsigned value = 0;
-  for (int i = 0; i < count; ++i)
-    value = value << 8U | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)]);
-  return static_cast<int>(value & 0x7fffffffU);
-}
-
-// Segments of a JPEG file (ITU-T T.81, annex B) up to the frame header, which states the size.
-std::optional<cv::Size> jpeg_size(const std::string& bytes) {
-  std::size_t at = 2;
-  while (at + 9 <= bytes.size()) {
-    if (static_cast<unsigned char>(bytes[at]) != 0xff) return std::nullopt;
-    const auto marker = static_cast<unsigned char>(bytes[at + 1]);
-    if (marker == 0xff) {  // a byte of filling
-      ++at;
-      continue;
-    }
-    const bool is_frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (is_frame) return cv::Size(big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2));
-    at += 2 + static_cast<std::size_t>(big_endian(bytes, at + 2, 2));
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-Result<cv::Size> image_file_size(const std::filesystem::path& path) {
-  const Result<std::string> bytes = read_text(path);
-  if (!bytes) return fail(bytes.error());
-  std::optional<cv::Size> size;
-  if (bytes->starts_with("\x89PNG\r\n\x1a\n") && bytes->size() >= 24)
-    size = cv::Size(big_endian(*bytes, 16, 4), big_endian(*bytes, 20, 4));
-  if (bytes->starts_with("\xff\xd8")) size = jpeg_size(*bytes);
-  if (!size || size->width <= 0 || size->height <= 0)
-    return fail(path.string(), "its size cannot be read, it is no PNG or JPEG file; state it with --size");
-  return *size;
-}
-
 }  // namespace sigs

@@ -69,9 +69,6 @@ void add_short_names(FramesOfImages& images);
 // place. Error bad_data: a name without number, a number twice, a gap.
 [[nodiscard]] Result<std::vector<int>> frames_of_images(const std::vector<std::string>& names, bool stills);
 
-// Width and height by the header of a PNG or JPEG file. Error: cannot_read; bad_data (neither, or damaged).
-[[nodiscard]] Result<cv::Size> image_file_size(const std::filesystem::path& path);
-
 // The folders of MOT sequences (with gt/gt.txt): the path itself, or those in it.
 [[nodiscard]] std::vector<std::filesystem::path> mot_sequences_in(const std::filesystem::path& path);
 

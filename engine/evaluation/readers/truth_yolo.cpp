@@ -96,8 +96,8 @@ Result<void> add_labels(TruthBuilder& builder, const YoloImage& image, int frame
       return fail(image.labels.string(),
                   "its image is not there, so shares of it cannot become pixels; state the images' size with --size");
     if (size_px.empty()) {
-      const Result<cv::Size> read = image_file_size(image.image);
-      if (!read) return fail(read.error());
+      const std::optional<cv::Size> read = image_size_px(image.image);
+      if (!read || read->empty()) return fail(image.image.string(), "its size cannot be read; state it with --size");
       size_px = *read;
     }
     Result<TrueBox> box = box_of_line(line->text, size_px);
