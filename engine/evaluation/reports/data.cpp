@@ -181,6 +181,13 @@ Json json_of(const DetectionScore& score) {
           {"encounters", encounters}};
 }
 
+Json json_of(const TrackSetClip& clip) {
+  return {{"name", line_text(clip.name)},
+          {"target", line_text(clip.target)},
+          {"from_frame", clip.from_frame},
+          {"frames", clip.truth.size()}};
+}
+
 template <class Text>
 Json json_lines(const std::vector<Text>& texts) {
   Json lines = Json::array();
@@ -273,13 +280,6 @@ Json json_of(const TrackSetFigures& figures, const std::vector<TrackSlice>& slic
                                                  {"mean_overlap", figures.clips_mean_overlap},
                                                  {"lost_share", figures.clips_lost_share}}},
                                                {"frames_by", slices_json(slices)}});
-}
-
-Json json_of(const TrackSetClip& clip) {
-  return {{"name", line_text(clip.name)},
-          {"target", line_text(clip.target)},
-          {"from_frame", clip.from_frame},
-          {"frames", clip.truth.size()}};
 }
 
 }  // namespace
