@@ -15,7 +15,6 @@
 #include "ego_motion/project_motion.h"
 #include "export/export_project.h"
 #include "project/validate.h"
-#include "scene/likely_mistakes.h"
 #include "scene/opened_project.h"
 #include "scene/plausibility.h"
 #include "scene/scene.h"

@@ -20,7 +20,7 @@
 #include "cli/output_files.h"
 #include "cli/process.h"
 #include "comparison/inserted_target.h"
-#include "comparison/target_boxes.h"
+#include "comparison/measured_target.h"
 #include "scene/opened_project.h"
 
 namespace sigs::cli {

@@ -17,7 +17,7 @@
 #include "base/file_lock.h"
 #include "base/staged_outputs.h"
 #include "editor/document/mask_painting.h"
-#include "project/json_reading.h"
+#include "project/fields.h"
 
 namespace sigs::editor {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/staged_outputs.h"
-#include "project/json_reading.h"
+#include "project/fields.h"
 
 namespace sigs::editor {
 

@@ -11,7 +11,6 @@
 #include "appearance/estimate.h"
 #include "appearance/light_image.h"
 #include "appearance/noise.h"
-#include "appearance/panel.h"
 #include "appearance/point_spread.h"
 #include "appearance/surroundings.h"
 #include "base/result.h"

@@ -5,7 +5,6 @@
 
 #include "appearance/estimate.h"
 #include "appearance/noise_blocks.h"
-#include "appearance/panel.h"
 #include "video/frame.h"
 
 namespace sigs {

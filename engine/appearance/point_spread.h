@@ -5,7 +5,6 @@
 
 #include "appearance/edge_fit.h"
 #include "appearance/estimate.h"
-#include "appearance/panel.h"
 #include "video/frame.h"
 
 namespace sigs {

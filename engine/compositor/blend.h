@@ -11,6 +11,16 @@
 
 namespace sigs {
 
+// The layer's part inside bounds. Shares its samples with the layer.
+[[nodiscard]] Layer clipped(const Layer& layer, const cv::Rect& bounds);
+
+// The layer without what the own body occludes: times (1 - mask).
+//   own_body  CV_32FC1 of the whole image, 0..1, or empty: the layer unchanged. The layer lies within the image.
+[[nodiscard]] Layer occluded_by_body(const Layer& layer, const cv::Mat& own_body);
+
+// The layer times (1 - mask), for any mask over the layer's own rectangle: CV_32FC1 of its size, 0..1.
+[[nodiscard]] Layer occluded_by(const Layer& layer, const cv::Mat& mask);
+
 // Composites the layer over the frame, in the frame's own planes. Only samples that the layer covers are converted and
 // rewritten; every other sample keeps its bits. A luma sample is covered where the opacity of its pixel is above 0, a
 // chroma sample where that of any pixel is that it averages at its site (video/chroma.h): for 4:2:0 at the left, three

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "compositor/occlude.h"
+#include "compositor/blend.h"
 #include "compositor/resample.h"
 #include "video/color_space.h"
 

@@ -12,7 +12,6 @@
 #include "base/pose.h"
 #include "base/text.h"
 #include "dataset/encounter.h"
-#include "dataset/track_flight.h"
 
 namespace sigs {
 

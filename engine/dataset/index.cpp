@@ -13,7 +13,6 @@
 #include "base/renaming.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "dataset/checksum.h"
 #include "dataset/dataset_lock.h"
 #include "dataset/entry.h"
 #include "dataset/merge_labels.h"

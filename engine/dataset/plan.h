@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,5 +57,19 @@ struct Plan {
 // "never in the picture 4 times; speed_mps once", the most frequent reason first. These words are written into index
 // files.
 [[nodiscard]] std::string resamples_text(const std::map<std::string, int>& resamples);
+
+// The properties of a video that determine its split.
+struct SplitCandidate {
+  std::string video;
+  std::string fixed;  // the split that its group names; empty: it is assigned
+  std::string unit;   // candidates of one unit get the same split; empty: a unit of its own
+};
+
+// The split of each candidate. A unit with a fixed member gets that member's split. The others are sorted by size, the
+// largest first, and by a hash of seed and name, and each in turn goes to the split that is farthest below its share of
+// the videos; for units of one size that is the method of the largest remainder. Without shares, units without a fixed
+// member get "". Error bad_data, with an empty place: one unit has two fixed splits.
+[[nodiscard]] Result<std::vector<std::string>> splits_of(std::span<const SplitCandidate> candidates,
+                                                         std::span<const SplitShare> shares, std::uint64_t seed);
 
 }  // namespace sigs

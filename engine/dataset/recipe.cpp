@@ -13,7 +13,6 @@
 #include "dataset/recipe_reading.h"
 #include "dataset/video_name.h"
 #include "project/fields.h"
-#include "project/json_reading.h"
 #include "project/project.h"
 #include "project/validate.h"
 

@@ -16,7 +16,7 @@
 #include "base/staging_folder.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
-#include "dataset/checksum.h"
+#include "dataset/entry.h"
 #include "dataset/index.h"
 #include "dataset/merge_labels.h"
 #include "dataset/video_folder.h"

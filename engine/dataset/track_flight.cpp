@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/track_flight.h"
+#include "dataset/flight_plan.h"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@
 
 #include "base/text.h"
 #include "export/frame_stream.h"
-#include "labels/json_lines.h"
+#include "labels/formats.h"
 #include "scene/opened_project.h"
 #include "video/video_writer.h"
 

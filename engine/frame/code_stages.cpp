@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/code_stages.h"
+#include "frame/composite.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -8,7 +8,6 @@
 #include "base/image.h"
 #include "compositor/blend.h"
 #include "compositor/code_patch.h"
-#include "compositor/grain.h"
 #include "frame/render_plan.h"
 
 namespace sigs {

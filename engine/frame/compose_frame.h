@@ -4,7 +4,7 @@
 #include "base/result.h"
 #include "frame/compose_context.h"
 #include "frame/composed_frame.h"
-#include "frame/intruder_layers.h"
+#include "frame/render_plan.h"
 #include "scene/scene.h"
 #include "video/frame.h"
 

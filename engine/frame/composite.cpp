@@ -20,8 +20,6 @@
 #include "base/pose.h"
 #include "compositor/blend.h"
 #include "compositor/classic.h"
-#include "compositor/occlude.h"
-#include "frame/code_stages.h"
 #include "video/color_space.h"
 
 namespace sigs {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/text.h"
-#include "labels/camera_text.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
 

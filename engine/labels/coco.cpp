@@ -9,7 +9,6 @@
 #include "base/ensure.h"
 #include "base/pose.h"
 #include "labels/label_files.h"
-#include "labels/label_masks.h"
 #include "labels/label_text.h"
 
 namespace sigs {

@@ -11,7 +11,6 @@
 #include "base/ensure.h"
 #include "base/pose.h"
 #include "base/text.h"
-#include "labels/camera_text.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
 

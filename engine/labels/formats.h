@@ -5,9 +5,15 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <utility>
 
+#include "base/output_stream.h"
+#include "base/result.h"
+#include "labels/label_files.h"
 #include "labels/labels.h"
+#include "truth/annotation.h"
 
 namespace sigs {
 
@@ -157,5 +163,50 @@ inline constexpr std::array<std::string_view, 10> kVotFiles{
 // labels/json_lines.h writes the same to a stream.
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_jsonl(const std::filesystem::path& path,
                                                               const LabelSequence& sequence);
+
+// Positions are in metres, angles in degrees, boxes in pixels with the first pixel at 0, 0. Numbers have up to six
+// digits after the point, those of an amodal box up to four.
+
+// The truth of one frame as the element <frame> of a SIGS annotation file, indented, with a line break at its end.
+[[nodiscard]] std::string xml_of(const FrameTruth& truth);
+
+// Writes a SIGS annotation file (docs/annotation-format.md, docs/sigs-annotations.xsd) frame by frame, so that memory
+// does not grow with the video. open_sigs_xml() (labels/formats.h) is the same as one of the label formats.
+class SigsXmlWriter {
+ public:
+  // Creates the file and writes its beginning. The caller gives it its final name when it is complete. Errors
+  // cannot_create, write_failed.
+  [[nodiscard]] static Result<SigsXmlWriter> open(const std::filesystem::path& path, const FootageTruth& footage);
+
+  // Appends the next frame; finish() closes the document and the file. Errors write_failed.
+  [[nodiscard]] Result<void> write(const FrameTruth& truth);
+  [[nodiscard]] Result<void> finish();
+
+ private:
+  explicit SigsXmlWriter(TextFile file) : file_(std::move(file)) {}
+
+  TextFile file_;
+};
+
+// The truth of one frame as one JSON object on a line of its own, with its line break. Fields and numbers are those of
+// the element <frame> of a SIGS annotation file (labels/sigs_xml.h); docs/label-formats.md lists them.
+[[nodiscard]] std::string json_line_of(const FrameTruth& truth, const LabelSequence& sequence);
+
+// Writes each line to a stream at once, for programs that read while the frames are made. open_jsonl()
+// (labels/formats.h) writes the same to a file.
+class JsonLinesStream : public LabelWriter {
+ public:
+  JsonLinesStream(OutputStream out, LabelSequence sequence) : out_(std::move(out)), sequence_(std::move(sequence)) {}
+
+  // Errors: write_failed (also where the reader has closed its end), interrupted.
+  [[nodiscard]] Result<void> write(const FrameTruth& truth) override {
+    return out_.write(json_line_of(truth, sequence_));
+  }
+  [[nodiscard]] Result<void> finish(const std::filesystem::path& /*images*/) override { return out_.close(); }
+
+ private:
+  OutputStream out_;
+  LabelSequence sequence_;
+};
 
 }  // namespace sigs

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "labels/json_lines.h"
 
 #include <cmath>
 #include <string_view>
@@ -7,7 +6,6 @@
 
 #include "base/pose.h"
 #include "base/text.h"
-#include "labels/camera_text.h"
 #include "labels/formats.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"

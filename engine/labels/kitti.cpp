@@ -13,9 +13,7 @@
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "labels/camera_text.h"
 #include "labels/label_files.h"
-#include "labels/label_masks.h"
 #include "labels/label_text.h"
 #include "truth/measure.h"
 

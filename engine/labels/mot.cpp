@@ -12,7 +12,6 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "labels/label_files.h"
-#include "labels/label_masks.h"
 #include "labels/label_text.h"
 
 namespace sigs {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "labels/sigs_xml.h"
 
 #include <cmath>
 #include <pugixml.hpp>
@@ -9,7 +8,6 @@
 
 #include "base/pose.h"
 #include "base/text.h"
-#include "labels/camera_text.h"
 #include "labels/formats.h"
 #include "labels/label_text.h"
 

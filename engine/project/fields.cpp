@@ -10,7 +10,6 @@
 
 #include "base/nesting.h"
 #include "base/text.h"
-#include "project/json_reading.h"
 #include "project/places.h"
 
 namespace sigs {

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/json.h"
 #include "base/result.h"
 #include "project/project.h"
 
@@ -59,5 +60,12 @@ inline constexpr int kProjectVersion = 1;
 
 // near_key() for the end of a message: "; did you mean seed?"; empty where there is none.
 [[nodiscard]] std::string suggestion(std::span<const std::string> keys, const std::string& key);
+
+// Sets a field to a JSON value. Returns what is wrong ("expected a number, found \"fast\""); empty where nothing is.
+// Does not check ranges; validate() does.
+[[nodiscard]] std::string put_json(const Json& json, const Field& field);
+
+// The field's value as JSON.
+[[nodiscard]] Json json_of(const Field& field);
 
 }  // namespace sigs

@@ -11,7 +11,6 @@
 
 #include "base/staged_outputs.h"
 #include "project/fields.h"
-#include "project/json_reading.h"
 #include "project/places.h"
 
 namespace sigs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "project/json_reading.h"
+#include "project/fields.h"
 
 #include <fmt/format.h>
 

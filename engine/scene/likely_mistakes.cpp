@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/likely_mistakes.h"
+#include "scene/plausibility.h"
 
 #include <fmt/format.h>
 

@@ -15,7 +15,6 @@
 #include "project/fields.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"
-#include "scene/likely_mistakes.h"
 #include "scene/plausibility.h"
 #include "scene/scene_light.h"
 #include "scene/scene_parts.h"

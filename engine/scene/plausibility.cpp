@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "scene/likely_mistakes.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 #include "scene/visibility.h"

@@ -4,11 +4,17 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <opencv2/core.hpp>
 #include <string>
 
 #include "frame/composed_frame.h"
 
 namespace sigs::python {
+
+// The samples of an image as an array [rows, columns] or, with several channels, [rows, columns, channels], of the
+// image's own type (uint8, uint16, float32, float64). Nothing is copied: the array keeps the samples alive. An empty
+// image gives an array without elements.
+[[nodiscard]] pybind11::array array_of(const cv::Mat& image);
 
 // A composed frame as Python sees it (sigs.Frame). Arrays share the frame's own samples wherever that is possible.
 class FrameObject {

@@ -11,7 +11,6 @@
 #include "errors.h"
 #include "project/fields.h"
 #include "project/json.h"
-#include "project/json_reading.h"
 #include "project/places.h"
 #include "project/validate.h"
 

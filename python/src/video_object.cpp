@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "arrays.h"
 #include "errors.h"
 #include "frame_object.h"
 

@@ -11,7 +11,7 @@
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "export/frame_stream.h"
-#include "labels/sigs_xml.h"
+#include "labels/formats.h"
 #include "project/json.h"
 #include "support/test_data.h"
 #include "video/frame_source.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "comparison/target_boxes.h"
+#include "comparison/measured_target.h"
 
 #include <doctest/doctest.h>
 

@@ -10,7 +10,6 @@
 
 #include "compositor/blend.h"
 #include "compositor/code_patch.h"
-#include "compositor/grain.h"
 #include "compositor/haze.h"
 #include "compositor/synthetic_frames.h"
 #include "compositor/synthetic_layers.h"

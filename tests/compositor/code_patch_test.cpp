@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "compositor/blend.h"
-#include "compositor/grain.h"
 #include "compositor/synthetic_frames.h"
 #include "compositor/synthetic_layers.h"
 

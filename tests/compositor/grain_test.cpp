@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/grain.h"
+#include "compositor/code_patch.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/occlude.h"
+#include "compositor/blend.h"
 
 #include <doctest/doctest.h>
 

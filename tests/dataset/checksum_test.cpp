@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/checksum.h"
+#include "dataset/entry.h"
 
 #include <doctest/doctest.h>
 

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "base/staged_outputs.h"
-#include "dataset/checksum.h"
+#include "dataset/entry.h"
 #include "dataset/tiny_plan.h"
 #include "project/json.h"
 #include "project/validate.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/splits.h"
+#include "dataset/plan.h"
 
 #include <doctest/doctest.h>
 

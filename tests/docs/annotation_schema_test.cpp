@@ -8,7 +8,7 @@
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "docs/markdown.h"
-#include "labels/sigs_xml.h"
+#include "labels/formats.h"
 #include "support/process.h"
 #include "support/test_data.h"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/staged_outputs.h"
-#include "labels/sigs_xml.h"
+#include "labels/formats.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/metrics/track_set.h"
+#include "evaluation/metrics/track_score.h"
 
 #include <doctest/doctest.h>
 

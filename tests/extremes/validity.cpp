@@ -11,7 +11,7 @@
 #include <numbers>
 #include <pugixml.hpp>
 
-#include "labels/sigs_xml.h"
+#include "labels/formats.h"
 #include "spline/flights.h"
 
 namespace sigs::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/code_stages.h"
+#include "frame/composite.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 
 #include "base/pose.h"
 #include "base/staged_outputs.h"
-#include "labels/label_masks.h"
+#include "labels/label_files.h"
 #include "labels/label_writing.h"
 #include "support/comma_locale.h"
 #include "support/test_data.h"

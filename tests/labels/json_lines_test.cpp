@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/json_lines.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 #include <unistd.h>

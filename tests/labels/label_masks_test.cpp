@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/label_masks.h"
+#include "labels/label_files.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "labels/sigs_xml.h"
+#include "labels/formats.h"
 
 #include <doctest/doctest.h>
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "scene/likely_mistakes.h"
 #include "scene/opened_project.h"
+#include "scene/plausibility.h"
 #include "scene/sample_scenes.h"
 #include "support/test_data.h"
 

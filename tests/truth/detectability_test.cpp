@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "truth/detectability.h"
+#include "truth/measure.h"
 
 #include <doctest/doctest.h>
 

@@ -10,7 +10,6 @@
 #include "evaluation/metrics/detection_score.h"
 #include "evaluation/metrics/slices.h"
 #include "evaluation/metrics/track_score.h"
-#include "evaluation/metrics/track_set.h"
 
 namespace sigs {
 
