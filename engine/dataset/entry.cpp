@@ -111,25 +111,7 @@ Result<std::string> InputChecksums::of(const fs::path& file) {
   return files_.emplace(file, checksum_of_file(file, cancel_)).first->second;
 }
 
-Result<std::string> InputChecksums::of_model(const fs::path& file) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (const auto known = models_.find(file); known != models_.end()) return known->second;
-  }
-  const Result<std::vector<fs::path>> files = files_of_model(file);
-  if (!files) return fail(files.error());
-  std::string list;
-  for (const fs::path& one : *files) {
-    const Result<std::string> checksum = of(one);
-    if (!checksum) return checksum;
-    list += checksum_line(*checksum, one.filename().string());
-  }
-  const std::lock_guard lock(mutex_);
-  return models_.emplace(file, checksum_of_text(list)).first->second;
-}
-
-Result<std::string> InputChecksums::of_images(const fs::path& sequence) {
-  const Result<std::vector<fs::path>> files = files_of_sequence(sequence);
+Result<std::string> InputChecksums::of_all(const Result<std::vector<fs::path>>& files) {
   if (!files) return fail(files.error());
   std::string list;
   for (const fs::path& one : *files) {
@@ -138,6 +120,21 @@ Result<std::string> InputChecksums::of_images(const fs::path& sequence) {
     list += checksum_line(*checksum, one.filename().string());
   }
   return checksum_of_text(list);
+}
+
+Result<std::string> InputChecksums::of_model(const fs::path& file) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = models_.find(file); known != models_.end()) return known->second;
+  }
+  const Result<std::string> checksum = of_all(files_of_model(file));
+  if (!checksum) return checksum;
+  const std::lock_guard lock(mutex_);
+  return models_.emplace(file, checksum).first->second;
+}
+
+Result<std::string> InputChecksums::of_images(const fs::path& sequence) {
+  return of_all(files_of_sequence(sequence));
 }
 
 Result<std::string> fingerprint_of(const Project& project, const std::string& program, InputChecksums& inputs) {
@@ -149,12 +146,11 @@ Result<std::string> fingerprint_of(const Project& project, const std::string& pr
     if (written.empty()) continue;
     const fs::path file = resolved(project, written);
     std::error_code code;
-    if (field.key == "footage.video" && is_image_sequence(file)) {
-      const Result<std::string> checksum = inputs.of_images(file);
-      if (!checksum) return fail(checksum.error());
-      list += checksum_line(*checksum, field.key);
-    } else if (fs::is_regular_file(file, code)) {
-      const Result<std::string> checksum = field.key.ends_with("model.file") ? inputs.of_model(file) : inputs.of(file);
+    const bool is_sequence = field.key == "footage.video" && is_image_sequence(file);
+    if (is_sequence || fs::is_regular_file(file, code)) {
+      const Result<std::string> checksum = is_sequence                         ? inputs.of_images(file)
+                                           : field.key.ends_with("model.file") ? inputs.of_model(file)
+                                                                               : inputs.of(file);
       if (!checksum) return fail(checksum.error());
       list += checksum_line(*checksum, field.key);
     }

@@ -63,6 +63,8 @@ class InputChecksums {
   [[nodiscard]] Result<std::string> of_images(const std::filesystem::path& sequence);
 
  private:
+  [[nodiscard]] Result<std::string> of_all(const Result<std::vector<std::filesystem::path>>& files);
+
   std::mutex mutex_;
   std::map<std::filesystem::path, Result<std::string>> files_;
   std::map<std::filesystem::path, Result<std::string>> models_;

@@ -9,7 +9,7 @@
 namespace sigs {
 
 // The kind of a flight: one of the four of the paper's Table 1, which are given by places in the image; an encounter
-// (encounter.h); a flight drawn from an encounter model or recorded, placed as an encounter (track_flight.h); or a
+// (encounter.h); a flight drawn from an encounter model or recorded, placed as an encounter (flight_plan.h); or a
 // straight flight by its place in the image and its size in pixels at one time.
 enum class FlightKind {
   left_right,

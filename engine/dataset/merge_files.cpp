@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <functional>
 #include <utility>
 
 #include "base/json.h"
@@ -110,36 +111,39 @@ class CocoMerge {
                                 json_line(tracks)));
   }
 
-  Result<void> put_annotations() {
+  // One list of all videos, each item changed by `renumber` first.
+  Result<void> put_list(const char* key,
+                        const std::function<void(Json&, const IdOffsets&, const VideoLabels&)>& renumber) {
     List list(out_);
     for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
       Result<Json> coco = read_labels(labels_.videos[i].path);
       if (!coco) return fail(coco.error());
-      for (Json& annotation : coco->at("annotations")) {
-        add_offset(annotation, "id", offsets_[i].annotation);
-        add_offset(annotation, "image_id", offsets_[i].image);
-        add_offset(annotation, "video_id", offsets_[i].video);
-        add_offset(annotation, "track_id", offsets_[i].track);
-        if (const Result<void> step = list.put(annotation); !step) return step;
+      for (Json& item : coco->at(key)) {
+        renumber(item, offsets_[i], labels_.videos[i]);
+        if (const Result<void> step = list.put(item); !step) return step;
       }
     }
     return {};
   }
 
+  Result<void> put_annotations() {
+    return put_list("annotations", [](Json& annotation, const IdOffsets& offsets, const VideoLabels&) {
+      add_offset(annotation, "id", offsets.annotation);
+      add_offset(annotation, "image_id", offsets.image);
+      add_offset(annotation, "video_id", offsets.video);
+      add_offset(annotation, "track_id", offsets.track);
+    });
+  }
+
   Result<void> put_images() {
-    if (const Result<void> begin = out_.put("\n],\n\"images\": ["); !begin) return begin;
-    List list(out_);
-    for (std::size_t i = 0; i < labels_.videos.size(); ++i) {
-      Result<Json> coco = read_labels(labels_.videos[i].path);
-      if (!coco) return fail(coco.error());
-      for (Json& image : coco->at("images")) {
-        add_offset(image, "id", offsets_[i].image);
-        add_offset(image, "video_id", offsets_[i].video);
-        prepend_folder(image, "file_name", labels_.videos[i].video + "/");
-        if (const Result<void> step = list.put(image); !step) return step;
-      }
-    }
-    return out_.put("\n]\n}\n");
+    Result<void> step = out_.put("\n],\n\"images\": [");
+    if (step)
+      step = put_list("images", [](Json& image, const IdOffsets& offsets, const VideoLabels& labels) {
+        add_offset(image, "id", offsets.image);
+        add_offset(image, "video_id", offsets.video);
+        prepend_folder(image, "file_name", labels.video + "/");
+      });
+    return step ? out_.put("\n]\n}\n") : step;
   }
 
   const SplitLabels& labels_;

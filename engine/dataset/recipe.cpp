@@ -210,10 +210,9 @@ std::optional<Span> read_speed_limits(RecipeNode& node) {
 
 std::vector<std::string> read_liveries(RecipeNode& node) {
   std::error_code code;
-  const std::filesystem::path folder = std::filesystem::absolute(node.log().file, code).parent_path();
   std::vector<std::string> files;
   for (const std::string& name : node.texts("liveries")) {
-    const std::filesystem::path file = (folder / name).lexically_normal();
+    const std::filesystem::path file = from_recipe_folder(node, name);
     if (!std::filesystem::is_regular_file(file, code))
       node.log().wrong(fmt::format("{}[{}]", node.key_of("liveries"), files.size()),
                        file.string() + " is no file that can be read", ErrorKind::cannot_read);

@@ -34,9 +34,7 @@ void check_timing(const FlightPlan& flight, RecipeNode& node) {
 std::optional<std::filesystem::path> file_of(RecipeNode& node, const char* key) {
   const std::optional<std::string> name = node.text(key);
   if (!name || name->empty()) return std::nullopt;
-  std::error_code code;
-  const std::filesystem::path folder = std::filesystem::absolute(node.log().file, code).parent_path();
-  return (folder / *name).lexically_normal();
+  return from_recipe_folder(node, *name);
 }
 
 std::optional<EncounterModel> read_model(RecipeNode& node, const char* key) {

@@ -100,6 +100,11 @@ std::map<std::string, std::string> RecipeNode::text_map(std::string_view name) {
   return texts;
 }
 
+std::filesystem::path from_recipe_folder(const RecipeNode& node, const std::string& name) {
+  std::error_code code;
+  return (std::filesystem::absolute(node.log().file, code).parent_path() / name).lexically_normal();
+}
+
 std::vector<RecipeNode> RecipeNode::nodes(std::string_view name) {
   const Json* const json = value(name);
   std::vector<RecipeNode> list;

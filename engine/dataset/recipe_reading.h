@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -90,6 +91,9 @@ void read_splits(RecipeNode& recipe_node, Recipe& recipe);
 [[nodiscard]] std::vector<std::string> selected_names(RecipeNode& group, const char* key,
                                                       const std::vector<std::string>& there,
                                                       const std::vector<std::string>& standard);
+
+// A path of the recipe, which is relative to its folder.
+[[nodiscard]] std::filesystem::path from_recipe_folder(const RecipeNode& node, const std::string& name);
 
 // A quantity; none where there is no such key or it has another form, which is written to the log.
 [[nodiscard]] std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name);

@@ -32,22 +32,31 @@ bool is_given_beside(const std::vector<std::string>& settings, const std::string
                      [&](const std::string& setting) { return setting.starts_with(key + "="); });
 }
 
-void read_appearance_number(const Json& json, const std::string& where, const Field& field, RecipeLog& log,
-                            std::map<std::string, Quantity>& numbers) {
+// A quantity within limits of the project; none, and an error in the log: it is another, or beyond them.
+std::optional<Quantity> limited_quantity(const Json& json, const std::string& where, const Field& field,
+                                         RecipeLog& log) {
   const tl::expected<Quantity, std::string> quantity = quantity_of(json);
-  if (!quantity) return log.wrong(where, quantity.error());
-  const Span span = span_of(*quantity);
-  if (span.low < field.minimum || span.high > field.maximum)
-    return log.wrong(where,
-                     fmt::format("must lie between {} and {}; a normal quantity needs \"low\" and \"high\" for that",
-                                 short_number_text(field.minimum), short_number_text(field.maximum)));
-  numbers[field.key] = *quantity;
+  const Span span = quantity ? span_of(*quantity) : Span{};
+  const bool is_within = span.low >= field.minimum && span.high <= field.maximum;
+  if (quantity && is_within) return *quantity;
+  log.wrong(where, quantity
+                       ? fmt::format("must lie between {} and {}; a normal quantity needs \"low\" and \"high\" for "
+                                     "that",
+                                     short_number_text(field.minimum), short_number_text(field.maximum))
+                       : quantity.error());
+  return std::nullopt;
+}
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
 }
 
 OthersPlan read_other(RecipeNode node, const Recipe& recipe) {
   OthersPlan others;
-  std::vector<std::string> there;
-  for (const Aircraft& aircraft : recipe.aircraft) there.push_back(aircraft.name);
+  const std::vector<std::string> there = names_of(recipe.aircraft);
   others.aircraft = selected_names(node, "aircraft", there, there);
   others.flights = read_flights(node.value("flights"), node.key_of("flights"), node.log());
   others.count = read_quantity(node, "count").value_or(others.count);
@@ -71,7 +80,8 @@ std::map<std::string, Quantity> read_appearance(RecipeNode& group, const std::ve
     const std::string name = field.key.substr(std::string_view(kAppearancePrefix).size());
     const Json* const value = node.value(name);
     if (value == nullptr || is_given_beside(settings, field.key)) continue;
-    read_appearance_number(*value, node.key_of(name), field, group.log(), numbers);
+    if (const auto quantity = limited_quantity(*value, node.key_of(name), field, group.log()))
+      numbers[field.key] = *quantity;
   }
   node.done();
   return numbers;
@@ -113,48 +123,33 @@ const std::array<LightField, 3>& light_fields() {
   return fields;
 }
 
-// The range that a project allows in that field.
-Span limits_of(const char* key) {
-  Project project;
-  for (const Field& field : fields_of(project))
-    if (field.key == std::string("light.") + key) return {field.minimum, field.maximum};
-  return {};
+// As the project has it.
+Field field_of(Project& project, const std::string& key) {
+  const std::vector<Field> fields = fields_of(project);
+  return *std::ranges::find(fields, key, &Field::key);
 }
 
-void read_number(const Json& json, const std::string& where, const LightField& field, std::size_t part,
-                 LightPlan& light, RecipeLog& log) {
-  const tl::expected<Quantity, std::string> quantity = quantity_of(json);
-  if (!quantity) return log.wrong(where, quantity.error());
-  const Span span = span_of(*quantity);
-  const Span limits = limits_of(field.key);
-  if (span.low < limits.low || span.high > limits.high)
-    return log.wrong(where,
-                     fmt::format("must lie between {} and {}; a normal quantity needs \"low\" and \"high\" for that",
-                                 short_number_text(limits.low), short_number_text(limits.high)));
-  light.quantities[field.names[part]] = *quantity;
-}
-
-void read_field(RecipeNode& node, const LightField& field, LightPlan& light) {
-  const Json* const json = node.value(field.key);
+void read_light_field(RecipeNode& node, const LightField& light_field, LightPlan& light) {
+  const Json* const json = node.value(light_field.key);
   if (json == nullptr) return;
-  const std::string where = node.key_of(field.key);
-  if (field.names.size() == 1) return read_number(*json, where, field, 0, light, node.log());
-  if (!json->is_array() || json->size() != field.names.size())
+  Project project;
+  const Field field = field_of(project, std::string("light.") + light_field.key);
+  const std::string where = node.key_of(light_field.key);
+  const std::size_t count = light_field.names.size();
+  if (count > 1 && (!json->is_array() || json->size() != count))
     return node.log().wrong(where, "expected a list of three quantities");
-  for (std::size_t i = 0; i < json->size(); ++i)
-    read_number(json->at(i), fmt::format("{}[{}]", where, i), field, i, light, node.log());
-}
-
-bool is_set(const std::vector<std::string>& settings, const char* key) {
-  const std::string begin = std::string("light.") + key + "=";
-  return std::any_of(settings.begin(), settings.end(), [&](const std::string& one) { return one.starts_with(begin); });
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string place = count == 1 ? where : fmt::format("{}[{}]", where, i);
+    if (const auto quantity = limited_quantity(count == 1 ? *json : json->at(i), place, field, node.log()))
+      light.quantities[light_field.names[i]] = *quantity;
+  }
 }
 
 LightPlan read_light(RecipeNode node, const std::vector<std::string>& settings) {
   LightPlan light;
   for (const LightField& field : light_fields()) {
-    read_field(node, field, light);
-    if (is_set(settings, field.key))
+    read_light_field(node, field, light);
+    if (is_given_beside(settings, std::string("light.") + field.key))
       for (const char* const name : field.names) light.quantities.erase(name);
   }
   node.done();
@@ -185,13 +180,6 @@ constexpr const char* kRandomEncounter = R"([{"kind": "encounter",
   "miss_distance_m": {"uniform": [0, 150]}, "miss_angle_deg": {"uniform": [-180, 180]},
   "bearing_deg": {"uniform": [-45, 45]}, "elevation_deg": {"uniform": [-10, 10]},
   "closing_speed_mps": {"uniform": [40, 160]}}])";
-
-template <class Named>
-std::vector<std::string> names_of(const std::vector<Named>& all) {
-  std::vector<std::string> names;
-  for (const Named& one : all) names.push_back(one.name);
-  return names;
-}
 
 bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();

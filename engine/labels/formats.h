@@ -29,7 +29,7 @@ namespace sigs {
 // says how the format counts them. k...Files lists what a format's folder may contain (LabelFormat::files).
 
 // SIGS annotation file (docs/annotation-format.md): everything that is measured, also of intruders that are not
-// visible. labels/sigs_xml.h writes the same without a LabelSequence.
+// visible. SigsXmlWriter writes the same without a LabelSequence.
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_sigs_xml(const std::filesystem::path& path,
                                                                  const LabelSequence& sequence);
 
@@ -37,7 +37,7 @@ namespace sigs {
 // YouTube-VIS add.
 //   bbox          [x, y, width, height] in pixels; the upper left corner of the first pixel is (0, 0)
 //   area          number of visible pixels
-//   segmentation  compressed run lengths of the whole image (labels/label_masks.h)
+//   segmentation  compressed run lengths of the whole image (labels/label_files.h)
 //   ids           count from 1, since pycocotools takes an annotation of id 0 for none; track_id is the intruder's id,
 //                 from 0
 //   own body      in each image one annotation with iscrowd 1 for each part of it and each category, since pycocotools
@@ -160,7 +160,7 @@ inline constexpr std::array<std::string_view, 10> kVotFiles{
                                                             const LabelSequence& sequence);
 
 // JSON Lines (https://jsonlines.org): everything that the SIGS annotation file has of a frame, on one line.
-// labels/json_lines.h writes the same to a stream.
+// JsonLinesStream writes the same to a stream.
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_jsonl(const std::filesystem::path& path,
                                                               const LabelSequence& sequence);
 
@@ -189,7 +189,7 @@ class SigsXmlWriter {
 };
 
 // The truth of one frame as one JSON object on a line of its own, with its line break. Fields and numbers are those of
-// the element <frame> of a SIGS annotation file (labels/sigs_xml.h); docs/label-formats.md lists them.
+// the element <frame> of a SIGS annotation file ; docs/label-formats.md lists them.
 [[nodiscard]] std::string json_line_of(const FrameTruth& truth, const LabelSequence& sequence);
 
 // Writes each line to a stream at once, for programs that read while the frames are made. open_jsonl()

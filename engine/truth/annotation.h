@@ -40,7 +40,7 @@ enum class HorizonSide { below, on, above, unknown };
   return std::nullopt;
 }
 
-// How well an intruder stands out in one frame (truth/detectability.h).
+// How well an intruder stands out in one frame (truth/measure.h).
 struct Detectability {
   double weber_contrast = 0;   // (L - B) / B: mean luminance of its visible pixels and of the footage there and around
   double rms_contrast = 0;     // root of the mean of (l - B)^2 over its visible pixels, by B

@@ -230,6 +230,6 @@ TEST_CASE("the page of plots has two panels to a row, also without a point to dr
   const Panel one{.title = "one", .series = {{"a", {1}, {2}}, {"b", {1, 2, NAN}, {1e300, 3, INFINITY}, true}}};
   CHECK(panel_page({}).empty());
   const cv::Mat page = panel_page(std::vector<Panel>{empty, one, one});
-  CHECK(page.size() == cv::Size(1200, 720));
+  CHECK(page.size() == cv::Size(1440, 750));
   CHECK(cv::countNonZero(page.reshape(1) != 255) > 1000);
 }
