@@ -2,8 +2,6 @@
 #include "dataset/entry.h"
 
 #include <fmt/format.h>
-#include <libavutil/mem.h>
-#include <libavutil/sha.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -26,7 +24,10 @@
 #include "project/json.h"
 #include "video/image_sequence.h"
 
-extern "C" {}
+extern "C" {
+#include <libavutil/mem.h>
+#include <libavutil/sha.h>
+}
 
 namespace sigs {
 
@@ -37,37 +38,36 @@ namespace {
 constexpr int kBits = 256;
 constexpr std::size_t kPieceBytes = 1 << 20;
 
-}  // namespace
-
-struct Checksum::State {
-  AVSHA* sha = av_sha_alloc();
-
-  State() {
-    ENSURE(sha != nullptr);
-    av_sha_init(sha, kBits);
+// SHA-256 (FIPS 180-4) of all bytes that were added.
+class Checksum {
+ public:
+  Checksum() : sha_(av_sha_alloc()) {
+    ENSURE(sha_ != nullptr);
+    av_sha_init(sha_, kBits);
   }
-  ~State() { av_free(sha); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
+  ~Checksum() { av_free(sha_); }
+  Checksum(const Checksum&) = delete;
+  Checksum& operator=(const Checksum&) = delete;
+
+  void add(std::string_view bytes) {
+    av_sha_update(sha_, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  }
+
+  // To be called once; nothing may be added after it.
+  [[nodiscard]] std::string text() {
+    std::array<std::uint8_t, kBits / 8> digest{};
+    av_sha_final(sha_, digest.data());
+    std::string text;
+    for (const std::uint8_t byte : digest)
+      for (const int nibble : {byte >> 4, byte & 15}) text += "0123456789abcdef"[nibble];
+    return text;
+  }
+
+ private:
+  AVSHA* sha_;
 };
 
-Checksum::Checksum() : state_(std::make_unique<State>()) {}
-Checksum::Checksum(Checksum&&) noexcept = default;
-Checksum& Checksum::operator=(Checksum&&) noexcept = default;
-Checksum::~Checksum() = default;
-
-void Checksum::add(std::string_view bytes) {
-  av_sha_update(state_->sha, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-}
-
-std::string Checksum::text() {
-  std::array<std::uint8_t, kBits / 8> digest{};
-  av_sha_final(state_->sha, digest.data());
-  std::string text;
-  for (const std::uint8_t byte : digest)
-    for (const int nibble : {byte >> 4, byte & 15}) text += "0123456789abcdef"[nibble];
-  return text;
-}
+}  // namespace
 
 std::string checksum_of_text(std::string_view text) {
   Checksum checksum;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -20,24 +19,7 @@
 
 namespace sigs {
 
-// SHA-256 (FIPS 180-4) of all bytes that were added.
-class Checksum {
- public:
-  Checksum();
-  Checksum(Checksum&&) noexcept;
-  Checksum& operator=(Checksum&&) noexcept;
-  ~Checksum();
-
-  void add(std::string_view bytes);
-
-  // 64 digits, hexadecimal, lower case. To be called once; nothing may be added after it.
-  [[nodiscard]] std::string text();
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
+// SHA-256 (FIPS 180-4): 64 digits, hexadecimal, lower case.
 [[nodiscard]] std::string checksum_of_text(std::string_view text);
 
 // Checksum of a file's content, read piece by piece. Errors: cannot_read; interrupted, where cancel was set meanwhile.

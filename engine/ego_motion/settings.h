@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <optional>
 
+#include "base/interrupt.h"
+
 namespace sigs {
 
-// Whether the user has stopped the work. A function of this module that takes such a flag ends within a fraction of a
-// second once it is true, and what it returns then means nothing: who gave the flag has to look at it. Null: the work
-// cannot be stopped.
-using CancelFlag = const std::atomic<bool>*;
-[[nodiscard]] inline bool is_cancelled(CancelFlag cancel) {
-  return cancel != nullptr && *cancel;
-}
+// A function of this module that takes a CancelFlag (base/interrupt.h) ends within a fraction of a second once it is
+// true, and what it returns then means nothing: who gave the flag has to look at it.
 
 // What a long step of the work takes: the flag, and whom to tell which share of the step is done, 0 to 1, on the
 // calling thread.

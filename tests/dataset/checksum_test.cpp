@@ -14,9 +14,8 @@ TEST_CASE("checksums are those of FIPS 180-4's examples") {
   CHECK(checksum_of_text("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   CHECK(checksum_of_text("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq") ==
         "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-  Checksum million;
-  for (int i = 0; i < 1000; ++i) million.add(std::string(1000, 'a'));
-  CHECK(million.text() == "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  CHECK(checksum_of_text(std::string(1000000, 'a')) ==
+        "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
 TEST_CASE("a file's checksum is that of its text, over any number of pieces") {

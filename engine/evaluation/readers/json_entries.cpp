@@ -112,7 +112,7 @@ bool EntryReader::taken() {
 // The entry is named in a file of a single line: "line 1, [17].detections[0]".
 bool EntryReader::fails(Error error) {
   error_ = std::move(error);
-  if (!is_one_line_ || root_.items.empty()) return false;
+  if (!is_one_line_ || root_.items.empty() || !root_.items.back().is(JsonValue::kObject)) return false;
   error_.where += fmt::format(", [{}]", entries_);
   if (detection_) error_.where += fmt::format(".detections[{}]", *detection_);
   return false;
