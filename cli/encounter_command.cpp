@@ -20,7 +20,6 @@
 #include "base/text.h"
 #include "base/xml_text.h"
 #include "cli/commands.h"
-#include "cli/encounter_plot.h"
 #include "cli/options.h"
 #include "cli/path_project.h"
 #include "cli/process.h"

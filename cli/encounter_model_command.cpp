@@ -15,7 +15,6 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/encounter_model_plot.h"
 #include "cli/options.h"
 #include "cli/process.h"
 #include "encounter_model/model_report.h"

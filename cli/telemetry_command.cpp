@@ -15,7 +15,6 @@
 #include "cli/process.h"
 #include "telemetry/read_track.h"
 #include "telemetry/track_csv.h"
-#include "telemetry/track_plot.h"
 #include "telemetry/track_report.h"
 
 namespace sigs::cli {

@@ -24,8 +24,8 @@ struct Panel {
   std::string remark = {};  // what was found, or why nothing was
 };
 
-// The panels two to a row, each 600 x 360 pixels, from left to right and down. BGR, 8 bits. A panel without points
-// shows its title and remark alone. Without panels the image is empty.
+// The panels two to a row, from left to right and down. BGR, 8 bits. A panel without points shows its title, its remark
+// and empty axes. Without panels the image is empty.
 [[nodiscard]] cv::Mat panel_page(std::span<const Panel> panels);
 
 }  // namespace sigs
