@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "base/allocator.h"
+#include "base/parsing.h"
 #include "base/text.h"
 #include "cli/dataset_coverage.h"
 #include "cli/dataset_table.h"
@@ -56,14 +56,10 @@ struct DatasetOptions {
 
 // "2/3"
 Result<Shard> shard_of(const std::string& text) {
-  Shard shard;
-  const char* const end = text.data() + text.size();
-  const auto [slash, code] = std::from_chars(text.data(), end, shard.part);
-  const bool has_parts = code == std::errc() && slash != end && *slash == '/';
-  if (has_parts) {
-    const auto [last, wrong] = std::from_chars(slash + 1, end, shard.parts);
-    if (wrong == std::errc() && last == end && shard.part >= 1 && shard.part <= shard.parts) return shard;
-  }
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::optional<int> part = parsed_number<int>(text.substr(0, slash));
+  const std::optional<int> parts = parsed_number<int>(text.substr(std::min(slash + 1, text.size())));
+  if (part && parts && *part >= 1 && *part <= *parts) return Shard{*part, *parts};
   return fail("--shard " + text, "expected I/N with I from 1 to N, as in 2/3", ErrorKind::usage);
 }
 
