@@ -119,7 +119,7 @@ Result<void> write(MaskOutputs& out, const OwnBody& found, FrameSource& footage,
   }
   const Result<std::vector<fs::path>> written = out.write(found, image);
   if (!written) return fail(written.error());
-  for (const fs::path& path : *written) std::printf("%s\n", path.c_str());
+  print_written(*written);
   return {};
 }
 
@@ -176,22 +176,17 @@ Result<void> run(const MaskOptions& options) {
 Command add_mask_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("mask", "find which pixels of a video show the UAV's own body");
   const auto options = std::make_shared<MaskOptions>();
-  command->add_option("FILE", options->project.file, "a video, or a project (json): its footage, range and settings")
-      ->required()
-      ->check(not_empty());
+  add_subject(*command, "FILE", options->project.file, "a video, or a project (json): its footage, range and settings");
   add_set_option(*command, options->project);
-  const auto add_path = [command](const char* name, fs::path& path, const char* value, const char* help) {
-    command->add_option(name, path, help)->option_text(value)->check(output_path());
-  };
-  add_path("--out", options->paths.mask, "FILE",
-           "the mask, a PNG; without it VIDEO.own-body.png in the current folder");
+  add_output(*command, "--out", options->paths.mask,
+             "the mask, a PNG; without it VIDEO.own-body.png in the current folder");
   for (const SettingOption& option : {SettingOption{"--frames", "own_body.frames", "N",
                                                     "how many frames are looked through; all where there are fewer"},
                                       SettingOption{"--every", "own_body.every", "K", "use each K-th of them alone"},
                                       SettingOption{"--method", "own_body.method", "NAME", "stable or paper"}})
     add_setting_option(*command, option, options->settings);
-  add_path("--confidence", options->paths.confidence, "FILE", "write how sure each pixel is too: a 16-bit PNG");
-  add_path("--stages", options->paths.stages, "DIR", "write the image of every step into this folder");
+  add_output(*command, "--confidence", options->paths.confidence, "write how sure each pixel is too: a 16-bit PNG");
+  add_output(*command, "--stages", options->paths.stages, "write the image of every step into this folder", "DIR");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);
   command->footer(kMaskFooter);

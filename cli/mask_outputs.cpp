@@ -64,14 +64,6 @@ Result<void> check_distinct(const MaskPaths& paths) {
   return {};
 }
 
-Result<void> check_name(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
-  const std::string where = std::string(option) + " " + path.string();
-  if (path.extension() != ".png") return fail(where, "is written as PNG; end its name in .png", ErrorKind::usage);
-  if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
-    return fail(where, kept.error().what, ErrorKind::cannot_create);
-  return {};
-}
-
 std::vector<fs::path> stages_in(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code code;
@@ -99,7 +91,7 @@ fs::path MaskOutputs::stage(std::size_t number, std::string_view name) const {
 
 // Reserves the name of an image, in a folder that is created if it is missing.
 Result<void> MaskOutputs::reserve(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
-  Result<void> step = check_name(option, path, inputs);
+  Result<void> step = check_png_output(option, path, inputs);
   if (step) step = folders_.make(path.parent_path());
   if (step) step = files_.reserve(path);
   return step;

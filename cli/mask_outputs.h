@@ -48,7 +48,7 @@ class MaskOutputs {
   MaskPaths paths_;
   bool overwrite_ = false;
   CreatedFolders folders_;  // outlives the files: a folder can go only once it is empty
-  ImageFiles files_;
+  OutputFiles files_;
 };
 
 // Whether an image of a step, of any method, may have this name: "03_canny.png".
