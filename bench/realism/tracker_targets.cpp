@@ -7,7 +7,7 @@
 
 #include "appearance/target_silhouette.h"
 #include "base/statistics.h"
-#include "realism/moved.h"
+#include "realism/samples.h"
 #include "scene/opened_project.h"
 
 namespace sigs::bench {

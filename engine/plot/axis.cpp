@@ -75,6 +75,13 @@ std::string tick_text(double value, const std::vector<double>& ticks) {
   return fixed_text(value, std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 9));
 }
 
+// 1e-4, 0.001, 20, 1e5
+std::string decade_text(double value) {
+  if (value >= 1e-3 * (1 - 1e-9) && value < 1e5 * (1 - 1e-9)) return short_number_text(value);
+  const int power = static_cast<int>(std::floor(std::log10(value) + 1e-9));
+  return short_number_text(std::round(value / std::pow(10, power))) + "e" + std::to_string(power);
+}
+
 }  // namespace
 
 double Axis::at(double value) const {
@@ -110,7 +117,7 @@ std::vector<PlotTick> ticks_on(const Axis& axis, double most) {
                                           : ticks_of(rising, axis.scale);
   std::vector<PlotTick> ticks;
   for (const double number : numbers)
-    ticks.push_back({number, axis.scale == PlotScale::log ? short_number_text(number) : tick_text(number, numbers)});
+    ticks.push_back({number, axis.scale == PlotScale::log ? decade_text(number) : tick_text(number, numbers)});
   return ticks;
 }
 

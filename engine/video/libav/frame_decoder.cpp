@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/image_file.h"
 #include "video/libav/stream_quantisers.h"
 
 namespace sigs::libav {
