@@ -9,7 +9,7 @@
 
 #include "base/stopwatch.h"
 #include "encounter_model/placement.h"
-#include "encounter_model/sampler.h"
+#include "encounter_model/sampled_track.h"
 
 namespace {
 

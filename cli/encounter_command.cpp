@@ -19,7 +19,7 @@
 #include "cli/process.h"
 #include "encounter/daa_file.h"
 #include "encounter/encounter_report.h"
-#include "encounter/units.h"
+#include "encounter/well_clear.h"
 #include "scene/encounter_tracks.h"
 #include "scene/opened_project.h"
 

@@ -10,7 +10,7 @@
 
 #include "base/json.h"
 #include "base/text.h"
-#include "encounter/units.h"
+#include "encounter/well_clear.h"
 #include "plot/plot.h"
 
 namespace sigs {

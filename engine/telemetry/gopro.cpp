@@ -12,7 +12,6 @@
 #include "base/pose.h"
 #include "base/statistics.h"
 #include "base/text.h"
-#include "telemetry/gopro_orientation.h"
 #include "telemetry/gopro_stream.h"
 #include "telemetry/log_samples.h"
 

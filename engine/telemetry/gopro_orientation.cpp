@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/gopro_orientation.h"
+#include "telemetry/gopro_stream.h"
 
 #include <fmt/format.h>
 

@@ -50,7 +50,7 @@ namespace sigs {
 [[nodiscard]] Result<Track> ulog_track(std::string_view bytes, const std::filesystem::path& file,
                                        const ReadTrackOptions& options = {});
 
-// GoPro's telemetry in a video: GPMF (gpmf.h, gopro_stream.h, gopro_orientation.h).
+// GoPro's telemetry in a video: GPMF (gpmf.h, gopro_stream.h).
 //
 //   GYRO, ACCL        camera_rate_radps, camera_force_mps2
 //   CORI, IORI, GRAV  start_from_camera, camera_from_image, camera_gravity. Quaternions are stored as w, X, Z, Y, and

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/pose.h"
-#include "encounter_model/sampler.h"
 #include "encounter_model/small_model.h"
 #include "support/test_data.h"
 
