@@ -34,12 +34,12 @@ struct Fields : std::map<std::string, Field, std::less<>> {
 };
 
 // The fields of a calibration text, whose format is recognised by how it begins:
-//   '<', '%YAML:'  OpenCV FileStorage XML, YAML 1.0
+//   '<'            OpenCV FileStorage XML
 //   '{'            JSON. A text with fisheye_params is a Gyroflow lens profile: fisheye_params holds matrix and
 //                  coefficients of the OpenCV fisheye model for images of calib_dimension. Its stabilisation crop and
 //                  stretches are read; crops that only its compatible_settings name give a warning. Other distortion
 //                  models and a second ("digital") lens are errors that name them. Other JSON is read like YAML
-//   anything else  YAML as ROS (camera_info) and Python scripts write it
+//   anything else  YAML as ROS (camera_info), Python scripts and OpenCV's FileStorage (first line "%YAML:1.0") write it
 // Errors (bad_data) name file_name and, where known, the line or the key. Texts nested deeper than kMaxNesting
 // (base/nesting.h), aliases in YAML and binary data are errors.
 [[nodiscard]] Result<Fields> fields_in(const std::string& text, const std::string& file_name);
