@@ -358,10 +358,4 @@ Result<Track> track_of_gopro(const std::filesystem::path& file, const DataPacket
   return track;
 }
 
-Result<Track> read_gopro(const std::filesystem::path& file, const DataStream& stream, const ReadTrackOptions& options) {
-  const Result<DataPackets> payloads = read_data_stream(file, stream.index, options.cancel);
-  if (!payloads) return fail(payloads.error());
-  return track_of_gopro(file, *payloads);
-}
-
 }  // namespace sigs

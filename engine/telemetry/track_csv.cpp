@@ -384,10 +384,4 @@ Result<Track> track_of_csv(std::string_view text, const std::filesystem::path& f
   return Reader(file, options).read(text);
 }
 
-Result<Track> read_track_csv(const std::filesystem::path& file, const ReadTrackOptions& options) {
-  const Result<std::string> text = read_text(file);
-  if (!text) return fail(text.error());
-  return track_of_csv(*text, file, options);
-}
-
 }  // namespace sigs
