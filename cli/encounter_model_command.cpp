@@ -34,7 +34,7 @@ struct EncounterModelOptions {
   fs::path file;
   int samples = 10;
   std::int64_t seed = 1;
-  SampledTrackSettings track{.max_redraws = 100};
+  ModelFlightSettings track{.max_redraws = 100};
   fs::path csv;   // empty: none is written
   fs::path plot;  // likewise
   bool force = false;
@@ -62,7 +62,7 @@ Result<DrawnFlights> drawn_flights(const EncounterModel& model, const EncounterM
   for (int number = 0; number < options.samples && out; ++number) {
     if (interrupt_flag()) return fail("", "interrupted", ErrorKind::interrupted);
     Random random(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(number));
-    ModelFlight track = sampled_track(model, options.track, random);
+    ModelFlight track = drawn_flight(model, options.track, random);
     drawn.redraws += track.redraws;
     drawn.outside += track.is_within_limits ? 0 : 1;
     if (out.is_open()) out << track_csv_rows(track, number, model);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "encounter_model/sampled_track.h"
+#include "encounter_model/model_flight.h"
 
 namespace sigs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "encounter_model/sampled_track.h"
+#include "encounter_model/model_flight.h"
 
 #include <fmt/format.h>
 
@@ -109,7 +109,7 @@ class Limits {
   double high_mps_ = std::numeric_limits<double>::infinity();
 };
 
-ModelFlight drawn_track(const EncounterModel& model, const SampledTrackSettings& settings, Random& random) {
+ModelFlight drawn_once(const EncounterModel& model, const ModelFlightSettings& settings, Random& random) {
   const FlightVariables variables = flight_variables(model);
   const Limits limits(model, variables);
   ModelState state = initial_state(model, random);
@@ -118,16 +118,16 @@ ModelFlight drawn_track(const EncounterModel& model, const SampledTrackSettings&
   point.position_neu_m.z = value_of(state, variables.altitude) * kFoot_m;
   point.speed_mps = std::max(0.0, value_of(state, variables.speed) * kKnot_mps);
   steer(point, state, variables);
-  ModelFlight track{.points = {point}, .initial_values = state.values, .is_within_limits = limits.contain(point)};
+  ModelFlight flight{.points = {point}, .initial_values = state.values, .is_within_limits = limits.contain(point)};
   for (int second = 1; second <= settings.duration_s; ++second) {
     point = moved_on(point, 1);
     point.time_s = second;
     state = next_state(model, state, random);
     steer(point, state, variables);
-    track.points.push_back(point);
-    track.is_within_limits = track.is_within_limits && limits.contain(point);
+    flight.points.push_back(point);
+    flight.is_within_limits = flight.is_within_limits && limits.contain(point);
   }
-  return track;
+  return flight;
 }
 
 }  // namespace
@@ -150,31 +150,32 @@ SampledPoint moved_on(const SampledPoint& point, double after_s) {
   return moved;
 }
 
-SampledPoint at_time(const ModelFlight& track, double time_s) {
-  ENSURE(!track.points.empty() && time_s >= 0 && time_s <= track.duration_s());
-  const auto second = std::min(static_cast<std::size_t>(time_s), track.points.size() - 1);
-  const SampledPoint& before = track.points[second];
+SampledPoint at_time(const ModelFlight& flight, double time_s) {
+  ENSURE(!flight.points.empty() && time_s >= 0 && time_s <= flight.duration_s());
+  const auto second = std::min(static_cast<std::size_t>(time_s), flight.points.size() - 1);
+  const SampledPoint& before = flight.points[second];
   return moved_on(before, time_s - before.time_s);
 }
 
 Result<void> check_can_fly(const EncounterModel& model) {
-  if (!model.find("L")) return fail("", "the model has no altitude L, so it gives no tracks");
+  if (!model.find("L")) return fail("", "the model has no altitude L, so it gives no flights");
   for (const char* const label : {"L", "v", "\\dot v", "\\dot h", "\\dot \\psi"}) {
     const std::optional<int> variable = model.find(label);
     if (variable && model.variables[static_cast<std::size_t>(*variable)].boundaries.empty())
-      return fail("", fmt::format("{} has no limits of its bins in # boundaries, so the model gives no tracks", label));
+      return fail("",
+                  fmt::format("{} has no limits of its bins in # boundaries, so the model gives no flights", label));
   }
   return {};
 }
 
-ModelFlight sampled_track(const EncounterModel& model, const SampledTrackSettings& settings, Random& random) {
+ModelFlight drawn_flight(const EncounterModel& model, const ModelFlightSettings& settings, Random& random) {
   ENSURE(settings.duration_s >= 1 && check_can_fly(model));
-  ModelFlight track = drawn_track(model, settings, random);
-  for (int redraws = 1; !track.is_within_limits && redraws <= settings.max_redraws; ++redraws) {
-    track = drawn_track(model, settings, random);
-    track.redraws = redraws;
+  ModelFlight flight = drawn_once(model, settings, random);
+  for (int redraws = 1; !flight.is_within_limits && redraws <= settings.max_redraws; ++redraws) {
+    flight = drawn_once(model, settings, random);
+    flight.redraws = redraws;
   }
-  return track;
+  return flight;
 }
 
 namespace {
