@@ -29,8 +29,7 @@ if [ "$mode" != draw ]; then
 fi
 
 for plot in frames sizes lens lens_table spline; do
-  gnuplot -e "style='bench/accuracy/style.gp'; folder='$folder'; image='$images/accuracy-${plot//_/-}.png'" \
-    "bench/accuracy/$plot.gp"
+  "$build/bench_plots" "$plot" "$folder" "$images/accuracy-${plot//_/-}.png"
 done
 
 with_tables docs/research/accuracy.md >"$folder/page.md"

@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "base/stopwatch.h"
+#include "encounter_model/model_flight.h"
 #include "encounter_model/placement.h"
-#include "encounter_model/sampler.h"
 
 namespace {
 
@@ -45,7 +45,7 @@ double flights_per_s(const EncounterModel& model, int flights, double& sum) {
   const Stopwatch watch;
   for (int flight = 0; flight < flights; ++flight) {
     Random random(3, static_cast<std::uint64_t>(flight));
-    sum += sampled_track(model, {.duration_s = kFlightLength_s}, random).points.back().speed_mps;
+    sum += drawn_flight(model, {.duration_s = kFlightLength_s}, random).points.back().speed_mps;
   }
   return flights / watch.elapsed_s();
 }
@@ -54,8 +54,8 @@ double pairs_per_s(const EncounterModel& model, int pairs, double& sum) {
   const Stopwatch watch;
   for (int pair = 0; pair < pairs; ++pair) {
     Random random(4, static_cast<std::uint64_t>(pair));
-    const ModelFlight own = sampled_track(model, {.duration_s = kFlightLength_s}, random);
-    const ModelFlight other = sampled_track(model, {.duration_s = kFlightLength_s}, random);
+    const ModelFlight own = drawn_flight(model, {.duration_s = kFlightLength_s}, random);
+    const ModelFlight other = drawn_flight(model, {.duration_s = kFlightLength_s}, random);
     const Result<ModelFlight> placed =
         placed_intruder(own, other, {.time_s = 40, .hmd_m = 150, .bearing_rad = random.uniform() - 0.5});
     sum += placed ? placed->points.front().position_neu_m.x : 0;

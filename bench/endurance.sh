@@ -148,6 +148,6 @@ report >"$lot/table" || failed=1
 cat "$lot/table"
 if [ -n "$write" ]; then
   bench/fill.sh docs/reliability.md "$part" "$lot/table"
-  gnuplot -e "samples='$samples'; unit='${unit}s'; image='docs/images/endurance-$part.png'" bench/endurance.gp
+  "$here/$build/bench_plots" endurance "$samples" "docs/images/endurance-$part.png"
 fi
 [ -z "$failed" ] || { echo "error: something rises by more than its bound" >&2; exit 1; }

@@ -28,7 +28,7 @@ fi
 
 tables=(flights limits time early real by_frames machine reliability)
 for table in "${tables[@]}"; do "table_$table" >"$folder/$table.md"; done
-gnuplot -e "style='bench/accuracy/style.gp'; folder='$folder'; image='$folder/time.png'" bench/own_body/time.gp
+"$build/bench_plots" own_body "$folder" "$folder/time.png"
 echo "tables, plot and images: $folder"
 broken=
 awk -F, -f bench/own_body/claims.awk "$folder"/{flights,limits,real,time,early,reliability}.csv || broken=1

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,9 +11,7 @@
 
 #include "appearance/appearance.h"
 #include "appearance/project_hints.h"
-#include "base/image_codecs.h"
-#include "base/paths.h"
-#include "base/staged_outputs.h"
+#include "base/json.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -31,7 +28,6 @@ namespace sigs::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kAppearanceFooter =
     "Examples:\n"
@@ -55,27 +51,8 @@ struct AppearanceOptions {
   std::string progress = "auto";
 };
 
-// Before anything is read. Errors usage, cannot_create.
-Result<void> check_names(const AppearanceOptions& options) {
-  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
-    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  if (!options.out.empty() && !options.plot.empty() && canonical_name(options.out) == canonical_name(options.plot))
-    return fail("--plot " + options.plot.string(), "is where --out goes", ErrorKind::usage);
-  std::vector<fs::path> inputs{options.file};
-  if (!options.into.empty()) inputs.push_back(options.into);
-  for (const auto& [option, path] : {std::pair("--out ", options.out), std::pair("--plot ", options.plot)}) {
-    if (path.empty()) continue;
-    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
-      return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
-  }
-  return {};
-}
-
-Result<Project> project_of_file(const fs::path& file) {
-  Result<ReadProject> read = read_project(file);
-  if (!read) return fail(read.error());
-  for (const Warning& warning : read->warnings) print_warning(warning);
-  return std::move(read->project);
+std::vector<CommandOutput> outputs_of(const AppearanceOptions& options) {
+  return {{"--out", options.out}, {"--plot", options.plot}};
 }
 
 // Which frames are looked at.
@@ -173,7 +150,7 @@ std::string lines_of(const std::vector<AppearanceQuantity>& quantities) {
 }
 
 // Everything, for programs.
-std::string json_text(const Appearance& found) {
+std::string report_json(const Appearance& found) {
   Json report;
   report["video"] = found.footage.path.string();
   report["width_px"] = found.footage.size_px.width;
@@ -182,7 +159,7 @@ std::string json_text(const Appearance& found) {
   report["frames_used"] = found.frames_used;
   report["quantities"] = quantities_json(quantities_of(found));
   report["settings"] = settings_of(found);
-  return report.dump(2) + "\n";
+  return json_text(report);
 }
 
 std::string table_text(const Appearance& found) {
@@ -193,43 +170,16 @@ std::string table_text(const Appearance& found) {
   return text + settings_lines(settings_of(found), applied_settings(found));
 }
 
-// The names are taken before the footage is read, so that what stands in their way shows at once.
-class Outputs {
- public:
-  explicit Outputs(const AppearanceOptions& options)
-      : options_(options),
-        staged_(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse) {}
-
-  Result<void> reserve() {
-    for (const auto& [path, place] : {std::pair(options_.out, &out_), std::pair(options_.plot, &plot_)}) {
-      if (path.empty()) continue;
-      const Result<fs::path> added = staged_.add_file(path);
-      if (!added) return fail(added.error());
-      *place = *added;
-    }
-    return {};
-  }
-
-  // The settings, and what --plot draws.
-  Result<void> write(const Json& settings, const std::vector<Panel>& panels) {
-    if (!out_.empty())
-      if (const Result<void> done = write_bytes(out_, settings.dump(2) + "\n"); !done)
-        return fail(staged_.with_final_names(done.error()));
-    if (!plot_.empty()) {
-      std::vector<uchar> bytes;
-      image_codecs::imencode(".png", panel_page(panels), bytes);
-      if (const Result<void> done = write_bytes(plot_, std::string(bytes.begin(), bytes.end())); !done)
-        return fail(staged_.with_final_names(done.error()));
-    }
-    return staged_.commit();
-  }
-
- private:
-  const AppearanceOptions& options_;
-  StagedOutputs staged_;
-  fs::path out_;  // temporary names
-  fs::path plot_;
-};
+// The settings, and what --plot draws.
+Result<void> write(OutputFiles& files, const Json& settings, const std::vector<Panel>& panels,
+                   const AppearanceOptions& options) {
+  if (!options.out.empty())
+    if (const Result<void> done = files.write(options.out, json_text(settings)); !done) return done;
+  if (!options.plot.empty())
+    if (const Result<void> done = files.write(options.plot, panel_page(panels)); !done) return done;
+  const Result<std::vector<fs::path>> written = files.commit();
+  return written ? Result<void>() : fail(written.error());
+}
 
 // Puts what was found into the project of --into, where there is one.
 template <class Found>
@@ -242,7 +192,7 @@ Result<void> write_into(const Found& found, std::optional<Project>& into, const 
 }
 
 Result<void> find_light(const Project& project, std::optional<Project>& into, const AppearanceOptions& options,
-                        Outputs& outputs) {
+                        OutputFiles& files) {
   const Result<Box> box = box_of_option("--lit-like", options.lit_like);
   if (!box) return fail(box.error());
   if (!options.frame) return fail("--lit-like", "is in one frame; name it with --frame", ErrorKind::usage);
@@ -253,25 +203,26 @@ Result<void> find_light(const Project& project, std::optional<Project>& into, co
   progress.end();
   if (!lit) return fail(lit.error());
   const Json settings = settings_of(*lit);
-  if (const Result<void> written = outputs.write(settings, {}); !written) return written;
+  if (const Result<void> written = write(files, settings, {}, options); !written) return written;
   if (const Result<void> written = write_into(*lit, into, options); !written) return written;
   const Json report{{"quantities", quantities_json(quantities_of(*lit))}, {"settings", settings}};
   const std::string text = options.json
-                               ? report.dump(2) + "\n"
+                               ? json_text(report)
                                : lines_of(quantities_of(*lit)) + settings_lines(settings, applied_settings(*lit));
   std::fputs(text.c_str(), stdout);
   return {};
 }
 
 Result<void> find_look(const std::optional<Project>& project, std::optional<Project>& into,
-                       const AppearanceOptions& options, Outputs& outputs) {
+                       const AppearanceOptions& options, OutputFiles& files) {
   const Result<AppearanceFrames> frames = frames_of(options, project);
   if (!frames) return fail(frames.error());
   const Result<Appearance> found = found_in(*frames, project, options);
   if (!found) return fail(found.error());
-  if (const Result<void> written = outputs.write(settings_of(*found), panels_of(*found)); !written) return written;
+  if (const Result<void> written = write(files, settings_of(*found), panels_of(*found), options); !written)
+    return written;
   if (const Result<void> written = write_into(*found, into, options); !written) return written;
-  std::fputs((options.json ? json_text(*found) : table_text(*found)).c_str(), stdout);
+  std::fputs((options.json ? report_json(*found) : table_text(*found)).c_str(), stdout);
   return {};
 }
 
@@ -287,28 +238,30 @@ Result<void> check_lit_like(const AppearanceOptions& options) {
 }
 
 Result<void> run(const AppearanceOptions& options) {
-  if (const Result<void> named = check_names(options); !named) return named;
+  std::vector<fs::path> inputs{options.file};
+  if (!options.into.empty()) inputs.push_back(options.into);
+  if (const Result<void> named = check_outputs(outputs_of(options), inputs); !named) return named;
   if (const Result<void> fits = check_lit_like(options); !fits) return fits;
   std::optional<Project> project;
   if (is_project_file(options.file)) {
     if (options.timing != SequenceTiming{})
       return fail(options.timing.times_file.empty() ? "--frame-rate" : "--timestamps",
                   "is stated by the project; leave it out", ErrorKind::usage);
-    Result<Project> read = project_of_file(options.file);
+    Result<Project> read = project_of({.file = options.file, .settings = {}});
     if (!read) return fail(read.error());
     project = std::move(*read);
   }
   std::optional<Project> into;
   if (!options.into.empty()) {
-    Result<Project> read = project_of_file(options.into);
+    Result<Project> read = project_of({.file = options.into, .settings = {}});
     if (!read) return fail(read.error());
     into = std::move(*read);
   }
   defer_interrupts();
-  Outputs outputs(options);
-  if (const Result<void> free = outputs.reserve(); !free) return free;
-  return options.lit_like.empty() ? find_look(project, into, options, outputs)
-                                  : find_light(*project, into, options, outputs);
+  OutputFiles files(options.force);
+  if (const Result<void> free = files.reserve(outputs_of(options)); !free) return free;
+  return options.lit_like.empty() ? find_look(project, into, options, files)
+                                  : find_light(*project, into, options, files);
 }
 
 }  // namespace
@@ -316,20 +269,14 @@ Result<void> run(const AppearanceOptions& options) {
 Command add_appearance_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("appearance", "find how footage looks: blur, noise, haze, light");
   const auto options = std::make_shared<AppearanceOptions>();
-  command->add_option("FILE", options->file, "the footage, or a project")->required()->check(not_empty());
+  add_subject(*command, "FILE", options->file, "the footage, or a project");
   command->add_option("--frames", options->frames, "only these frames, first and last, both included")
       ->option_text("A-B");
-  command->add_option("--every", options->every, "use one of so many frames; 0: 24 frames, spread over all")
-      ->option_text("N")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1000000));
+  add_number(*command, "--every", options->every, "N", 0, 1000000,
+             "use one of so many frames; 0: 24 frames, spread over all");
   add_timing_options(*command, options->timing);
-  command->add_option("--out", options->out, "write the settings that follow, as JSON")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--into", options->into, "put the settings into this project, which is rewritten")
-      ->option_text("PROJECT")
-      ->check(not_empty());
+  add_output(*command, "--out", options->out, "write the settings that follow, as JSON");
+  add_input(*command, "--into", options->into, "put the settings into this project, which is rewritten", "PROJECT");
   command
       ->add_option(
           "--lit-like", options->lit_like,
@@ -338,7 +285,7 @@ Command add_appearance_command(CLI::App& program) {
   command->add_option("--frame", options->frame, "the frame of --lit-like, from 0")
       ->option_text("N")
       ->check(CLI::Range(0, 10'000'000));
-  command->add_option("--plot", options->plot, "draw why; a PNG")->option_text("FILE")->check(output_path());
+  add_output(*command, "--plot", options->plot, "draw why; a PNG");
   command->add_flag("--json", options->json, "print all of it as JSON");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);

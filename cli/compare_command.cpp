@@ -12,8 +12,6 @@
 
 #include "appearance/target_silhouette.h"
 #include "base/csv.h"
-#include "base/paths.h"
-#include "base/staged_outputs.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -203,15 +201,13 @@ cv::Mat image_of(const std::vector<CompareColumn>& columns) {
 }
 
 Result<void> check_names(const CompareOptions& options) {
-  if (!options.image.empty() && lower_extension(options.image) != ".png")
-    return fail("--out " + options.image.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  if (!options.image.empty() && !options.csv.empty() && canonical_name(options.image) == canonical_name(options.csv))
-    return fail("--csv " + options.csv.string(), "is where --out goes", ErrorKind::usage);
   if (options.projects.empty() && !options.settings.empty())
     return fail("--set", "goes with a project", ErrorKind::usage);
   std::vector<fs::path> inputs{options.video, options.boxes, options.calibration};
   inputs.insert(inputs.end(), options.projects.begin(), options.projects.end());
-  return check_inputs_not_overwritten(std::vector{options.image, options.csv}, inputs);
+  if (!options.image.empty())
+    if (const Result<void> named = check_png_output("--out", options.image, {}); !named) return named;
+  return check_outputs({{"--out", options.image}, {"--csv", options.csv}}, inputs);
 }
 
 Result<std::vector<CompareColumn>> compare_columns_of(const CompareOptions& options) {
@@ -236,22 +232,15 @@ Result<void> run(const CompareOptions& options) {
   const Result<std::vector<CompareColumn>> columns = compare_columns_of(options);
   if (!columns) return fail(columns.error());
   defer_interrupts();
-  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  const auto write = [&](const fs::path& path, const auto& writer) -> Result<void> {
-    if (path.empty()) return {};
-    const Result<fs::path> staged = outputs.add_file(path);
-    if (!staged) return fail(staged.error());
-    const Result<void> written = writer(*staged);
-    return written ? written : fail(outputs.with_final_names(written.error()));
-  };
-  const Result<void> drawn =
-      write(options.image, [&](const fs::path& to) { return write_png(to, image_of(*columns)); });
-  if (!drawn) return drawn;
-  const Result<void> listed = write(options.csv, [&](const fs::path& to) { return write_bytes(to, csv_of(*columns)); });
-  if (!listed) return listed;
-  if (const Result<void> kept = outputs.commit(); !kept) return kept;
+  OutputFiles files(options.force);
+  if (!options.image.empty())
+    if (const Result<void> drawn = files.write(options.image, image_of(*columns)); !drawn) return drawn;
+  if (!options.csv.empty())
+    if (const Result<void> listed = files.write(options.csv, csv_of(*columns)); !listed) return listed;
+  const Result<std::vector<fs::path>> written = files.commit();
+  if (!written) return fail(written.error());
   std::fputs(compare_table_of(*columns).c_str(), stdout);
-  for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
+  print_written(*written);
   return {};
 }
 
@@ -260,13 +249,11 @@ Result<void> run(const CompareOptions& options) {
 Command add_compare_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("compare", "measure a real aircraft and ours beside it");
   const auto options = std::make_shared<CompareOptions>();
-  command->add_option("VIDEO", options->video, "footage with a real aircraft")->required()->check(not_empty());
+  add_subject(*command, "VIDEO", options->video, "footage with a real aircraft");
   add_timing_options(*command, options->timing);
   command->add_option("--box", options->box, "where the aircraft is: its first column and row, its width and height")
       ->option_text("X,Y,W,H");
-  command->add_option("--boxes", options->boxes, "the same for many frames: CSV with frame,label,x,y,w,h")
-      ->option_text("FILE")
-      ->check(not_empty());
+  add_input(*command, "--boxes", options->boxes, "the same for many frames: CSV with frame,label,x,y,w,h");
   command->add_option("--frame", options->frame, "which frame, from 0; with --boxes the middle one where left out")
       ->option_text("N")
       ->check(CLI::Range(0, 10'000'000));
@@ -277,20 +264,13 @@ Command add_compare_command(CLI::App& program) {
   command->add_option("--set", options->settings, "change a setting of the projects, KEY=VALUE; may be repeated")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--calibration", options->calibration, "of the footage, in place of the projects'")
-      ->option_text("FILE")
-      ->check(not_empty());
+  add_input(*command, "--calibration", options->calibration, "of the footage, in place of the projects'");
   command->add_option("--at", options->at, "where ours is put; a place with a similar background where left out")
       ->option_text("X,Y");
   command->add_flag("--shake", options->shake, "ours moves with the camera's shake, taken from the real one's path");
-  command->add_option("--seed", options->seed, "chooses place and attitude")
-      ->option_text("N")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1'000'000));
-  command->add_option("--out", options->image, "draw both side by side, 8 times enlarged; a PNG")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--csv", options->csv, "write the table as CSV")->option_text("FILE")->check(output_path());
+  add_number(*command, "--seed", options->seed, "N", 0, 1'000'000, "chooses place and attitude");
+  add_output(*command, "--out", options->image, "draw both side by side, 8 times enlarged; a PNG");
+  add_output(*command, "--csv", options->csv, "write the table as CSV");
   command->add_flag("--force", options->force, "overwrite what is there");
   command->footer(kCompareFooter);
   return [options] { return run(*options); };

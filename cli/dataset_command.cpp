@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -15,12 +14,14 @@
 #include <vector>
 
 #include "base/allocator.h"
+#include "base/parsing.h"
 #include "base/text.h"
-#include "cli/dataset_coverage.h"
 #include "cli/dataset_table.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "cli/process.h"
 #include "cli/progress.h"
+#include "dataset/coverage.h"
 #include "dataset/footage_cache.h"
 #include "dataset/plan.h"
 #include "dataset/recipe.h"
@@ -50,20 +51,32 @@ struct DatasetOptions {
   bool merge = false;
   bool dry_run = false;
   bool coverage = false;
-  CoverageOptions coverage_files;
+  std::filesystem::path json;  // of the coverage; empty: not written
+  std::filesystem::path plot;  // likewise
+  bool force = false;          // whether files of these names are replaced
   std::string progress = "auto";
 };
 
+// Prints the table and writes the files; either all of these get their names or none.
+Result<void> report_coverage(const Coverage& coverage, const std::string& title, const DatasetOptions& options) {
+  if (const Result<void> named = check_outputs({{"--json", options.json}, {"--plot", options.plot}}, {}); !named)
+    return named;
+  OutputFiles files(options.force);
+  if (!options.json.empty())
+    if (const Result<void> done = files.write(options.json, coverage_json(coverage, title)); !done) return done;
+  if (!options.plot.empty())
+    if (const Result<void> done = files.write(options.plot, coverage_plot(coverage, title)); !done) return done;
+  if (const Result<std::vector<std::filesystem::path>> done = files.commit(); !done) return fail(done.error());
+  std::fputs(coverage_text(coverage, title).c_str(), stdout);
+  return {};
+}
+
 // "2/3"
 Result<Shard> shard_of(const std::string& text) {
-  Shard shard;
-  const char* const end = text.data() + text.size();
-  const auto [slash, code] = std::from_chars(text.data(), end, shard.part);
-  const bool has_parts = code == std::errc() && slash != end && *slash == '/';
-  if (has_parts) {
-    const auto [last, wrong] = std::from_chars(slash + 1, end, shard.parts);
-    if (wrong == std::errc() && last == end && shard.part >= 1 && shard.part <= shard.parts) return shard;
-  }
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::optional<int> part = parsed_number<int>(text.substr(0, slash));
+  const std::optional<int> parts = parsed_number<int>(text.substr(std::min(slash + 1, text.size())));
+  if (part && parts && *part >= 1 && *part <= *parts) return Shard{*part, *parts};
   return fail("--shard " + text, "expected I/N with I from 1 to N, as in 2/3", ErrorKind::usage);
 }
 
@@ -164,7 +177,7 @@ Result<void> list(const Plan& plan, const std::vector<const PlannedVideo*>& vide
     const Result<Coverage> coverage = predicted_coverage(videos, &interrupt_flag());
     if (!coverage) return fail(coverage.error());
     std::fputs("\n", stdout);
-    if (const Result<void> done = report_coverage(*coverage, "predicted", options.coverage_files); !done) return done;
+    if (const Result<void> done = report_coverage(*coverage, "predicted", options); !done) return done;
   }
   if (std::fflush(stdout) != 0) return fail("stdout", "could not be written", ErrorKind::write_failed);
   warn_of_unseen(videos, visibilities);
@@ -199,7 +212,7 @@ Result<void> print_counted(const DatasetOptions& options) {
   }
   const Result<Coverage> coverage = counted_coverage(folder, &interrupt_flag());
   if (!coverage) return fail(coverage.error());
-  return report_coverage(*coverage, "counted from the labels", options.coverage_files);
+  return report_coverage(*coverage, "counted from the labels", options);
 }
 
 Result<void> run(const DatasetOptions& options) {
@@ -207,11 +220,12 @@ Result<void> run(const DatasetOptions& options) {
     return fail("--merge", "exports nothing, so it goes without --resume, --shard and --only", ErrorKind::usage);
   if (!options.shard.empty() && !options.only.empty())
     return fail("--only", "names the videos to make, so it goes without --shard", ErrorKind::usage);
+  const bool has_files = !options.json.empty() || !options.plot.empty();
   const bool shows_coverage = options.coverage || (options.dry_run && !options.merge);
-  if (options.coverage_files.has_any() && !shows_coverage)
-    return fail(options.coverage_files.json.empty() ? "--plot" : "--json",
-                "goes with --dry-run, without --merge, or with --coverage", ErrorKind::usage);
-  if (options.coverage_files.overwrite && !options.coverage_files.has_any())
+  if (has_files && !shows_coverage)
+    return fail(options.json.empty() ? "--plot" : "--json", "goes with --dry-run, without --merge, or with --coverage",
+                ErrorKind::usage);
+  if (options.force && !has_files)
     return fail("--force", "replaces the files of --json and --plot; videos are made anew by another --out",
                 ErrorKind::usage);
   if (options.coverage) return print_counted(options);
@@ -254,9 +268,7 @@ Command add_dataset_command(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("dataset", "make a whole dataset from a recipe: videos, truth, labels, index");
   command->add_option("RECIPE", options->recipe, "the recipe, a JSON file")->required();
-  command->add_option("--out", options->folder, "folder to write into; not given: the dataset's name")
-      ->option_text("DIR")
-      ->check(output_path());
+  add_output(*command, "--out", options->folder, "folder to write into; not given: the dataset's name", "DIR");
   command->add_option("--jobs", options->jobs, "videos exported side by side; 0: one for every four processor cores")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
@@ -269,13 +281,9 @@ Command add_dataset_command(CLI::App& program) {
   command->add_flag("--dry-run", options->dry_run, "list what would be made, and write nothing");
   command->add_flag("--coverage", options->coverage,
                     "make nothing: count in the annotations of the dataset in --out what it covers");
-  command->add_option("--json", options->coverage_files.json, "write what --dry-run or --coverage prints of it as JSON")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--plot", options->coverage_files.plot, "draw the same as histograms; a PNG")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_flag("--force", options->coverage_files.overwrite, "replace the files of --json and --plot");
+  add_output(*command, "--json", options->json, "write what --dry-run or --coverage prints of it as JSON");
+  add_output(*command, "--plot", options->plot, "draw the same as histograms; a PNG");
+  command->add_flag("--force", options->force, "replace the files of --json and --plot");
   command->footer(kDatasetFooter);
   add_set_option(*command, options->project);
   add_progress_option(*command, options->progress);

@@ -2,31 +2,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/image_codecs.h"
-#include "base/paths.h"
-#include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/xml_text.h"
 #include "cli/commands.h"
-#include "cli/encounter_plot.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "cli/path_project.h"
 #include "cli/process.h"
 #include "encounter/daa_file.h"
 #include "encounter/encounter_report.h"
-#include "encounter/units.h"
+#include "encounter/well_clear.h"
 #include "scene/encounter_tracks.h"
 #include "scene/opened_project.h"
 
@@ -61,12 +54,8 @@ struct EncounterOptions {
   bool force = false;
 
   [[nodiscard]] bool has_own_volume() const { return dmod_ft || hmd_ft || tau_s || zthr_ft || tcoa_s; }
-  [[nodiscard]] std::vector<std::pair<const char*, fs::path>> outputs() const {
-    std::vector<std::pair<const char*, fs::path>> given;
-    for (const auto& [option, path] :
-         {std::pair("--json ", json), std::pair("--plot ", plot), std::pair("--daa ", daa)})
-      if (!path.empty()) given.emplace_back(option, path);
-    return given;
+  [[nodiscard]] std::vector<CommandOutput> outputs() const {
+    return {{"--json", json}, {"--plot", plot}, {"--daa", daa}};
   }
 };
 
@@ -78,22 +67,6 @@ struct Flights {
 };
 
 // --- Options.
-
-// Before anything is read. Errors usage, cannot_create.
-Result<void> check_outputs(const EncounterOptions& options) {
-  const auto outputs = options.outputs();
-  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
-    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const auto& [option, path] = outputs[i];
-    for (std::size_t j = 0; j < i; ++j)
-      if (canonical_name(path) == canonical_name(outputs[j].second))
-        return fail(option + path.string(), fmt::format("is where {}goes", outputs[j].first), ErrorKind::usage);
-    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, {options.file}); !kept)
-      return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
-  }
-  return {};
-}
 
 // Those named, each once, and then the user's own. Error usage.
 Result<std::vector<WellClearVolume>> volumes_of(const EncounterOptions& options) {
@@ -157,8 +130,7 @@ Result<Flights> flights_of(const EncounterOptions& options) {
   const Result<std::optional<Project>> project = project_in(options.file);
   if (!project) return fail(project.error());
   if (!*project) return flights_of_file(options.file);
-  std::vector<fs::path> outputs;
-  for (const auto& [option, path] : options.outputs()) outputs.push_back(path);
+  const std::vector<fs::path> outputs{options.json, options.plot, options.daa};
   if (const Result<void> kept = check_inputs_not_overwritten(**project, outputs); !kept) return fail(kept.error());
   return flights_of_project(**project);
 }
@@ -180,76 +152,41 @@ Result<Flights> chosen(Flights flights, const EncounterOptions& options) {
               ErrorKind::usage);
 }
 
-// --- EncounterOutputs.
+// --- Outputs.
 
-// What is to be written, by name. All get their names together, or none does.
-using Contents = std::vector<std::pair<fs::path, std::string>>;
-
-Result<std::string> png_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
+Result<cv::Mat> plot_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
   if (encounters.size() > kMostPlotted)
     return fail("--plot " + options.plot.string(),
                 fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMostPlotted,
                             encounters.size()),
                 ErrorKind::usage);
-  const cv::Mat image = encounter_plot(encounters);
+  cv::Mat image = encounter_plot(encounters);
   if (image.empty()) return fail(options.file.string(), "has no step in the time that both fly, to be drawn");
-  std::vector<uchar> bytes;
-  image_codecs::imencode(".png", image, bytes);
-  return std::string(bytes.begin(), bytes.end());
+  return image;
 }
 
-Result<Contents> contents_of(const std::vector<EncounterSummary>& encounters, const Flights& flights,
-                             const EncounterOptions& options) {
-  Contents contents;
+Result<void> write(OutputFiles& files, const std::vector<EncounterSummary>& encounters, const Flights& flights,
+                   const EncounterOptions& options) {
+  Result<void> step;
   if (!options.json.empty())
-    contents.emplace_back(options.json, encounter_json_text(encounters, options.file.filename().string()));
-  if (!options.daa.empty()) contents.emplace_back(options.daa, daa_text(flights.samples));
-  if (options.plot.empty()) return contents;
-  Result<std::string> png = png_of(encounters, options);
-  if (!png) return fail(png.error());
-  contents.emplace_back(options.plot, *std::move(png));
-  return contents;
+    step = files.write(options.json, encounter_json_text(encounters, options.file.filename().string()));
+  if (step && !options.daa.empty()) step = files.write(options.daa, daa_text(flights.samples));
+  if (step && !options.plot.empty()) {
+    const Result<cv::Mat> image = plot_of(encounters, options);
+    step = image ? files.write(options.plot, *image) : fail(image.error());
+  }
+  if (!step) return step;
+  const Result<std::vector<fs::path>> written = files.commit();
+  return written ? Result<void>() : fail(written.error());
 }
-
-// The names are taken before anything is read, so that what stands in their way shows at once.
-class EncounterOutputs {
- public:
-  explicit EncounterOutputs(bool overwrite)
-      : staged_(overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse) {}
-
-  Result<void> reserve(const EncounterOptions& options) {
-    for (const auto& [option, path] : options.outputs()) {
-      const Result<fs::path> place = staged_.add_file(path);
-      if (!place) return fail(place.error());
-      places_[path] = *place;
-    }
-    return {};
-  }
-
-  Result<void> write(const Contents& contents) {
-    for (const auto& [path, text] : contents) {
-      std::ofstream out(places_.at(path), std::ios::binary);
-      out.write(text.data(), static_cast<std::streamsize>(text.size()));
-      out.close();
-      if (!out)
-        return fail(path.string(), std::string("could not be written: ") + std::strerror(errno),
-                    ErrorKind::write_failed);
-    }
-    return contents.empty() ? Result<void>() : staged_.commit();
-  }
-
- private:
-  StagedOutputs staged_;
-  std::map<fs::path, fs::path> places_;  // temporary names by the final ones
-};
 
 Result<void> encounter(const EncounterOptions& options) {
-  if (const Result<void> named = check_outputs(options); !named) return named;
+  if (const Result<void> named = check_outputs(options.outputs(), {options.file}); !named) return named;
   const Result<std::vector<WellClearVolume>> volumes = volumes_of(options);
   if (!volumes) return fail(volumes.error());
   defer_interrupts();
-  EncounterOutputs outputs(options.force);
-  if (const Result<void> free = outputs.reserve(options); !free) return free;
+  OutputFiles files(options.force);
+  if (const Result<void> free = files.reserve(options.outputs()); !free) return free;
   Result<Flights> all = flights_of(options);
   if (!all) return fail(all.error());
   const Result<Flights> flights = chosen(*std::move(all), options);
@@ -262,9 +199,7 @@ Result<void> encounter(const EncounterOptions& options) {
     if (!summary) return fail(options.file.string() + ": " + line_text(summary.error().where), summary.error().what);
     encounters.push_back(*std::move(summary));
   }
-  const Result<Contents> contents = contents_of(encounters, *flights, options);
-  if (!contents) return fail(contents.error());
-  if (const Result<void> written = outputs.write(*contents); !written) return written;
+  if (const Result<void> written = write(files, encounters, *flights, options); !written) return written;
   for (const EncounterSummary& summary : encounters)
     std::printf("%s%s", &summary == encounters.data() ? "" : "\n", encounter_report_text(summary).c_str());
   return {};
@@ -280,11 +215,8 @@ Command add_encounter_command(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("encounter", "how near two aircraft come, and when they lose well clear");
   const auto options = std::make_shared<EncounterOptions>();
-  command
-      ->add_option("FILE", options->file,
-                   "a project, or flights: DAIDALUS .daa or .txt, or a CSV with columns own_east_ft, int_east_ft, ...")
-      ->required()
-      ->check(not_empty());
+  add_subject(*command, "FILE", options->file,
+              "a project, or flights: DAIDALUS .daa or .txt, or a CSV with columns own_east_ft, int_east_ft, ...");
   command
       ->add_option(
           "--volume", options->volumes,
@@ -297,15 +229,9 @@ Command add_encounter_command(CLI::App& program) {
   add_limit(*command, "--zthr-ft", "FT", "its vertical limit", options->zthr_ft);
   add_limit(*command, "--tcoa-s", "S", "its time to co-altitude", options->tcoa_s);
   command->add_option("--intruder", options->intruder, "only this aircraft against the ownship")->option_text("NAME");
-  command->add_option("--json", options->json, "write all quantities at each step, and the intervals")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--plot", options->plot, "draw range, times and vertical offset; a PNG")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--daa", options->daa, "write the flights as a file for DAIDALUS")
-      ->option_text("FILE")
-      ->check(output_path());
+  add_output(*command, "--json", options->json, "write all quantities at each step, and the intervals");
+  add_output(*command, "--plot", options->plot, "draw range, times and vertical offset; a PNG");
+  add_output(*command, "--daa", options->daa, "write the flights as a file for DAIDALUS");
   command->add_flag("--force", options->force, "overwrite what is there");
   command->footer(kEncounterFooter);
   return [options] { return encounter(*options); };

@@ -10,13 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/image_codecs.h"
-#include "base/paths.h"
-#include "base/staged_outputs.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/encounter_model_plot.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "cli/process.h"
 #include "encounter_model/model_report.h"
 
@@ -37,24 +34,14 @@ struct EncounterModelOptions {
   fs::path file;
   int samples = 10;
   std::int64_t seed = 1;
-  SampledTrackSettings track{.max_redraws = 100};
+  ModelFlightSettings track{.max_redraws = 100};
   fs::path csv;   // empty: none is written
   fs::path plot;  // likewise
   bool force = false;
 };
 
-// Before anything is read. Errors usage, cannot_create.
-Result<void> check_names(const EncounterModelOptions& options) {
-  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
-    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  if (!options.csv.empty() && !options.plot.empty() && canonical_name(options.csv) == canonical_name(options.plot))
-    return fail("--plot " + options.plot.string(), "is where --out goes", ErrorKind::usage);
-  for (const auto& [option, path] : {std::pair("--out ", options.csv), std::pair("--plot ", options.plot)}) {
-    if (path.empty()) continue;
-    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, {options.file}); !kept)
-      return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
-  }
-  return {};
+std::vector<CommandOutput> outputs_of(const EncounterModelOptions& options) {
+  return {{"--out", options.csv}, {"--plot", options.plot}};
 }
 
 // What was drawn, for the report and the plot.
@@ -75,7 +62,7 @@ Result<DrawnFlights> drawn_flights(const EncounterModel& model, const EncounterM
   for (int number = 0; number < options.samples && out; ++number) {
     if (interrupt_flag()) return fail("", "interrupted", ErrorKind::interrupted);
     Random random(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(number));
-    ModelFlight track = sampled_track(model, options.track, random);
+    ModelFlight track = drawn_flight(model, options.track, random);
     drawn.redraws += track.redraws;
     drawn.outside += track.is_within_limits ? 0 : 1;
     if (out.is_open()) out << track_csv_rows(track, number, model);
@@ -85,17 +72,6 @@ Result<DrawnFlights> drawn_flights(const EncounterModel& model, const EncounterM
   if (!out)
     return fail(csv.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
   return drawn;
-}
-
-Result<void> write_plot(const std::vector<ModelFlight>& tracks, const fs::path& staged) {
-  std::vector<uchar> png;
-  image_codecs::imencode(".png", flights_plot(tracks), png);
-  std::ofstream out(staged, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-  out.close();
-  if (!out)
-    return fail(staged.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
-  return {};
 }
 
 void print_drawn(const DrawnFlights& drawn, const EncounterModelOptions& options) {
@@ -113,27 +89,20 @@ void print_drawn(const DrawnFlights& drawn, const EncounterModelOptions& options
 Result<void> draw(const EncounterModel& model, const EncounterModelOptions& options) {
   if (const Result<void> flies = check_can_fly(model); !flies) return fail(options.file.string(), flies.error().what);
   defer_interrupts();
-  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  fs::path csv;
-  fs::path plot;
-  for (const auto& [path, staged] : {std::pair(options.csv, &csv), std::pair(options.plot, &plot)}) {
-    if (path.empty()) continue;
-    const Result<fs::path> added = outputs.add_file(path);
-    if (!added) return fail(added.error());
-    *staged = *added;
-  }
-  const Result<DrawnFlights> drawn = drawn_flights(model, options, csv);
-  if (!drawn) return fail(outputs.with_final_names(drawn.error()));
-  if (!plot.empty())
-    if (const Result<void> done = write_plot(drawn->first, plot); !done)
-      return fail(outputs.with_final_names(done.error()));
-  if (const Result<void> done = outputs.commit(); !done) return done;
+  OutputFiles files(options.force);
+  if (const Result<void> free = files.reserve(outputs_of(options)); !free) return free;
+  const Result<DrawnFlights> drawn =
+      drawn_flights(model, options, options.csv.empty() ? fs::path() : files.staged(options.csv));
+  if (!drawn) return fail(files.with_final_names(drawn.error()));
+  if (!options.plot.empty())
+    if (const Result<void> done = files.write(options.plot, flights_plot(drawn->first)); !done) return done;
+  if (const Result<std::vector<fs::path>> written = files.commit(); !written) return fail(written.error());
   print_drawn(*drawn, options);
   return {};
 }
 
 Result<void> run(const EncounterModelOptions& options) {
-  if (const Result<void> named = check_names(options); !named) return named;
+  if (const Result<void> named = check_outputs(outputs_of(options), {options.file}); !named) return named;
   const Result<EncounterModel> model = read_encounter_model(options.file);
   if (!model) return fail(model.error());
   for (const Warning& warning : model->warnings) print_warning(warning);
@@ -148,33 +117,16 @@ Command add_encounter_model_command(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("encounter-model", "say what a statistical model of flights contains, and draw flights");
   const auto options = std::make_shared<EncounterModelOptions>();
-  command->add_option("FILE", options->file, "a model as MIT Lincoln Laboratory publishes them: a text file")
-      ->required()
-      ->check(not_empty());
-  command->add_option("--samples", options->samples, "number of flights that are drawn for --out and --plot")
-      ->option_text("N")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 10'000'000));
-  command->add_option("--seed", options->seed, "the same seed gives the same flights")
-      ->option_text("S")
-      ->capture_default_str()
-      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
-  command->add_option("--duration", options->track.duration_s, "whole seconds that each flight lasts")
-      ->option_text("S")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 86400));
-  command
-      ->add_option("--redraws", options->track.max_redraws,
-                   "draw a flight that leaves the model's limits anew, at most so often")
-      ->option_text("N")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1'000'000));
-  command->add_option("--out", options->csv, "write the flights as CSV with named columns, a line for each second")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--plot", options->plot, "draw the flights from above and over time; a PNG")
-      ->option_text("FILE")
-      ->check(output_path());
+  add_subject(*command, "FILE", options->file, "a model as MIT Lincoln Laboratory publishes them: a text file");
+  add_number(*command, "--samples", options->samples, "N", 1, 10'000'000,
+             "number of flights that are drawn for --out and --plot");
+  add_number(*command, "--seed", options->seed, "S", std::int64_t{0}, std::numeric_limits<std::int64_t>::max(),
+             "the same seed gives the same flights");
+  add_number(*command, "--duration", options->track.duration_s, "S", 1, 86400, "whole seconds that each flight lasts");
+  add_number(*command, "--redraws", options->track.max_redraws, "N", 0, 1'000'000,
+             "draw a flight that leaves the model's limits anew, at most so often");
+  add_output(*command, "--out", options->csv, "write the flights as CSV with named columns, a line for each second");
+  add_output(*command, "--plot", options->plot, "draw the flights from above and over time; a PNG");
   command->add_flag("--force", options->force, "overwrite what is there");
   command->footer(kEncounterModelFooter);
   return [options] { return run(*options); };

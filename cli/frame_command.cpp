@@ -94,12 +94,12 @@ Result<void> write(const NamedImages& images, const Project& project, bool overw
   std::vector<fs::path> paths;
   for (const auto& [path, image] : images) paths.push_back(path);
   if (const Result<void> kept = check_inputs_not_overwritten(project, paths); !kept) return kept;
-  ImageFiles files(overwrite);
+  OutputFiles files(overwrite);
   for (const auto& [path, image] : images)
     if (const Result<void> step = files.write(path, image); !step) return step;
   const Result<std::vector<fs::path>> written = files.commit();
   if (!written) return fail(written.error());
-  for (const fs::path& path : *written) std::printf("%s\n", path.c_str());
+  print_written(*written);
   return {};
 }
 

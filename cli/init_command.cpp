@@ -61,24 +61,17 @@ Result<void> init(const InitOptions& options, bool has_fov) {
 Command add_init_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("init", "make a first project from a video");
   const auto options = std::make_shared<InitOptions>();
-  command->add_option("VIDEO", options->project.video, "the footage")->required()->check(not_empty());
+  add_subject(*command, "VIDEO", options->project.video, "the footage");
   CLI::Option* const calibration =
-      command->add_option("--calibration", options->project.calibration, "the camera's calibration file")
-          ->option_text("FILE")
-          ->check(not_empty());
+      add_input(*command, "--calibration", options->project.calibration, "the camera's calibration file");
   CLI::Option* const fov = command->add_option("--fov", options->fov_deg, "horizontal field of view, in degrees")
                                ->option_text("DEG")
                                ->check(from_to(1, 359));
   fov->excludes(calibration);
   add_timing_options(*command, options->project.timing);
-  command->add_option("--model", options->project.model, "the intruder's model (obj); default: a light aircraft")
-      ->option_text("FILE")
-      ->check(not_empty());
-  command
-      ->add_option("--out", options->project.out,
-                   "the project file; default: NAME/NAME.json, of images NAME-project/NAME.json")
-      ->option_text("PROJECT.json")
-      ->check(output_path());
+  add_input(*command, "--model", options->project.model, "the intruder's model (obj); default: a light aircraft");
+  add_output(*command, "--out", options->project.out,
+             "the project file; default: NAME/NAME.json, of images NAME-project/NAME.json", "PROJECT.json");
   command->add_option("--name", options->project.name, "the project's name; default: that of the file")
       ->option_text("NAME");
   command->add_flag("--plain", options->project.plain, "leave out what makes the intruder look as the footage does");

@@ -78,7 +78,7 @@ Result<NearScenery> scenery_in(OpenedProject& opened, const OccluderOptions& opt
   return found;
 }
 
-Result<void> write(ImageFiles& files, const NearScenery& found, const OccluderOptions& options, FrameSource& source) {
+Result<void> write(OutputFiles& files, const NearScenery& found, const OccluderOptions& options, FrameSource& source) {
   if (const Result<void> written = files.write(options.mask, found.mask); !written) return written;
   if (!options.overlay.empty()) {
     const Result<Frame> frame = source.read(options.frame);
@@ -88,7 +88,7 @@ Result<void> write(ImageFiles& files, const NearScenery& found, const OccluderOp
   }
   const Result<std::vector<fs::path>> names = files.commit();
   if (!names) return fail(names.error());
-  for (const fs::path& path : *names) std::printf("%s\n", path.c_str());
+  print_written(*names);
   return {};
 }
 
@@ -97,7 +97,7 @@ Result<void> run(const OccluderOptions& options) {
   Result<OpenedProject> opened = opened_without_intruders(options);
   if (!opened) return fail(opened.error());
   CreatedFolders folders;
-  ImageFiles files(options.force);
+  OutputFiles files(options.force);
   for (const fs::path& path : {options.mask, options.overlay}) {
     if (path.empty()) continue;
     if (const Result<void> made = folders.make(path.parent_path()); !made) return made;
@@ -126,10 +126,8 @@ Command add_occluder_command(CLI::App& program) {
   command->add_option("--frame", options->frame, "frame of the footage that the mask is made of, from 0")
       ->option_text("N")
       ->check(CLI::Range(0, 1'000'000'000));
-  command->add_option("--span", options->span, "frames before and after it that are compared with it")
-      ->option_text("N")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100'000));
+  add_number(*command, "--span", options->span, "N", 1, 100'000,
+             "frames before and after it that are compared with it");
   command->add_option("--min-parallax", options->min_parallax_px, "px against infinity within the span: near")
       ->option_text("PX")
       ->capture_default_str()
@@ -138,9 +136,7 @@ Command add_occluder_command(CLI::App& program) {
       ->option_text("M")
       ->check(from_to(0.1, 1e7));
   command->add_option("--out", options->mask, "the mask, a PNG")->required()->option_text("FILE")->check(output_path());
-  command->add_option("--overlay", options->overlay, "the frame with the mask tinted over it, a PNG")
-      ->option_text("FILE")
-      ->check(output_path());
+  add_output(*command, "--overlay", options->overlay, "the frame with the mask tinted over it, a PNG");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);
   command->footer(kOccluderFooter);

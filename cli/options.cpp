@@ -162,6 +162,20 @@ CLI::Validator output_path() {
           ""};
 }
 
+CLI::Option* add_input(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
+                       const char* value) {
+  return command.add_option(name, path, help)->option_text(value)->check(not_empty());
+}
+
+CLI::Option* add_output(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
+                        const char* value) {
+  return command.add_option(name, path, help)->option_text(value)->check(output_path());
+}
+
+CLI::Option* add_subject(CLI::App& command, const char* name, std::filesystem::path& path, const char* help) {
+  return command.add_option(name, path, help)->required()->check(not_empty());
+}
+
 std::optional<std::vector<double>> numbers_of(const std::string& text, std::size_t count) {
   std::vector<double> numbers;
   for (const std::string_view field : csv_fields(text)) {

@@ -7,6 +7,7 @@
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/image.h"
@@ -55,6 +56,23 @@ void add_setting_option(CLI::App& command, const SettingOption& option, OptionSe
 
 // For what is written: the same, and not "-", which stands for standard output elsewhere.
 [[nodiscard]] CLI::Validator output_path();
+
+// An option that names a file or folder to read, or one to write.
+//   value  what the help calls it
+CLI::Option* add_input(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
+                       const char* value = "FILE");
+CLI::Option* add_output(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
+                        const char* value = "FILE");
+
+// What a command is about, without an option's name before it.
+CLI::Option* add_subject(CLI::App& command, const char* name, std::filesystem::path& path, const char* help);
+
+// A number of this range, its default shown.
+template <class Number>
+CLI::Option* add_number(CLI::App& command, const char* name, Number& value, const char* unit,
+                        std::type_identity_t<Number> low, std::type_identity_t<Number> high, const char* help) {
+  return command.add_option(name, value, help)->option_text(unit)->capture_default_str()->check(CLI::Range(low, high));
+}
 
 // The value of --size, as in "1280x960". Error usage.
 [[nodiscard]] Result<cv::Size> size_of_option(const std::string& text);

@@ -2,16 +2,48 @@
 #include "cli/output_files.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <string>
 #include <system_error>
 
 #include "base/image_codecs.h"
+#include "base/paths.h"
 
 namespace sigs::cli {
 
 namespace fs = std::filesystem;
+
+Result<void> check_outputs(const std::vector<CommandOutput>& outputs, const std::vector<fs::path>& inputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto& [option, path] = outputs[i];
+    if (path.empty()) continue;
+    const std::string where = std::string(option) + " " + path.string();
+    if (option == std::string_view("--plot"))
+      if (const Result<void> named = check_png_output(option, path, {}); !named) return named;
+    for (std::size_t j = 0; j < i; ++j)
+      if (!outputs[j].path.empty() && canonical_name(path) == canonical_name(outputs[j].path))
+        return fail(where, std::string("is where ") + outputs[j].option + " goes", ErrorKind::usage);
+    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
+      return fail(where, kept.error().what, ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+Result<void> check_png_output(const std::string& option, const fs::path& path, const std::vector<fs::path>& inputs) {
+  const std::string where = option + " " + path.string();
+  if (lower_extension(path) != ".png") return fail(where, "is written as PNG; end its name in .png", ErrorKind::usage);
+  if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
+    return fail(where, kept.error().what, ErrorKind::cannot_create);
+  return {};
+}
+
+std::string png_bytes(const cv::Mat& image) {
+  std::vector<uchar> bytes;
+  image_codecs::imencode(".png", image, bytes);
+  return {bytes.begin(), bytes.end()};
+}
 
 Result<void> write_bytes(const fs::path& staged, std::string_view bytes) {
   std::ofstream out(staged, std::ios::binary);
@@ -22,9 +54,7 @@ Result<void> write_bytes(const fs::path& staged, std::string_view bytes) {
 }
 
 Result<void> write_png(const fs::path& staged, const cv::Mat& image) {
-  std::vector<uchar> bytes;
-  image_codecs::imencode(".png", image, bytes);
-  return write_bytes(staged, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return write_bytes(staged, png_bytes(image));
 }
 
 CreatedFolders::~CreatedFolders() {
@@ -44,24 +74,39 @@ Result<void> CreatedFolders::make(const fs::path& folder) {
   return {};
 }
 
-Result<void> ImageFiles::reserve(const fs::path& path) {
+Result<void> OutputFiles::reserve(const fs::path& path) {
   const Result<fs::path> staged = outputs_.add_file(path);
   if (!staged) return fail(staged.error());
   staged_[path] = *staged;
   return {};
 }
 
-Result<void> ImageFiles::write(const fs::path& path, const cv::Mat& image) {
-  if (!staged_.contains(path))
-    if (const Result<void> reserved = reserve(path); !reserved) return reserved;
-  if (const Result<void> written = write_png(staged_[path], image); !written)
-    return fail(outputs_.with_final_names(written.error()));
+Result<void> OutputFiles::reserve(const std::vector<CommandOutput>& outputs) {
+  for (const CommandOutput& output : outputs)
+    if (!output.path.empty())
+      if (const Result<void> reserved = reserve(output.path); !reserved) return reserved;
   return {};
 }
 
-Result<std::vector<fs::path>> ImageFiles::commit() {
+Result<void> OutputFiles::write(const fs::path& path, std::string_view bytes) {
+  if (!staged_.contains(path))
+    if (const Result<void> reserved = reserve(path); !reserved) return reserved;
+  if (const Result<void> written = write_bytes(staged_[path], bytes); !written)
+    return fail(with_final_names(written.error()));
+  return {};
+}
+
+Result<void> OutputFiles::write(const fs::path& path, const cv::Mat& image) {
+  return write(path, png_bytes(image));
+}
+
+Result<std::vector<fs::path>> OutputFiles::commit() {
   if (const Result<void> kept = outputs_.commit(); !kept) return fail(kept.error());
   return outputs_.final_paths();
+}
+
+void print_written(const std::vector<fs::path>& paths) {
+  for (const fs::path& path : paths) std::printf("%s\n", path.c_str());
 }
 
 }  // namespace sigs::cli

@@ -197,18 +197,12 @@ Result<void> run(const PathOptions& options) {
 Command add_path_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("path", "list the recorded paths in a file, or convert them");
   const auto options = std::make_shared<PathOptions>();
-  command
-      ->add_option("FILE", options->file,
-                   "recorded paths: GPX, KML, JSON or CSV of ADS-B receivers and the OpenSky Network; or a project")
-      ->required()
-      ->check(not_empty());
-  command->add_option("--out", options->out, "write the paths into this file, which ends with .kml, .czml or .csv")
-      ->option_text("FILE")
-      ->check(output_path());
+  add_subject(*command, "FILE", options->file,
+              "recorded paths: GPX, KML, JSON or CSV of ADS-B receivers and the OpenSky Network; or a project");
+  add_output(*command, "--out", options->out, "write the paths into this file, which ends with .kml, .czml or .csv");
   command->add_option("--name", options->name, "only paths of this name or ICAO address")->option_text("NAME");
-  command->add_option("--into", options->into.project, "make the path the flight of an intruder of this project")
-      ->option_text("PROJECT")
-      ->check(not_empty());
+  add_input(*command, "--into", options->into.project, "make the path the flight of an intruder of this project",
+            "PROJECT");
   command->add_option("--intruder", options->into.intruder, "which intruder, from 0; one more adds one like the last")
       ->option_text("N")
       ->needs("--into");

@@ -6,16 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "base/image_codecs.h"
-#include "base/paths.h"
-#include "base/staged_outputs.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
 #include "telemetry/read_track.h"
 #include "telemetry/track_csv.h"
-#include "telemetry/track_plot.h"
 #include "telemetry/track_report.h"
 
 namespace sigs::cli {
@@ -38,75 +34,29 @@ struct TelemetryOptions {
   bool force = false;
 };
 
-// Before anything is read. Errors usage, cannot_create.
-Result<void> check_names(const TelemetryOptions& options) {
-  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
-    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  if (!options.csv.empty() && !options.plot.empty() && canonical_name(options.csv) == canonical_name(options.plot))
-    return fail("--plot " + options.plot.string(), "is where --out goes", ErrorKind::usage);
-  for (const auto& [option, path] : {std::pair("--out ", options.csv), std::pair("--plot ", options.plot)}) {
-    if (path.empty()) continue;
-    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, {options.file}); !kept)
-      return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
+Result<void> write(OutputFiles& files, const Track& track, const TelemetryOptions& options) {
+  if (!options.csv.empty())
+    if (const Result<void> done = files.write(options.csv, track_csv_text(track)); !done) return done;
+  if (!options.plot.empty()) {
+    const cv::Mat image = track_plot(track);
+    if (image.empty())
+      return fail(track.file.string(), "there is no attitude, rate or place in it that --plot could draw");
+    if (const Result<void> done = files.write(options.plot, image); !done) return done;
   }
-  return {};
+  const Result<std::vector<fs::path>> written = files.commit();
+  return written ? Result<void>() : fail(written.error());
 }
 
-Result<std::string> png_of(const Track& track) {
-  const cv::Mat image = track_plot(track);
-  if (image.empty())
-    return fail(track.file.string(), "there is no attitude, rate or place in it that --plot could draw");
-  std::vector<uchar> bytes;
-  image_codecs::imencode(".png", image, bytes);
-  return std::string(bytes.begin(), bytes.end());
-}
-
-// The names are taken before the file is read, so that what stands in their way shows at once.
-class Outputs {
- public:
-  explicit Outputs(const TelemetryOptions& options)
-      : options_(options),
-        staged_(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse) {}
-
-  Result<void> reserve() {
-    for (const auto& [path, place] : {std::pair(options_.csv, &csv_), std::pair(options_.plot, &plot_)}) {
-      if (path.empty()) continue;
-      const Result<fs::path> added = staged_.add_file(path);
-      if (!added) return fail(added.error());
-      *place = *added;
-    }
-    return {};
-  }
-
-  Result<void> write(const Track& track) {
-    if (!csv_.empty())
-      if (const Result<void> done = write_bytes(csv_, track_csv_text(track)); !done)
-        return fail(staged_.with_final_names(done.error()));
-    if (!plot_.empty()) {
-      const Result<std::string> png = png_of(track);
-      if (!png) return fail(png.error());
-      if (const Result<void> done = write_bytes(plot_, *png); !done)
-        return fail(staged_.with_final_names(done.error()));
-    }
-    return staged_.commit();
-  }
-
- private:
-  const TelemetryOptions& options_;
-  StagedOutputs staged_;
-  fs::path csv_;  // temporary names
-  fs::path plot_;
-};
-
-Result<void> telemetry(const TelemetryOptions& options) {
-  if (const Result<void> named = check_names(options); !named) return named;
+Result<void> run(const TelemetryOptions& options) {
+  const std::vector<CommandOutput> outputs{{"--out", options.csv}, {"--plot", options.plot}};
+  if (const Result<void> named = check_outputs(outputs, {options.file}); !named) return named;
   defer_interrupts();
-  Outputs outputs(options);
-  if (const Result<void> free = outputs.reserve(); !free) return free;
+  OutputFiles files(options.force);
+  if (const Result<void> free = files.reserve(outputs); !free) return free;
   const Result<Track> track = read_track(options.file, {.cancel = &interrupt_flag()});
   if (!track) return fail(track.error());
   for (const Warning& warning : track->warnings) print_warning(warning);
-  if (const Result<void> written = outputs.write(*track); !written) return written;
+  if (const Result<void> written = write(files, *track, options); !written) return written;
   std::fputs(track_report_text(*track, options.gaps).c_str(), stdout);
   return {};
 }
@@ -116,22 +66,14 @@ Result<void> telemetry(const TelemetryOptions& options) {
 Command add_telemetry_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("telemetry", "say what a flight log contains, or convert it to CSV");
   const auto options = std::make_shared<TelemetryOptions>();
-  command->add_option("FILE", options->file, "a flight log, or a video with telemetry in it")
-      ->required()
-      ->check(not_empty());
-  command->add_option("--out", options->csv, "write all of it as CSV with named columns")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--plot", options->plot, "draw attitude, rates, height and ground track; a PNG")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--gaps", options->gaps, "list at most so many gaps and clock jumps of a channel")
-      ->option_text("N")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1000000));
+  add_subject(*command, "FILE", options->file, "a flight log, or a video with telemetry in it");
+  add_output(*command, "--out", options->csv, "write all of it as CSV with named columns");
+  add_output(*command, "--plot", options->plot, "draw attitude, rates, height and ground track; a PNG");
+  add_number(*command, "--gaps", options->gaps, "N", 0, 1000000,
+             "list at most so many gaps and clock jumps of a channel");
   command->add_flag("--force", options->force, "overwrite what is there");
   command->footer(kTelemetryFooter);
-  return [options] { return telemetry(*options); };
+  return [options] { return run(*options); };
 }
 
 }  // namespace sigs::cli

@@ -6,8 +6,6 @@
 #include <string>
 
 #include "cli/describe/command_facts.h"
-#include "cli/describe/completion.h"
-#include "cli/describe/man_page.h"
 #include "cli/program.h"
 #include "editor/app/command_line.h"
 

@@ -22,10 +22,10 @@ sigs_packages_package=(
   dpkg-dev file gzip
 )
 # doctest; Embree for the reference renderer; FFmpeg's, GeographicLib's and libxml2's programs as independent checks; Xvfb and xdotool for the
-# window; gnuplot for the plots of bench/; Slurm for a dataset made by an array job; Python's tools for the wheel and types;
+# window; Slurm for a dataset made by an array job; Python's tools for the wheel and types;
 # man, zsh and desktop-file-validate for what is installed; locales, of which one writes a decimal comma.
 sigs_packages_tests=(
-  doctest-dev libembree-dev ffmpeg geographiclib-tools libxml2-utils xvfb xdotool gnuplot-nox
+  doctest-dev libembree-dev ffmpeg geographiclib-tools libxml2-utils xvfb xdotool
   slurmctld slurmd slurm-client munge
   python3-build python3-venv python3-pip mypy
   man-db zsh desktop-file-utils locales

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "accuracy/csv.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+
+#include "base/ensure.h"
 
 namespace sigs::accuracy {
 
@@ -23,6 +29,16 @@ void stop(const std::string& why) {
   std::fprintf(stderr, "error: %s\n", why.c_str());
   std::fflush(nullptr);
   std::_Exit(EXIT_FAILURE);  // other threads may still use what std::exit would destroy
+}
+
+double wall_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double cpu_s() {
+  std::timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace sigs::accuracy

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "accuracy/csv.h"
-#include "accuracy/timing.h"
 #include "base/statistics.h"
 #include "frame/compose_frame.h"
 

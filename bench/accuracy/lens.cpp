@@ -11,9 +11,7 @@
 
 #include "accuracy/angle.h"
 #include "accuracy/csv.h"
-#include "accuracy/lens_tables.h"
 #include "accuracy/lenses.h"
-#include "accuracy/timing.h"
 #include "base/pose.h"
 #include "base/statistics.h"
 

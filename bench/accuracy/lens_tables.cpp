@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/lens_tables.h"
 
 #include <algorithm>
 #include <vector>
 
+#include "accuracy/csv.h"
 #include "accuracy/lenses.h"
-#include "accuracy/timing.h"
 #include "base/statistics.h"
 #include "camera/lens_table.h"
 #include "reference/exact_lens.h"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "accuracy/angle.h"
+#include "accuracy/csv.h"
 #include "camera/lens.h"
 
 namespace sigs::accuracy {
@@ -28,5 +29,8 @@ struct Known {
 
 // Rays over the part of the valid field that lies in the image, some `across` squared of them.
 [[nodiscard]] std::vector<Known> known_rays(const NamedLens& lens, int across);
+
+// Error, saved evaluations and memory of a tabulated lens, by tolerance: lens_table.csv.
+void measure_lens_tables(const Call& call);
 
 }  // namespace sigs::accuracy

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "accuracy/runner.h"
 
+#include "accuracy/csv.h"
 #include "accuracy/scenes.h"
-#include "accuracy/timing.h"
 
 namespace sigs::accuracy {
 

@@ -3,11 +3,10 @@
 
 #include <cstdio>
 
-#include "accuracy/background.h"
+#include "accuracy/csv.h"
 #include "accuracy/errors.h"
 #include "accuracy/runner.h"
 #include "accuracy/scenes.h"
-#include "accuracy/timing.h"
 #include "base/statistics.h"
 
 namespace sigs::accuracy {

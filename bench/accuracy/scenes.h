@@ -8,6 +8,7 @@
 
 #include "camera/lens.h"
 #include "scene/scene.h"
+#include "video/frame.h"
 
 namespace sigs::accuracy {
 
@@ -38,5 +39,9 @@ struct Recipe {
 
 // The recipe as a project in the folder, from the sample assets, opened; placed so that it is as large as wanted.
 [[nodiscard]] Scene made_scene(const Recipe& recipe, const std::filesystem::path& folder);
+
+// A smooth sky over smooth ground with a little grain, in PixelLayout::rgb: chroma that pixels share would add an error
+// of the footage's own to every method.
+[[nodiscard]] Frame background(cv::Size size_px);
 
 }  // namespace sigs::accuracy

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <vector>
 
-#include "accuracy/background.h"
 #include "accuracy/csv.h"
 #include "accuracy/errors.h"
 #include "accuracy/runner.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Time of direct and classic, by the size of the intruder: sizes.csv.
 
-#include "accuracy/background.h"
+#include "accuracy/csv.h"
 #include "accuracy/errors.h"
 #include "accuracy/runner.h"
 #include "accuracy/scenes.h"
-#include "accuracy/timing.h"
 #include "base/statistics.h"
 
 namespace sigs::accuracy {

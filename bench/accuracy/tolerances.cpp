@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What tabulated rays change in an image, and what they save: tolerance.csv.
 
-#include "accuracy/background.h"
+#include "accuracy/csv.h"
 #include "accuracy/errors.h"
 #include "accuracy/runner.h"
 #include "accuracy/scenes.h"
-#include "accuracy/timing.h"
 #include "base/statistics.h"
 
 namespace sigs::accuracy {

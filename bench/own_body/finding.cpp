@@ -5,8 +5,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "accuracy/csv.h"
-#include "accuracy/timing.h"
 #include "occlusion/mask_geometry.h"
+#include "video/video_writer.h"
+
+#include <algorithm>
 
 namespace sigs::bench {
 
@@ -77,6 +79,42 @@ cv::Mat overlay(const cv::Mat& bgr, const cv::Mat& mask, const cv::Mat& truth) {
 void write_image(const std::filesystem::path& path, const cv::Mat& image) {
   std::filesystem::create_directories(path.parent_path());
   if (!cv::imwrite(path.string(), image)) accuracy::stop(path.string() + ": cannot be written");
+}
+
+using accuracy::stop;
+
+void write_h264(const std::filesystem::path& path, cv::Size size_px, int frames,
+                const std::function<cv::Mat(int)>& image) {
+  constexpr int kRate_hz = 25;
+  const VideoFormat format{.codec = VideoCodec::h264,
+                           .container = Container::mp4,
+                           .crf = kCrf,
+                           .threads = 2,
+                           .size_px = size_px,
+                           .frame_rate_num = kRate_hz};
+  Result<VideoWriter> writer = VideoWriter::open(path, format);
+  if (!writer) stop(writer.error().text());
+  for (int n = 0; n < frames; ++n) {
+    Frame frame = frame_of_bgr(image(n), format.layout, format.color);
+    frame.time_s = double(n) / kRate_hz;
+    if (const Result<void> written = writer->write(frame, n); !written) stop(written.error().text());
+  }
+  if (const Result<void> finished = writer->finish(); !finished) stop(finished.error().text());
+}
+
+Clip encoded_clip(const flights::Flight& flight, int frames, const std::filesystem::path& folder) {
+  std::string file = flight.name + ", " + std::to_string(flight.size_px.width);
+  std::ranges::replace_if(
+      file, [](char c) { return c == ' ' || c == ','; }, '_');
+  const std::filesystem::path path = folder / (file + ".mp4");
+  write_h264(path, flight.size_px, frames, flight.bgr);
+  return {.name = flight.name, .path = path, .own_body = flight.own_body, .is_decidable = flight.is_decidable};
+}
+
+FrameSource opened(const std::filesystem::path& path) {
+  Result<FrameSource> source = FrameSource::open(path);
+  if (!source) stop(source.error().text());
+  return std::move(*source);
 }
 
 }  // namespace sigs::bench

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <map>
 
-#include "accuracy/timing.h"
+#include "accuracy/csv.h"
 #include "base/statistics.h"
 #include "occlusion/mask_geometry.h"
 #include "own_body/finding.h"

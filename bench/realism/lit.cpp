@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "realism/lit.h"
+#include "realism/report.h"
 
 #include <fmt/format.h>
 

@@ -8,11 +8,8 @@
 
 #include "accuracy/csv.h"
 #include "base/threads.h"
-#include "realism/lit.h"
 #include "realism/report.h"
 #include "realism/samples.h"
-#include "realism/sheets.h"
-#include "realism/trackers.h"
 
 namespace {
 

@@ -15,7 +15,6 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "realism/classifier.h"
-#include "realism/sheets.h"
 
 namespace sigs::bench {
 

@@ -2,16 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "accuracy/csv.h"
+#include "base/image.h"
 #include "comparison/measured_target.h"
 #include "frame/compose_context.h"
 #include "realism/clips.h"
 #include "realism/look_settings.h"
 #include "scene/scene_files.h"
+#include "video/frame.h"
 
 namespace sigs::bench {
 
@@ -73,5 +76,11 @@ template <class Value>
 // Evenly spread frames of a clip, each with the three before and after it.
 [[nodiscard]] std::vector<Sample> samples_of(const RealClip& clip, const SampleOptions& options, Workplace& workplace,
                                              LeftOut& left_out);
+
+// The frame with a copy of the target that a loose box holds, moved by whole pixels (an even number both ways). What
+// the target and the codec's traces within 10 px of it differ from the background there is put onto the background at
+// the new place, with a soft edge; so the copy brings its own noise. A limit of what insertion can reach.
+// None where target_silhouette() finds no target, or the copy would not lie within the frame.
+[[nodiscard]] std::optional<Frame> with_target_moved(const Frame& frame, const Box& box, cv::Point shift);
 
 }  // namespace sigs::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "realism/sheets.h"
+#include "realism/report.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "appearance/target_silhouette.h"
-#include "realism/moved.h"
+#include "base/statistics.h"
+#include "realism/samples.h"
 #include "scene/opened_project.h"
 
 namespace sigs::bench {
@@ -64,13 +65,6 @@ std::vector<cv::Point2d> path_of_silhouette(const Stretch& stretch, const std::v
   return path;
 }
 
-double median_of_slopes(std::vector<double> slopes) {
-  if (slopes.empty()) return 0;
-  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
-  std::nth_element(slopes.begin(), middle, slopes.end());
-  return *middle;
-}
-
 // The median of the slopes between any two frames a third of the stretch or more apart (Theil and Sen) of the logarithm
 // of the silhouette's size, the root of its area.
 double growth_of(const std::vector<std::optional<TargetLook>>& looks, double frame_interval_s) {
@@ -80,7 +74,7 @@ double growth_of(const std::vector<std::optional<TargetLook>>& looks, double fra
       if (looks[i] && looks[j])
         slopes.push_back(0.5 * std::log(looks[j]->area_px / looks[i]->area_px) /
                          (static_cast<double>(j - i) * frame_interval_s));
-  return median_of_slopes(std::move(slopes));
+  return slopes.empty() ? 0 : median(std::move(slopes));
 }
 
 // A place from which the whole path lies in the image. The rectangle that is looked for spans the path.

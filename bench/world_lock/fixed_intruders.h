@@ -56,4 +56,10 @@ struct Hovering {
 // Pixel of an intruder's reference point, as the truth has it; nothing where it has no image.
 [[nodiscard]] std::optional<cv::Point2d> pixel_of(const Scene& scene, std::size_t intruder, int frame);
 
+// Where intruders are put in a frame: up to `count` pixels within the far background whose neighbourhood has the most
+// texture in its weaker direction, so that it can be followed both ways, 60 px or more apart. None where no
+// neighbourhood has texture enough.
+//   shift  of the far background since frame 0
+[[nodiscard]] std::vector<cv::Point> places_in(const Clip& clip, int frame, int count, cv::Point shift = {});
+
 }  // namespace sigs::bench

@@ -10,9 +10,8 @@
 
 #include "accuracy/csv.h"
 #include "base/pose.h"
-#include "world_lock/image_motion.h"
+#include "world_lock/background_point.h"
 #include "world_lock/slip.h"
-#include "world_lock/strips.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "scene/scene_at.h"
 #include "world_lock/background_point.h"
-#include "world_lock/places.h"
+#include "world_lock/fixed_intruders.h"
 
 namespace sigs::bench {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "world_lock/fixed_intruders.h"
@@ -45,5 +47,13 @@ inline constexpr double kLongest_s = 10;
 // Slip from frame to frame less its mean over a second of the same point: parallax and drift change slowly, trembling
 // does not. By sample, then by knowledge.
 [[nodiscard]] std::vector<std::vector<cv::Point2d>> trembling(const SlipRun& run);
+
+// Strips of enlarged frames, 60 frames apart, each around the same point of the background: above with the camera's
+// attitude constant, below with the estimated one. One PNG for each distance, in the folder `images`. The strips show
+// the footage, which need not be ours to publish.
+void draw_strips(const std::string& clip, const std::filesystem::path& folder, const std::filesystem::path& images);
+
+// The same of our own footage, for docs/images.
+void draw_figure(const std::filesystem::path& folder, const std::filesystem::path& figure);
 
 }  // namespace sigs::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "world_lock/strips.h"
+#include "world_lock/slip.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,7 +10,6 @@
 #include "frame/compose_frame.h"
 #include "world_lock/background_point.h"
 #include "world_lock/fixed_intruders.h"
-#include "world_lock/places.h"
 
 namespace sigs::bench {
 

@@ -42,4 +42,21 @@ struct CommandFacts {
 // commas or "or". What follows as a part of a single word counts too: "xml, coco; none".
 [[nodiscard]] std::vector<std::string> listed_words(const std::string& help);
 
+// The file of a manual page: "sigs-evaluate-track.1".
+[[nodiscard]] std::string man_page_name(const CommandFacts& command);
+
+// The page in the macros of man(7). It states no date, so that its bytes depend on the descriptions alone.
+//   program  of which it is a subcommand; itself for the program's own page
+//   version  "0.1.0"
+[[nodiscard]] std::string man_page(const CommandFacts& command, const CommandFacts& program,
+                                   const std::string& version);
+
+// Completion of the command line: subcommands, options, the values that an option may have, files and folders.
+
+// A script for bash, to be read by it or by bash-completion.
+[[nodiscard]] std::string bash_completion(const CommandFacts& program);
+
+// A function file for zsh, for a folder of its fpath.
+[[nodiscard]] std::string zsh_completion(const CommandFacts& program);
+
 }  // namespace sigs::cli

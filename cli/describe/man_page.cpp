@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/describe/man_page.h"
+#include "cli/describe/command_facts.h"
 
 #include <fmt/format.h>
 
@@ -100,7 +100,8 @@ std::string man_page(const CommandFacts& command, const CommandFacts& program, c
   for (const OptionFacts& positional : command.positionals) page += positional_entry(positional);
   if (!command.commands.empty()) page += ".SH COMMANDS\n";
   for (const CommandFacts& below : command.commands)
-    page += fmt::format(".TP\n.BR {} (1)\n{}\n", roff(page_name(below.name)), roff(sentence(capitalised(below.summary))));
+    page +=
+        fmt::format(".TP\n.BR {} (1)\n{}\n", roff(page_name(below.name)), roff(sentence(capitalised(below.summary))));
   page += ".SH OPTIONS\n";
   for (const OptionFacts& option : command.options) page += option_entry(option);
   if (!command.examples.empty()) {

@@ -19,8 +19,4 @@ inline constexpr int kMaxNesting = 100;
 // XML: elements; comments and processing instructions are ignored.
 [[nodiscard]] int xml_depth(std::string_view text);
 
-// YAML as cv::FileStorage reads it: brackets, and block lists and maps by the columns in which they begin. The result
-// may be one level too high.
-[[nodiscard]] int opencv_yaml_depth(std::string_view text);
-
 }  // namespace sigs

@@ -5,19 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/json.h"
 #include "base/pose.h"
+#include "plot/plot.h"
 
 namespace sigs {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json fit_json(const RoughFit& fit) {
   return {{"horizontal_field_deg", deg_of_rad(fit.lens.horizontal_field_rad())},
@@ -103,29 +101,12 @@ std::string json_of(const RoughCalibration& found) {
   json["stated"] = answer_json(found.stated);
   json["warnings"] = Json::array();
   for (const Warning& warning : found.warnings) json["warnings"].push_back(warning.text());
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 namespace {
 
-const cv::Size kSize_px(1180, 700);
-const cv::Rect kBars(190, 60, 940, 240);  // fields of view
-const cv::Rect kCurve(190, 400, 940, 240);
-const cv::Scalar kRoughInk(40, 40, 40);
-const cv::Scalar kGrid(220, 220, 220);
-const cv::Scalar kMeasured(180, 90, 20);
-const cv::Scalar kPinhole(120, 120, 120);
-
-void write_text(cv::Mat& image, const std::string& text, cv::Point at, const cv::Scalar& colour = kRoughInk) {
-  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.45, colour, 1, cv::LINE_AA);
-}
-
-// A text in lines of at most so many characters.
-void write_lines(cv::Mat& image, const std::string& text, cv::Point at) {
-  constexpr std::size_t kLine = 110;
-  for (std::size_t from = 0; from < text.size() && from < 2 * kLine; from += kLine)
-    write_text(image, text.substr(from, kLine), at + cv::Point(0, static_cast<int>(from / kLine) * 16), kPinhole);
-}
+constexpr PlotColor kMeasured{20, 90, 180}, kPinhole{120, 120, 120};
 
 struct Row {
   std::string name;
@@ -138,78 +119,69 @@ std::vector<Row> rows_of(const RoughCalibration& found) {
   return rows;
 }
 
-void draw_fields(cv::Mat& image, const RoughCalibration& found) {
-  double low = found.fit.field_low_rad;
-  double high = found.fit.field_high_rad;
+// A row for each source: its field of view with the limits, or why it has none.
+Plot fields_plot(const RoughCalibration& found) {
   const std::vector<Row> rows = rows_of(found);
-  for (const Row& row : rows)
-    if (row.answer.fit) {
-      low = std::min(low, row.answer.fit->field_low_rad);
-      high = std::max(high, row.answer.fit->field_high_rad);
-    }
-  const int first_deg = static_cast<int>(std::floor(deg_of_rad(low) / 5 - 0.5)) * 5;
-  const int last_deg = static_cast<int>(std::ceil(deg_of_rad(high) / 5 + 0.5)) * 5;
-  const auto x_of = [&](double rad) {
-    return kBars.x + static_cast<int>(kBars.width * (deg_of_rad(rad) - first_deg) / (last_deg - first_deg));
-  };
-  write_text(image, "horizontal field of view, degrees, with 95 % limits", {kBars.x, kBars.y - 20});
-  for (int deg = first_deg; deg <= last_deg; deg += 5) {
-    const int x = x_of(rad_of_deg(deg));
-    cv::line(image, {x, kBars.y}, {x, kBars.br().y}, kGrid);
-    write_text(image, std::to_string(deg), {x - 8, kBars.br().y + 18});
+  PlotSeries limits{.color = kMeasured};
+  PlotSeries fields{.kind = SeriesKind::marks, .color = kMeasured};
+  std::vector<PlotTick> names;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto row = static_cast<double>(i);
+    names.push_back({row, rows[i].name});
+    if (!rows[i].answer.fit) continue;
+    const RoughFit& fit = *rows[i].answer.fit;
+    limits.runs.push_back({{deg_of_rad(fit.field_low_rad), row}, {deg_of_rad(fit.field_high_rad), row}});
+    fields.runs.push_back({{deg_of_rad(fit.lens.horizontal_field_rad()), row}});
   }
-  const int step = kBars.height / static_cast<int>(rows.size() + 1);
-  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
-    const Row& row = rows[static_cast<std::size_t>(i)];
-    const int y = kBars.y + step * (i + 1);
-    write_text(image, row.name, {20, y + 5});
-    if (!row.answer.fit) {
-      write_lines(image, row.answer.reason, {kBars.x + 6, y + 5});
-      continue;
-    }
-    const RoughFit& fit = *row.answer.fit;
-    cv::line(image, {x_of(fit.field_low_rad), y}, {x_of(fit.field_high_rad), y}, kMeasured, 3, cv::LINE_AA);
-    cv::circle(image, {x_of(fit.lens.horizontal_field_rad()), y}, 6, kMeasured, cv::FILLED, cv::LINE_AA);
-  }
+  PlotSpan degrees = range_of({limits, fields}, &PlotPoint::x, 0.1);
+  degrees = {std::floor(degrees.first / 5 - 0.5) * 5, std::ceil(degrees.last / 5 + 0.5) * 5};
+  Plot plot{.title = "horizontal field of view, degrees, with 95 % limits",
+            .x_range = degrees,
+            .y_range = {static_cast<double>(rows.size()) - 0.5, -0.5},
+            .y_ticks = std::move(names),
+            .height = 340};
+  constexpr std::size_t kLine = 110;  // letters of a reason that fit
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!rows[i].answer.fit)
+      plot.notes.push_back(
+          {{(degrees.first + degrees.last) / 2, static_cast<double>(i)}, rows[i].answer.reason.substr(0, kLine)});
+  plot.series = {std::move(limits), std::move(fields)};
+  return plot;
 }
 
-void draw_curve(cv::Mat& image, const RoughLens& lens) {
-  write_text(image, "angle from the axis by distance from the centre (grey: a pinhole of the same focal length)",
-             {kCurve.x, kCurve.y - 20});
-  const auto angle_at = [](const RoughLens& by, double r_px) {
-    return std::atan2(r_px, by.focal_px * (1 + by.distortion * std::pow(r_px / by.radius_px(), 2)));
-  };
+PlotSeries angles_of(std::string title, const RoughLens& lens, PlotColor color) {
+  PlotSeries series{.title = std::move(title), .runs = {{}}, .color = color};
+  for (int i = 0; i <= 200; ++i) {
+    const double r_px = lens.radius_px() * i / 200;
+    const double angle_rad =
+        std::atan2(r_px, lens.focal_px * (1 + lens.distortion * std::pow(r_px / lens.radius_px(), 2)));
+    series.runs.front().push_back({r_px, deg_of_rad(angle_rad)});
+  }
+  return series;
+}
+
+Plot curve_plot(const RoughLens& lens) {
   RoughLens pinhole = lens;
   pinhole.distortion = 0;
-  const double top = std::max(angle_at(lens, lens.radius_px()), angle_at(pinhole, lens.radius_px()));
-  const RoughLens& found = lens;
-  for (const RoughLens* const drawn : {&std::as_const(pinhole), &found}) {
-    const cv::Scalar& colour = drawn == &found ? kMeasured : kPinhole;
-    std::vector<cv::Point> points;
-    for (int x = 0; x <= kCurve.width; x += 4) {
-      const double angle = angle_at(*drawn, lens.radius_px() * x / kCurve.width);
-      points.emplace_back(kCurve.x + x, kCurve.br().y - static_cast<int>(kCurve.height * angle / top));
-    }
-    cv::polylines(image, points, false, colour, 2, cv::LINE_AA);
-  }
-  cv::rectangle(image, kCurve, kGrid);
-  write_text(image, fmt::format("{:.0f} deg", deg_of_rad(top)), {110, kCurve.y + 8});
-  write_text(image, "0", {170, kCurve.br().y});
-  write_text(image, fmt::format("{:.0f} px", lens.radius_px()), {kCurve.br().x - 40, kCurve.br().y + 18});
+  const std::vector<PlotSeries> series{angles_of("a pinhole of the same focal length", pinhole, kPinhole),
+                                       angles_of("the lens", lens, kMeasured)};
+  return {.title = "angle from the axis, degrees",
+          .x_label = "distance from the centre, px",
+          .x_range = {0, lens.radius_px()},
+          .y_range = {0, range_of(series, &PlotPoint::y).last},
+          .series = series,
+          .height = 400};
 }
 
 }  // namespace
 
 cv::Mat rough_plot(const RoughCalibration& found) {
-  cv::Mat image(kSize_px, CV_8UC3, cv::Scalar(255, 255, 255));
-  draw_fields(image, found);
-  draw_curve(image, found.fit.lens);
-  const std::string lines =
-      found.lines.is_certain ? fmt::format("straight edges: distortion {:.3f} +- {:.3f}, {} of {} edges agree",
-                                           found.lines.distortion, found.lines.sd, found.lines.agree, found.lines.lines)
-                             : "straight edges: " + found.lines.reason;
-  write_text(image, lines, {20, kSize_px.height - 20});
-  return image;
+  Plot curve = curve_plot(found.fit.lens);
+  curve.remark = found.lines.is_certain
+                     ? fmt::format("straight edges: distortion {:.3f} +- {:.3f}, {} of {} edges agree",
+                                   found.lines.distortion, found.lines.sd, found.lines.agree, found.lines.lines)
+                     : "straight edges: " + found.lines.reason;
+  return image_of({fields_plot(found), curve});
 }
 
 }  // namespace sigs

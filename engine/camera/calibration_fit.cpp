@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "camera/calibration_fit.h"
+#include "camera/calibration_formats.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <exception>
@@ -113,7 +112,7 @@ Result<Fields> plain_yaml_fields(const std::string& text, const std::string& fil
   }
 }
 
-// OpenCV FileStorage.
+// OpenCV FileStorage in XML.
 
 void append(const cv::FileNode& node, Field& field) {
   if (node.isInt() || node.isReal()) {
@@ -158,36 +157,10 @@ std::string reason(const cv::Exception& error) {
   return text;
 }
 
-// YAML up to the end of its first document; a calibration is nothing else.
-std::string first_document(const std::string& text) {
-  const std::size_t end = text.find("\n...");
-  return end == std::string::npos ? text : text.substr(0, end + 1);
-}
-
-// The first line that is neither empty nor a comment, a directive or the document's beginning.
-std::string_view first_line(std::string_view text) {
-  while (!text.empty()) {
-    const std::string_view line = next_line(text);
-    if (!line.empty() && line.front() != '%' && line.front() != '#' && trimmed(line) != "---" && !trimmed(line).empty())
-      return line;
-  }
-  return {};
-}
-
-bool begins_with_key(std::string_view line) {
-  return !line.empty() && (std::isalnum(static_cast<unsigned char>(line.front())) != 0 || line.front() == '_');
-}
-
-Result<Fields> opencv_storage_fields(const std::string& text, const std::string& file_name) {
-  const bool is_xml = text.starts_with('<');
-  const int depth = is_xml ? xml_depth(text) : opencv_yaml_depth(text);
-  if (depth > kMaxNesting) return fail(too_deep(file_name));  // the storage recurses for each level
-  // With anything else the storage of OpenCV 4.6 may never return.
-  if (!is_xml && !begins_with_key(first_line(text)))
-    return fail(file_name, "not a calibration: expected keys at the beginning of its lines");
+Result<Fields> opencv_xml_fields(const std::string& text, const std::string& file_name) {
+  if (xml_depth(text) > kMaxNesting) return fail(too_deep(file_name));  // the storage recurses for each level
   try {
-    const cv::FileStorage storage(is_xml ? text : first_document(text),
-                                  cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (!storage.isOpened()) return fail(file_name, "not an OpenCV calibration file");
     return fields_of(storage.root());
   } catch (const cv::Exception& error) {
@@ -195,6 +168,13 @@ Result<Fields> opencv_storage_fields(const std::string& text, const std::string&
   } catch (const std::exception& error) {
     return fail(file_name, fmt::format("not readable as an OpenCV file: {}", error.what()));
   }
+}
+
+// OpenCV's own header of YAML is "%YAML:1.0"; the standard has a space in the colon's place. As a comment it leaves the
+// numbers of lines as they are.
+std::string without_opencv_header(std::string text) {
+  if (text.starts_with("%YAML:")) text.front() = '#';
+  return text;
 }
 
 // JSON by nlohmann::json, Gyroflow's lens profiles among it.
@@ -334,10 +314,9 @@ std::string text_of(double number) {
 Result<Fields> fields_in(const std::string& text, const std::string& file_name) {
   if (text.empty()) return fail(file_name, "is empty");
   if (text.find('\0') != std::string::npos) return fail(file_name, "is not a text file");
-  // "%YAML:1.0" is OpenCV's own header; the YAML standard has a space in the colon's place.
-  if (text.starts_with('<') || text.starts_with("%YAML:")) return opencv_storage_fields(text, file_name);
+  if (text.starts_with('<')) return opencv_xml_fields(text, file_name);
   if (text.starts_with('{')) return json_fields(text, file_name);
-  return plain_yaml_fields(text, file_name);
+  return plain_yaml_fields(without_opencv_header(text), file_name);
 }
 
 }  // namespace sigs::calibration

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "base/staged_outputs.h"
-#include "camera/calibration_fit.h"
 #include "camera/calibration_formats.h"
 
 namespace sigs::calibration {

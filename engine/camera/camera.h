@@ -16,7 +16,7 @@ namespace sigs {
 struct Camera {
   Lens lens;
   cv::Size size_px;
-  std::vector<Warning> warnings = {};  // implausible values of its calibration file (camera/calibration_fit.h)
+  std::vector<Warning> warnings = {};  // implausible values of its calibration file (camera/calibration_formats.h)
 };
 
 // Reads a calibration: OpenCV FileStorage XML or YAML, ROS camera_info YAML, plain YAML with nested lists, Gyroflow

@@ -81,7 +81,7 @@ template <class Function>
 // The formulas of the lens models. Each maps points p of an undistorted plane to a distorted plane, from which
 // focal length and principal point lead to pixels: pixel = focal * distorted(p) + center. The undistorted plane is the
 // model's own; plane_of() and ray_of() convert between it and directions in OpenCV's optical frame (x right, y down, z
-// forward). No model checks whether p lies in the field on which it is one to one: see valid_field.h.
+// forward). No model checks whether p lies in the field on which it is one to one: see valid_field().
 
 // The distortion model of OpenCV's calib3d (Brown 1966, Conrady 1919, with the rational, thin prism and tilted sensor
 // terms). Its plane is the image plane at distance 1: p = (x / z, y / z), so that |p| is the tangent of the angle from
@@ -156,5 +156,25 @@ struct KannalaBrandt : EquidistantPlane {
   [[nodiscard]] glm::dvec2 distorted(const glm::dvec2& p) const;
   [[nodiscard]] glm::dmat2 jacobian(const glm::dvec2& p) const;
 };
+
+// The disk of a model's undistorted plane on which the model is one to one.
+struct Field {
+  // |p| < radius: a tangent (Brown-Conrady) or an angle in radians (on the equidistant plane), as in the model's plane.
+  double radius = std::numeric_limits<double>::infinity();
+  // Image of the disk's rim before the tilt: a closed polygon, its corners in order. Empty for models that keep
+  // circles.
+  std::vector<glm::dvec2> edge;
+};
+
+// Brown-Conrady: up to the first radius at which, anywhere on the circle,
+//   - the radial part stops increasing, or the determinant of the Jacobian stops being positive (a fold), or
+//   - the rational denominator falls to 1e-6, or the ray runs parallel to a tilted sensor.
+// Where the determinant is positive on a disk, each circle in it is distorted to c e^{i phi} + d e^{2 i phi} + offset
+// with |c| > 2 |d|, a curve that does not cross itself; so the map is one to one on the whole disk, not only locally.
+// Without distortion there is no limit; with any, |p| stays below 1e8 (6e-7 degrees short of 90).
+[[nodiscard]] Field valid_field(const BrownConrady& model);
+
+// Kannala-Brandt: up to the first angle at which the distorted radius stops increasing, at most pi.
+[[nodiscard]] Field valid_field(const KannalaBrandt& model);
 
 }  // namespace sigs::distortion

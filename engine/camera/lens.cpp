@@ -16,7 +16,6 @@
 
 #include "base/pose.h"
 #include "camera/distortion_models.h"
-#include "camera/valid_field.h"
 
 namespace sigs::distortion {
 

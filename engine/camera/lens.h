@@ -8,7 +8,6 @@
 
 #include "base/result.h"
 #include "camera/distortion_models.h"
-#include "camera/valid_field.h"
 
 namespace sigs {
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "camera/valid_field.h"
 
 #include <algorithm>
 #include <array>

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <opencv2/imgproc.hpp>
 #include <span>
 
 #include "base/json.h"
 #include "base/text.h"
 #include "dataset/coverage.h"
-#include "telemetry/plot_axes.h"
+#include "plot/plot.h"
 
 namespace sigs {
 
@@ -61,46 +59,28 @@ std::string share_text(long long part, long long whole) {
   return whole > 0 ? fmt::format("{:.1f} %", 100.0 * double(part) / double(whole)) : "-";
 }
 
-constexpr int kCoverageWidth_px = 1200;
-constexpr int kCoveragePanel_px = 230;
-constexpr int kCoverageLeft_px = 90;
-constexpr int kCoverageTop_px = 50;
-constexpr int kCoverageBottom_px = 40;
-const cv::Scalar kCoverageInk(40, 40, 40);
-const cv::Scalar kIntruderBars(200, 120, 40);
-const cv::Scalar kDistractorBars(40, 120, 230);
+constexpr PlotColor kIntruderBars{40, 120, 200}, kDistractorBars{230, 120, 40};
 
-// One histogram, its frame's upper edge at top_px.
-void draw_section(cv::Mat& image, const CoverageSection& section, bool has_distractors, int top_px) {
-  const cv::Point low(kCoverageLeft_px, top_px);
-  const cv::Point high(kCoverageWidth_px - 30, top_px + kCoveragePanel_px - kCoverageBottom_px - 30);
-  long long most = 1;
-  for (const auto* const counts : {&section.intruders, &section.distractors})
-    for (const long long count : *counts) most = std::max(most, count);
-  const double step = std::max(1.0, tick_step(double(most)));
-  const auto row = [&](double count) {
-    return high.y - static_cast<int>(std::lround(count / (1.05 * double(most)) * (high.y - low.y)));
-  };
-  const double width = double(high.x - low.x) / double(section.bins.size());
-  std::vector<PlacedTick> columns;
-  std::vector<PlacedTick> rows;
-  for (const Tick& tick : ticks_between(0, 1.05 * double(most), step)) rows.push_back({tick, row(tick.value)});
-  for (std::size_t i = 0; i < section.bins.size(); ++i)
-    columns.push_back({{double(i), section.bins[i]}, low.x + static_cast<int>(std::lround(width * (double(i) + 0.5)))});
-  draw_axes(image, low, high, columns, rows, {.ink = kCoverageInk});
+// One histogram. The only bar of a bin is in line with its label; two stand on both sides of it.
+Plot section_plot(const CoverageSection& section, bool has_distractors) {
+  PlotSeries intruders{.kind = SeriesKind::areas, .color = kIntruderBars};
+  PlotSeries distractors{.kind = SeriesKind::areas, .color = kDistractorBars};
+  std::vector<PlotTick> names;
+  double most = 1;
   for (std::size_t i = 0; i < section.bins.size(); ++i) {
-    const int middle = columns[i].at_px;
-    const int bar = static_cast<int>(width * 0.35);
-    // The only bar of a column is in line with its label; two stand on both sides of it.
-    const int intruders_end = has_distractors ? middle - 1 : middle + bar;
-    if (section.intruders[i] > 0)
-      cv::rectangle(image, {middle - bar, row(double(section.intruders[i]))}, {intruders_end, high.y}, kIntruderBars,
-                    cv::FILLED);
-    if (section.distractors[i] > 0)
-      cv::rectangle(image, {middle + 1, row(double(section.distractors[i]))}, {middle + bar, high.y}, kDistractorBars,
-                    cv::FILLED);
+    const auto at = static_cast<double>(i);
+    const auto seen = static_cast<double>(section.intruders[i]), beside = static_cast<double>(section.distractors[i]);
+    names.push_back({at, section.bins[i]});
+    most = std::max({most, seen, beside});
+    if (seen > 0) intruders.runs.push_back({{at - 0.35, 0}, {has_distractors ? at : at + 0.35, seen}});
+    if (beside > 0) distractors.runs.push_back({{at, 0}, {at + 0.35, beside}});
   }
-  draw_text(image, section.title, {low.x, low.y - 8}, kCoverageInk);
+  return {.title = section.title,
+          .x_range = {-0.5, static_cast<double>(section.bins.size()) - 0.5},
+          .y_range = {0, 1.05 * most},
+          .series = {std::move(intruders), std::move(distractors)},
+          .x_ticks = std::move(names),
+          .height = 250};
 }
 
 Json counts_json(const CoverageSection& section, const std::vector<long long>& counts) {
@@ -161,21 +141,18 @@ std::string coverage_json(const Coverage& coverage, const std::string& title) {
   }
   json["categories"] = Json::object();
   for (const auto& [category, count] : coverage.categories) json["categories"][category] = count;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 cv::Mat coverage_plot(const Coverage& coverage, const std::string& title) {
-  const std::vector<CoverageSection> sections = sections_of(coverage);
-  const int height = kCoverageTop_px + static_cast<int>(sections.size()) * kCoveragePanel_px;
-  cv::Mat image(height, kCoverageWidth_px, CV_8UC3, cv::Scalar::all(255));
-  draw_text(image,
-            fmt::format("bodies in view, {}: intruders {} (blue), distractors {} (orange)", title,
-                        coverage.intruders.sights, coverage.distractors.sights),
-            {kCoverageLeft_px, 20}, kCoverageInk);
-  for (std::size_t i = 0; i < sections.size(); ++i)
-    draw_section(image, sections[i], coverage.distractors.sights > 0,
-                 kCoverageTop_px + 10 + static_cast<int>(i) * kCoveragePanel_px);
-  return image;
+  std::vector<Plot> plots;
+  for (const CoverageSection& section : sections_of(coverage))
+    plots.push_back(section_plot(section, coverage.distractors.sights > 0));
+  Plot& last = plots.back();
+  last.x_label = "bodies in view, " + title;
+  last.series[0].title = count_text(coverage.intruders.sights, "intruder");
+  last.series[1].title = count_text(coverage.distractors.sights, "distractor");
+  return image_of(plots);
 }
 
 }  // namespace sigs

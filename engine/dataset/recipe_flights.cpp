@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 #include "dataset/recipe_reading.h"
-#include "encounter_model/sampled_track.h"
+#include "encounter_model/model_flight.h"
 
 namespace sigs {
 

@@ -13,8 +13,8 @@
 
 #include "base/ensure.h"
 #include "base/text.h"
+#include "encounter_model/model_flight.h"
 #include "encounter_model/placement.h"
-#include "encounter_model/sampled_track.h"
 #include "spline/trajectory.h"
 
 namespace sigs {
@@ -98,9 +98,9 @@ glm::dvec3 turned_to_right(const glm::dvec3& ned, double by_rad) {
 }
 
 PathNed drawn_path(const EncounterModel& model, Random random, double length_s) {
-  const SampledTrackSettings settings{.duration_s = static_cast<int>(std::ceil(length_s)) + 1,
-                                      .max_redraws = kTrackRedraws};
-  return [flight = sampled_track(model, settings, random)](double since_s) {
+  const ModelFlightSettings settings{.duration_s = static_cast<int>(std::ceil(length_s)) + 1,
+                                     .max_redraws = kTrackRedraws};
+  return [flight = drawn_flight(model, settings, random)](double since_s) {
     const glm::dvec3 neu_m = at_time(flight, since_s).position_neu_m;
     return glm::dvec3(neu_m.x, neu_m.y, -neu_m.z);
   };

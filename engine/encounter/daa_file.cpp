@@ -11,7 +11,7 @@
 #include "base/input_file.h"
 #include "base/text.h"
 #include "encounter/file_columns.h"
-#include "encounter/units.h"
+#include "encounter/well_clear.h"
 #include "geo/geodetic.h"
 
 namespace sigs {

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "encounter/encounter_report.h"
-#include "encounter/units.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
+#include "base/json.h"
 #include "base/text.h"
+#include "encounter/well_clear.h"
+#include "plot/plot.h"
 
 namespace sigs {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // --- For people.
 
@@ -217,6 +217,95 @@ std::string encounter_json_text(std::span<const EncounterSummary> encounters, co
     return {};
   }));
   return text;
+}
+
+namespace {
+
+constexpr double kMostShown_s = 120;  // that the panel of times shows
+
+// A curve over the rows, with a gap where it has no value.
+PlotSeries curve_of(const EncounterSummary& summary, std::string title,
+                    const std::function<double(const EncounterRow&)>& value) {
+  PlotSeries series{.title = std::move(title)};
+  bool continues = false;
+  for (const EncounterRow& row : summary.rows) {
+    const double at = value(row);
+    const bool is_there = std::isfinite(at);
+    if (is_there && !continues) series.runs.emplace_back();
+    if (is_there) series.runs.back().push_back({row.time_s, at});
+    continues = is_there;
+  }
+  return series;
+}
+
+PlotSeries curve_of(const EncounterSummary& summary, std::string title, double RelativeQuantities::*quantity) {
+  return curve_of(summary, std::move(title), [quantity](const EncounterRow& row) { return row.quantities.*quantity; });
+}
+
+// Over the time that both share; up from 0, or from the least value below, to 1 at least.
+Plot plot_over_time(const EncounterSummary& summary, std::string title, std::vector<PlotSeries> series) {
+  const PlotSpan values = range_of(series, &PlotPoint::y, 0);
+  return {.title = std::move(title),
+          .x_label = "time, s",
+          .x_range = {summary.first_s, std::max(summary.last_s, summary.first_s + 1e-3)},
+          .y_range = {std::min(values.first, 0.0), std::max(values.last, 1.0)},
+          .series = std::move(series),
+          .height = 260};
+}
+
+// A lane for each volume, filled while it is lost.
+Plot losses_plot(const EncounterSummary& summary) {
+  const auto count = static_cast<double>(summary.volumes.size());
+  std::vector<PlotSeries> lanes;
+  std::vector<PlotTick> names;
+  for (std::size_t i = 0; i < summary.volumes.size(); ++i) {
+    const auto lane = static_cast<double>(i);
+    PlotSeries& series = lanes.emplace_back();
+    series.kind = SeriesKind::areas;
+    for (const TimeInterval& loss : summary.volumes[i].losses)
+      series.runs.push_back({{loss.begin_s, lane + 0.15}, {loss.end_s, lane + 0.85}});
+    names.push_back({lane + 0.5, summary.volumes[i].volume.name});
+  }
+  Plot plot = plot_over_time(summary, summary.own_name + " and " + summary.intruder_name + ": well clear lost",
+                             std::move(lanes));
+  plot.y_range = {count, 0};
+  plot.y_ticks = std::move(names);
+  plot.height = 130 + 22 * count;
+  return plot;
+}
+
+void add_plots(const EncounterSummary& summary, std::vector<Plot>& plots) {
+  if (!summary.volumes.empty()) plots.push_back(losses_plot(summary));
+  plots.push_back(plot_over_time(summary, "range, m",
+                                 {curve_of(summary, "slant", &RelativeQuantities::range_m),
+                                  curve_of(summary, "horizontal", &RelativeQuantities::horizontal_range_m),
+                                  curve_of(summary, "projected HMD", &RelativeQuantities::hmd_m)}));
+  std::vector<PlotSeries> times{curve_of(summary, "closest approach", &RelativeQuantities::time_to_closest_s)};
+  // Without a volume there is no distance for tau.
+  if (!summary.volumes.empty())
+    times.push_back(
+        curve_of(summary, "modified tau", [](const EncounterRow& row) { return row.of_volumes.front().tau_mod_s; }));
+  times.push_back(curve_of(summary, "co-altitude", &RelativeQuantities::time_to_coaltitude_s));
+  plots.push_back(plot_over_time(summary, "times, s", std::move(times)));
+  plots.back().y_range.last = std::min(plots.back().y_range.last, kMostShown_s);
+  Plot heights = plot_over_time(summary, "vertical offset, m (intruder above: positive)",
+                                {curve_of(summary, "vertical", &RelativeQuantities::vertical_m),
+                                 curve_of(summary, "VMD", &RelativeQuantities::vmd_m)});
+  for (const VolumeOutcome& outcome : summary.volumes)
+    for (const double level : {outcome.volume.zthr_m, -outcome.volume.zthr_m}) {
+      heights.levels.push_back(level);
+      heights.y_range = {std::min(heights.y_range.first, 1.1 * level), std::max(heights.y_range.last, 1.1 * level)};
+    }
+  plots.push_back(std::move(heights));
+}
+
+}  // namespace
+
+cv::Mat encounter_plot(std::span<const EncounterSummary> encounters) {
+  std::vector<Plot> plots;
+  for (const EncounterSummary& summary : encounters)
+    if (!summary.rows.empty()) add_plots(summary, plots);
+  return image_of(plots);
 }
 
 }  // namespace sigs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <opencv2/core.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,5 +26,10 @@ namespace sigs {
 // `put`.
 [[nodiscard]] Result<void> put_encounter_json(std::span<const EncounterSummary> encounters, const std::string& source,
                                               const std::function<Result<void>(std::string_view)>& put);
+
+// Encounters over time: when well clear is lost, a lane for each volume; range; times (modified tau, closest approach);
+// vertical offset with the volumes' limits, one below the other, for each encounter. BGR. Empty where no encounter has
+// a row.
+[[nodiscard]] cv::Mat encounter_plot(std::span<const EncounterSummary> encounters);
 
 }  // namespace sigs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "encounter/file_columns.h"
 #include "base/parsing.h"
-#include "encounter/units.h"
+#include "encounter/well_clear.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "encounter/well_clear.h"
-#include "encounter/units.h"
 
 #include <algorithm>
 #include <array>

@@ -65,4 +65,8 @@ struct TimeInterval {
 // each at most 1.
 [[nodiscard]] double loss_severity(const RelativeState& state, const WellClearVolume& volume);
 
+// Units in which encounters are recorded and limits stated.
+inline constexpr double kFoot_m = 0.3048;  // international foot
+inline constexpr double kDegree_rad = 0.017453292519943295;
+
 }  // namespace sigs

@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/csv.h"
 #include "base/pose.h"
 #include "base/text.h"
+#include "plot/plot.h"
 
 namespace sigs {
 
@@ -147,6 +149,58 @@ std::string track_csv_rows(const ModelFlight& track, int number, const Encounter
         number_text(point.acceleration_mps2, 6), number_text(deg_of_rad(point.turn_rate_radps), 6), categories);
   }
   return text;
+}
+
+namespace {
+
+// Colours all around the circle of hues, dark enough on white.
+PlotColor color_of(std::size_t number, std::size_t count) {
+  const double hue = 6 * static_cast<double>(number) / static_cast<double>(count);
+  const auto part = [hue](double middle) {
+    const double away = std::abs(std::remainder(hue - middle, 6.0));
+    return static_cast<int>(std::lround(40 + 150 * std::clamp(2 - away, 0.0, 1.0)));
+  };
+  return {part(0), part(2), part(4)};
+}
+
+PlotPoint from_above(const SampledPoint& point) {
+  return {point.position_neu_m.y, point.position_neu_m.x};
+}
+PlotPoint altitude(const SampledPoint& point) {
+  return {point.time_s, point.position_neu_m.z};
+}
+PlotPoint speed(const SampledPoint& point) {
+  return {point.time_s, point.speed_mps};
+}
+PlotPoint vertical_speed(const SampledPoint& point) {
+  return {point.time_s, point.vertical_speed_mps};
+}
+
+Plot plot_of(const std::vector<ModelFlight>& tracks, std::string title, PlotPoint (*place)(const SampledPoint&)) {
+  Plot plot{.title = std::move(title), .x_label = "time, s", .height = 270};
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    PlotSeries& line = plot.series.emplace_back();
+    line.color = color_of(i, tracks.size());
+    std::vector<PlotPoint>& run = line.runs.emplace_back();
+    for (const SampledPoint& point : tracks[i].points) run.push_back(place(point));
+  }
+  plot.x_range = range_of(plot.series, &PlotPoint::x, 0.04);
+  plot.y_range = range_of(plot.series, &PlotPoint::y, 0.04);
+  return plot;
+}
+
+}  // namespace
+
+cv::Mat flights_plot(const std::vector<ModelFlight>& tracks) {
+  Plot map = plot_of(tracks, "from above, north up; dots: the flights' ends", from_above);
+  map.x_label = "m east";
+  map.y_label = "m north";
+  map.same_scale = true;
+  map.height = 620;
+  for (std::size_t i = 0; i < tracks.size(); ++i)
+    map.series.push_back({.runs = {{from_above(tracks[i].points.back())}}, .color = color_of(i, tracks.size())});
+  return image_of({map, plot_of(tracks, "altitude, m", altitude), plot_of(tracks, "speed over the ground, m/s", speed),
+                   plot_of(tracks, "vertical speed, m/s", vertical_speed)});
 }
 
 }  // namespace sigs

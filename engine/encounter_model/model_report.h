@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
-#include "encounter_model/sampled_track.h"
+#include "encounter_model/model_flight.h"
 
 namespace sigs {
 
-// A model and its flights as text.
+// A model and its flights as text and as a drawing.
 
 // A table of the variables: what each is and its unit as far as the label is known, the number of bins, their limits,
 // the zero bin, seconds between other values within a bin, parents at the first second and a second later. Below it the
@@ -21,5 +23,9 @@ namespace sigs {
 
 // A line for each second of the flight. Metres with 4 decimals, all else with 6.
 [[nodiscard]] std::string track_csv_rows(const ModelFlight& track, int number, const EncounterModel& model);
+
+// Flights drawn one below the other: from above in metres (north up, both axes to the same scale), and altitude in m,
+// speed in m/s and vertical speed in m/s over time in s. BGR, 8 bits. Needs at least one flight.
+[[nodiscard]] cv::Mat flights_plot(const std::vector<ModelFlight>& tracks);
 
 }  // namespace sigs

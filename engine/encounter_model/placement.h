@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/result.h"
-#include "encounter_model/sampled_track.h"
+#include "encounter_model/model_flight.h"
 
 namespace sigs {
 

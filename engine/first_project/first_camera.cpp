@@ -13,7 +13,7 @@
 #include "base/xml_text.h"
 #include "scene/camera_track.h"
 #include "scene/scene_at.h"
-#include "telemetry/gopro_header.h"
+#include "telemetry/gpmf.h"
 #include "telemetry/read_track.h"
 
 namespace sigs {

@@ -10,6 +10,7 @@
 #include "appearance/appearance.h"
 #include "appearance/light_image.h"
 #include "base/pose.h"
+#include "base/statistics.h"
 #include "base/text.h"
 #include "horizon/horizon.h"
 #include "horizon/sky_map.h"
@@ -65,7 +66,7 @@ class Levels {
     if (frames_ == 0 || set_horizon(look)) return;
     if (2 * skyline_pitches_rad_.size() >= frames_) {
       look.level_by = LevelBy::skyline;
-      look.pitch_rad = median_of(skyline_pitches_rad_);
+      look.pitch_rad = median(skyline_pitches_rad_);
     } else if (2 * (skies_ + skyline_pitches_rad_.size()) >= frames_) {
       look.level_by = LevelBy::sky;
       look.pitch_rad = rad_of_deg(kGuessedUp_deg);
@@ -78,8 +79,8 @@ class Levels {
  private:
   bool set_horizon(FirstLook& look) const {
     if (2 * line_rolls_rad_.size() < frames_) return false;
-    const double roll_rad = median_of(line_rolls_rad_);
-    const double pitch_rad = median_of(line_pitches_rad_);
+    const double roll_rad = median(line_rolls_rad_);
+    const double pitch_rad = median(line_pitches_rad_);
     std::size_t near = 0;
     for (std::size_t i = 0; i < line_rolls_rad_.size(); ++i)
       near += std::abs(line_rolls_rad_[i] - roll_rad) < kSteady_rad &&

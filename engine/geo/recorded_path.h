@@ -11,6 +11,8 @@
 #include "base/result.h"
 #include "geo/geodetic.h"
 
+#include <glm/glm.hpp>
+
 namespace sigs {
 
 // Paths that something flew, as files have them: GPX, KML, and what receivers of ADS-B and the OpenSky Network write
@@ -79,5 +81,21 @@ struct PathExtent {
 
 // There must be at least one point.
 [[nodiscard]] PathExtent extent_of(const std::vector<TimedPlace>& points);
+
+// A point of the world and when something is there.
+struct WorldWaypoint {
+  double time_s = 0;  // as RecordedPath::points
+  glm::dvec3 position_m{0, 0, 0};
+};
+
+// The path in the world, with as many of its points as it takes: between neighbours that are left out, straight flight
+// at even speed passes every point of the path, at that point's time, within tolerance_m. Of a path without times,
+// which has no speed, the straight line passes every point within tolerance_m. First and last point always stay.
+// Douglas and Peucker's method (Cartographica 10(2), 1973), in space and time.
+//
+// So a noisy path needs a tolerance above its noise: some metres for ADS-B. Heights are taken as the path has them.
+//   tolerance_m  0 or more, finite; 0 keeps all points
+[[nodiscard]] std::vector<WorldWaypoint> waypoints_of(const RecordedPath& path, const LocalFrame& frame,
+                                                      double tolerance_m);
 
 }  // namespace sigs

@@ -5,7 +5,6 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <exception>
 #include <map>
@@ -19,6 +18,7 @@
 #include "base/image.h"
 #include "base/image_codecs.h"
 #include "base/input_file.h"
+#include "base/parsing.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
@@ -95,11 +95,7 @@ using MtlMaterials = std::map<std::string, MtlMaterial>;
 
 std::optional<float> fourth_number(std::string_view numbers) {
   for (int i = 0; i < 3; ++i) static_cast<void>(next_token(numbers));
-  const std::string_view token = next_token(numbers);
-  float value = 0;
-  const auto [end, code] = std::from_chars(token.data(), token.data() + token.size(), value);
-  if (code != std::errc{} || end != token.data() + token.size()) return std::nullopt;
-  return value;
+  return parsed_number<float>(next_token(numbers));
 }
 
 std::map<std::string, OpacityHints> opacity_hints_of(std::string_view text) {

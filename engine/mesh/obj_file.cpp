@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +13,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/parsing.h"
 #include "base/text.h"
 #include "base/threads.h"
 
@@ -108,17 +108,10 @@ void join_continued_lines(std::string& text) {
   }
 }
 
-bool is_finite_number(std::string_view token) {
-  if (token.starts_with('+')) token.remove_prefix(1);
-  double value = 0;
-  const auto [end, code] = std::from_chars(token.data(), token.data() + token.size(), value);
-  return code == std::errc{} && end == token.data() + token.size() && std::isfinite(value);
-}
-
 // Number of finite numbers at the beginning of the line, counted up to `most`.
 int count_numbers(std::string_view line, int most) {
   int count = 0;
-  while (count < most && is_finite_number(next_token(line))) ++count;
+  while (count < most && finite_number(next_token(line))) ++count;
   return count;
 }
 

@@ -6,12 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace sigs {
+#include "plot/plot.h"
 
-// 8 bits each.
-struct PlotColor {
-  int red = 0, green = 0, blue = 0;
-};
+namespace sigs {
 
 struct LineStyle {
   PlotColor color;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "geo/waypoints.h"
+#include "geo/recorded_path.h"
 #include "project/places.h"
 #include "scene/scene_at.h"
 

@@ -11,7 +11,7 @@
 #include "base/pose.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
-#include "telemetry/gopro_header.h"
+#include "telemetry/gpmf.h"
 #include "telemetry/read_track.h"
 
 namespace sigs {

@@ -8,7 +8,6 @@
 #include <string>
 #include <type_traits>
 
-#include "base/input_file.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "telemetry/dataflash_messages.h"
@@ -236,19 +235,13 @@ bool is_dataflash(std::string_view head) {
   return has_dataflash_magic(head);
 }
 
-Result<Track> dataflash_track(std::string_view bytes, const std::filesystem::path& file, const ReadTrackOptions&) {
+Result<Track> dataflash_track(std::string_view bytes, const std::filesystem::path& file) {
   DataflashReading reading;
   const Result<DataflashContents> log = read_dataflash_messages(bytes, file.string(), reading.reader());
   if (!log) return fail(log.error());
   Track track = reading.track(*log, file);
   if (!has_samples(track)) return fail(file.string(), "has no sound sample of a message that SIGS reads");
   return track;
-}
-
-Result<Track> read_dataflash(const std::filesystem::path& file, const ReadTrackOptions& options) {
-  const Result<std::string> bytes = read_text(file, kLogLimit_bytes);
-  if (!bytes) return fail(bytes.error());
-  return dataflash_track(*bytes, file, options);
 }
 
 }  // namespace sigs

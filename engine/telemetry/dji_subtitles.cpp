@@ -7,7 +7,6 @@
 #include <cmath>
 #include <string>
 
-#include "base/input_file.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "telemetry/log_samples.h"
@@ -250,25 +249,17 @@ Result<Track> dji_subtitles_track(std::string_view text, const std::filesystem::
   return dji_cues_track(dji_cues(text), file);
 }
 
-Result<Track> read_dji_subtitles(const std::filesystem::path& file, const ReadTrackOptions&) {
-  const Result<std::string> text = read_text(file);
-  if (!text) return fail(text.error());
-  return dji_subtitles_track(*text, file);
-}
-
-Result<Track> read_dji_subtitle_stream(const std::filesystem::path& file, const DataStream& stream,
-                                       const ReadTrackOptions& options) {
-  const Result<DataPackets> payloads = read_data_stream(file, stream.index, options.cancel);
-  if (!payloads) return fail(payloads.error());
+Result<Track> dji_stream_track(const std::filesystem::path& file, const DataStream& stream,
+                               const DataPackets& payloads) {
   std::vector<DjiCue> cues;
-  for (const DataPacket& payload : payloads->packets) {
+  for (const DataPacket& payload : payloads.packets) {
     const std::string_view text = stream.codec == "mov_text" ? stream_text(payload.bytes) : payload.bytes;
     if (!trimmed(text).empty()) cues.push_back({.text = text, .footage_s = payload.time_s});
   }
   Result<Track> track = dji_cues_track(cues, file);
   if (!track) return track;
-  track->on_footage_time = payloads->on_footage_time;
-  track->damaged |= payloads->broke_off;
+  track->on_footage_time = payloads.on_footage_time;
+  track->damaged |= payloads.broke_off;
   return track;
 }
 

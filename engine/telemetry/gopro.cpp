@@ -10,8 +10,8 @@
 #include <span>
 
 #include "base/pose.h"
+#include "base/statistics.h"
 #include "base/text.h"
-#include "telemetry/gopro_orientation.h"
 #include "telemetry/gopro_stream.h"
 #include "telemetry/log_samples.h"
 
@@ -78,7 +78,7 @@ class Reading {
       if (stream.key == "SHUT" || stream.key == "CORI" || stream.key == "IORI" || stream.key == "GRAV")
         of_frames.push_back(offset_s);
     }
-    if (!of_all.empty()) camera_offset_s_ = median_of(of_frames.empty() ? of_all : of_frames);
+    if (!of_all.empty()) camera_offset_s_ = median(of_frames.empty() ? of_all : of_frames);
   }
 
   GoproTimes times_of(const GoproStream& stream) {
@@ -152,7 +152,7 @@ class Reading {
       for (glm::dvec3& down : track_.camera_gravity.values) down = -down;
     track_.exposure_s = channel_of<double>(find("SHUT", 1), [](Row row) { return row[0] > 0 ? row[0] : std::nan(""); });
     if (const GoproStream* readout = find("SROT", 1)) {
-      const double readout_s = median_of(readout->samples.values) * 1e-3;
+      const double readout_s = median(readout->samples.values) * 1e-3;
       if (readout_s > 0 && readout_s < 1) track_.readout_s = readout_s;
     }
   }
@@ -221,7 +221,7 @@ class Reading {
     say(at_zero, "at latitude 0, longitude 0 left out");
     say(unsound, "with no place on the Earth left out");
     say(flat, "with a fix in two dimensions; the heights there are not measured");
-    if (!utc_s.empty()) track_.utc_at_zero_s = median_of(utc_s);
+    if (!utc_s.empty()) track_.utc_at_zero_s = median(utc_s);
     if (position.values.empty()) return;
     if (stream->height_of != "MSLV")
       warn(stream->key, "the file does not say whether its heights are above the sea or above the ellipsoid");
@@ -300,7 +300,7 @@ class Reading {
         if (system->samples.at(row, 1) > 0)
           utc_s.push_back(system->samples.at(row, 1) - (system->samples.at(row, 0) + offset_s));
     std::erase_if(utc_s, [](double utc) { return !std::isfinite(utc); });
-    if (!utc_s.empty()) track_.utc_at_zero_s = median_of(utc_s);
+    if (!utc_s.empty()) track_.utc_at_zero_s = median(utc_s);
   }
 
   void say_unused() {
@@ -356,12 +356,6 @@ Result<Track> track_of_gopro(const std::filesystem::path& file, const DataPacket
     return fail(file.string(), track.damaged ? "its GoPro telemetry is broken; none of it can be read"
                                              : "its GoPro telemetry has no motion, place or exposure in it");
   return track;
-}
-
-Result<Track> read_gopro(const std::filesystem::path& file, const DataStream& stream, const ReadTrackOptions& options) {
-  const Result<DataPackets> payloads = read_data_stream(file, stream.index, options.cancel);
-  if (!payloads) return fail(payloads.error());
-  return track_of_gopro(file, *payloads);
 }
 
 }  // namespace sigs

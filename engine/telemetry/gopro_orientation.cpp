@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/gopro_orientation.h"
+#include "telemetry/gopro_stream.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 
 #include "base/interpolation.h"
 #include "base/pose.h"
+#include "base/statistics.h"
 #include "base/text.h"
 #include "telemetry/log_samples.h"
 
@@ -108,7 +109,7 @@ std::optional<glm::dvec3> down_at_start(Track& track) {
   }
   std::vector<double> apart_rad;
   for (const glm::dvec3& down : all) apart_rad.push_back(angle_between(down, sum));
-  const double median_rad = median_of(apart_rad);
+  const double median_rad = median(apart_rad);
   if (median_rad <= kApart_rad) return glm::normalize(sum);
   track.warnings.push_back(
       {track.file.string() + ": GRAV",

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/statistics.h"
 #include "base/text.h"
 #include "telemetry/log_samples.h"
 
@@ -203,7 +204,7 @@ std::optional<Line> robust_line(const std::vector<GoproBlock>& blocks) {
   if (!first) return {};
   std::vector<double> off_s;
   for (const GoproBlock& block : blocks) off_s.push_back(std::abs(block.time_s - first->at(block.first_index)));
-  const double limit_s = 3 * median_of(off_s) + 1e-9;
+  const double limit_s = 3 * median(off_s) + 1e-9;
   for (std::size_t b = 0; b < blocks.size(); ++b) used[b] = off_s[b] <= limit_s;
   const std::optional<Line> second = line_through(blocks, used);
   return second ? second : first;
@@ -287,9 +288,9 @@ std::optional<ClockOffset> clock_offset(const std::vector<const GoproStream*>& s
   }
   if (middles_s.empty()) return {};
   if (low_s <= high_s) return ClockOffset{(low_s + high_s) / 2, (high_s - low_s) / 2, true};
-  const double offset_s = median_of(middles_s);
+  const double offset_s = median(middles_s);
   for (double& middle_s : middles_s) middle_s = std::abs(middle_s - offset_s);
-  return ClockOffset{offset_s, median_of(middles_s), false};
+  return ClockOffset{offset_s, median(middles_s), false};
 }
 
 std::optional<double> utc_of_gpsu(const std::string& text) {

@@ -2,15 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "telemetry/track.h"
+
 namespace sigs {
 
 // GPMF, the General Purpose Metadata Format of GoPro (https://gopro.github.io/gpmf-parser): key, type, size, repeat and
-// value, big endian, each padded to 4 bytes. This file knows the structure alone; what the keys mean is gopro.cpp's.
+// value, big endian, each padded to 4 bytes. Of what the keys mean only the file's header is here; all else is
+// gopro.cpp's.
 
 // One element. Views the payload that it was read from.
 struct GpmfElement {
@@ -50,5 +54,22 @@ struct GpmfNumbers {
 
 // The text of an element, up to the first zero and without blanks at its ends; in what GoPro writes, Latin-1.
 [[nodiscard]] std::string gpmf_text(const GpmfElement& element);
+
+// What a GoPro writes once for a whole recording: the MP4 box moov/udta/GPMF, elements of gpmf.h.
+//   ZFOV  diagonal field of view, degrees
+//   VFOV  a letter: L linear, W wide, S SuperView, N narrow; all but the linear ones are fisheye images
+//   EISE  Y: the camera has stabilised the images. EISA: how, "HS Boost"
+struct GoproHeader {
+  std::optional<double> diagonal_fov_deg;
+  char fov_letter = 0;  // 0: not there
+  bool is_stabilised = false;
+  std::string stabilisation;  // EISA; may be empty
+
+  // As far as the file states the field of view.
+  [[nodiscard]] std::optional<LoggedLens> lens() const;
+};
+
+// Nothing where the file has no such box, is no MP4, or cannot be read. Reads the boxes' headers and at most 1 MiB.
+[[nodiscard]] std::optional<GoproHeader> read_gopro_header(const std::filesystem::path& file);
 
 }  // namespace sigs

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "base/input_file.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "telemetry/log_samples.h"
@@ -175,10 +174,8 @@ Result<Track> klv_track(const std::vector<TimedKlvPacket>& packets, const std::f
   return track;
 }
 
-Result<Track> read_klv(const std::filesystem::path& file, const ReadTrackOptions&) {
-  const Result<std::string> bytes = read_text(file, kLogLimit_bytes);
-  if (!bytes) return fail(bytes.error());
-  const KlvPackets read = klv_packets(*bytes);
+Result<Track> klv_file_track(std::string_view bytes, const std::filesystem::path& file) {
+  const KlvPackets read = klv_packets(bytes);
   std::vector<TimedKlvPacket> packets;
   for (const KlvPacket& packet : read.packets) packets.push_back({.packet = packet});
   return finished(klv_track(packets, file), read);
@@ -186,24 +183,21 @@ Result<Track> read_klv(const std::filesystem::path& file, const ReadTrackOptions
 
 // The payloads of a stream may each hold one packet, several, or a part of one: they are joined, and a packet has the
 // time of the payload in which its key begins.
-Result<Track> read_klv_stream(const std::filesystem::path& file, const DataStream& stream,
-                              const ReadTrackOptions& options) {
-  const Result<DataPackets> payloads = read_data_stream(file, stream.index, options.cancel);
-  if (!payloads) return fail(payloads.error());
-  const bool has_times = payloads->on_footage_time && payloads->without_time == 0;
+Result<Track> klv_stream_track(const std::filesystem::path& file, const DataPackets& payloads) {
+  const bool has_times = payloads.on_footage_time && payloads.without_time == 0;
   std::string bytes;
   std::vector<std::size_t> ends;
-  for (const DataPacket& payload : payloads->packets) ends.push_back((bytes += payload.bytes).size());
+  for (const DataPacket& payload : payloads.packets) ends.push_back((bytes += payload.bytes).size());
   const KlvPackets read = klv_packets(bytes);
   std::vector<TimedKlvPacket> packets;
   for (const KlvPacket& packet : read.packets) {
     const auto payload = std::upper_bound(ends.begin(), ends.end(), packet.offset) - ends.begin();
-    const double time_s = payloads->packets[static_cast<std::size_t>(payload)].time_s;
+    const double time_s = payloads.packets[static_cast<std::size_t>(payload)].time_s;
     packets.push_back({.packet = packet, .footage_s = has_times ? std::optional(time_s) : std::nullopt});
   }
   Result<Track> track = finished(klv_track(packets, file), read);
   if (!track) return track;
-  track->damaged |= payloads->broke_off;
+  track->damaged |= payloads.broke_off;
   if (!has_times)
     track->warnings.push_back({"KLV stream",
                                "its packets have no presentation times (asynchronous KLV); times are those "

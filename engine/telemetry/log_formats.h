@@ -8,7 +8,6 @@
 #include "base/result.h"
 #include "telemetry/dji_cues.h"
 #include "telemetry/klv_packets.h"
-#include "telemetry/read_track.h"
 #include "telemetry/track.h"
 #include "video/data_streams.h"
 
@@ -22,35 +21,27 @@ namespace sigs {
 // Whether a file that begins so is one.
 [[nodiscard]] bool is_dataflash(std::string_view head);
 
-// Reads the file. Time 0 is the first stamp of a message that is read. Where several messages have a quantity, the
-// first that has sound samples is taken: position of POS, GPS, AHR2 (heights above the mean sea); attitude of ATT,
-// XKF1, NKF1, AHR2; velocity and local position of XKF1, NKF1, and velocity of GPS; rates and forces of IMU; camera of
-// MNT. Of sensors and filters with several instances, the first one (0). UTC is that of the first GPS message with a
-// three-dimensional fix, less the leap seconds of its date. Errors as those of read_track().
-[[nodiscard]] Result<Track> read_dataflash(const std::filesystem::path& file, const ReadTrackOptions& options);
-
-// The same of the bytes of a file.
-[[nodiscard]] Result<Track> dataflash_track(std::string_view bytes, const std::filesystem::path& file,
-                                            const ReadTrackOptions& options = {});
+// Reads the bytes of the file. Time 0 is the first stamp of a message that is read. Where several messages have a
+// quantity, the first that has sound samples is taken: position of POS, GPS, AHR2 (heights above the mean sea);
+// attitude of ATT, XKF1, NKF1, AHR2; velocity and local position of XKF1, NKF1, and velocity of GPS; rates and forces
+// of IMU; camera of MNT. Of sensors and filters with several instances, the first one (0). UTC is that of the first GPS
+// message with a three-dimensional fix, less the leap seconds of its date. Errors as those of read_track().
+[[nodiscard]] Result<Track> dataflash_track(std::string_view bytes, const std::filesystem::path& file);
 
 // PX4's logs (https://docs.px4.io/main/en/dev_log/ulog_file_format); the topics are those of PX4's msg folder.
 
 // Whether a file that begins so is a ULog.
 [[nodiscard]] bool is_ulog(std::string_view head);
 
-// Reads the file. Time 0 is the file's own stamp, the start of logging. Where several topics have a quantity, the first
-// that has sound samples is taken: position of vehicle_global_position, vehicle_gps_position, sensor_gps, and last of
-// vehicle_local_position with its reference; velocity of vehicle_local_position, then of the receiver; rates of
-// vehicle_angular_velocity, then sensor_combined; force of sensor_combined, then vehicle_acceleration; camera of
-// gimbal_device_attitude_status, then mount_orientation. A sample that says when it was measured (timestamp_sample) has
-// that time. Errors as those of read_track().
-[[nodiscard]] Result<Track> read_ulog(const std::filesystem::path& file, const ReadTrackOptions& options);
+// Reads the bytes of the file. Time 0 is the file's own stamp, the start of logging. Where several topics have a
+// quantity, the first that has sound samples is taken: position of vehicle_global_position, vehicle_gps_position,
+// sensor_gps, and last of vehicle_local_position with its reference; velocity of vehicle_local_position, then of the
+// receiver; rates of vehicle_angular_velocity, then sensor_combined; force of sensor_combined, then
+// vehicle_acceleration; camera of gimbal_device_attitude_status, then mount_orientation. A sample that says when it was
+// measured (timestamp_sample) has that time. Errors as those of read_track().
+[[nodiscard]] Result<Track> ulog_track(std::string_view bytes, const std::filesystem::path& file);
 
-// The same of the bytes of a file.
-[[nodiscard]] Result<Track> ulog_track(std::string_view bytes, const std::filesystem::path& file,
-                                       const ReadTrackOptions& options = {});
-
-// GoPro's telemetry in a video: GPMF (gpmf.h, gopro_stream.h, gopro_orientation.h).
+// GoPro's telemetry in a video: GPMF (gpmf.h, gopro_stream.h).
 //
 //   GYRO, ACCL        camera_rate_radps, camera_force_mps2
 //   CORI, IORI, GRAV  start_from_camera, camera_from_image, camera_gravity. Quaternions are stored as w, X, Z, Y, and
@@ -69,11 +60,7 @@ namespace sigs {
 // Whether a stream of a container is GoPro's telemetry.
 [[nodiscard]] bool is_gopro(const DataStream& stream);
 
-// Reads it. Errors as those of read_track().
-[[nodiscard]] Result<Track> read_gopro(const std::filesystem::path& file, const DataStream& stream,
-                                       const ReadTrackOptions& options);
-
-// The same from payloads that were read already. Warnings name the file.
+// Reads its payloads. Warnings name the file. Errors as those of read_track().
 [[nodiscard]] Result<Track> track_of_gopro(const std::filesystem::path& file, const DataPackets& payloads);
 
 // The subtitles in which drones by DJI write their flight, as a file (.srt) or a stream of the video.
@@ -87,13 +74,9 @@ namespace sigs {
 // first at 0. Dates are local time, so UTC is not known; own_times_s has them as if they were UTC. Of several heights
 // the first is taken that the first place has: absolute (abs_alt), of an unknown zero (altitude), above the start
 // (rel_alt, BAROMETER, Hb, H). Errors as those of read_track().
-[[nodiscard]] Result<Track> read_dji_subtitles(const std::filesystem::path& file, const ReadTrackOptions& options);
-[[nodiscard]] Result<Track> read_dji_subtitle_stream(const std::filesystem::path& file, const DataStream& stream,
-                                                     const ReadTrackOptions& options);
-
-// The track of the text of a file, or of cues in their order.
 [[nodiscard]] Result<Track> dji_subtitles_track(std::string_view text, const std::filesystem::path& file);
-[[nodiscard]] Result<Track> dji_cues_track(const std::vector<DjiCue>& cues, const std::filesystem::path& file);
+[[nodiscard]] Result<Track> dji_stream_track(const std::filesystem::path& file, const DataStream& stream,
+                                             const DataPackets& payloads);
 
 // MISB ST 0601 metadata, in a stream of an MPEG transport stream or bare in a file.
 
@@ -106,9 +89,8 @@ namespace sigs {
 // has to be found. The camera's attitude is the platform's times the sensor's against the platform, each yaw, then
 // pitch, then roll; a packet without one of the six angles has no camera attitude. The height is that above the
 // ellipsoid where every packet with a place has it, else that above the mean sea. Errors as those of read_track().
-[[nodiscard]] Result<Track> read_klv_stream(const std::filesystem::path& file, const DataStream& stream,
-                                            const ReadTrackOptions& options);
-[[nodiscard]] Result<Track> read_klv(const std::filesystem::path& file, const ReadTrackOptions& options);
+[[nodiscard]] Result<Track> klv_stream_track(const std::filesystem::path& file, const DataPackets& payloads);
+[[nodiscard]] Result<Track> klv_file_track(std::string_view bytes, const std::filesystem::path& file);
 
 // A packet, and the time at which the container says that it is presented, if it does.
 struct TimedKlvPacket {

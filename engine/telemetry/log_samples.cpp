@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/statistics.h"
 #include "base/text.h"
 
 namespace sigs {
@@ -27,7 +28,7 @@ double usual_interval_s(const std::vector<double>& times_s, std::size_t end, con
   for (std::size_t i = end > kUsual ? end - kUsual : 1; i < end; ++i)
     intervals_s.push_back(times_s[i] - times_s[i - 1]);
   for (std::size_t i = 1; i < std::min(kUsual, late_s.size()); ++i) intervals_s.push_back(late_s[i] - late_s[i - 1]);
-  return intervals_s.empty() ? 0 : median_of(std::move(intervals_s));
+  return intervals_s.empty() ? 0 : median(std::move(intervals_s));
 }
 
 }  // namespace
@@ -106,17 +107,11 @@ void LeftOutByReason::report(const std::string& source, double zero_s, std::vect
   }
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double median_interval_s(const std::vector<double>& times_s) {
   if (times_s.size() < 2) return 0;
   std::vector<double> intervals_s(times_s.size() - 1);
   for (std::size_t i = 0; i + 1 < times_s.size(); ++i) intervals_s[i] = times_s[i + 1] - times_s[i];
-  return median_of(std::move(intervals_s));
+  return median(std::move(intervals_s));
 }
 
 void warn_of_gaps(const std::vector<double>& times_s, const std::string& source, std::vector<Warning>& warnings) {

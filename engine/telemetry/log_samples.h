@@ -56,9 +56,6 @@ class LeftOutByReason {
 // and then how many more there are.
 void warn_of_gaps(const std::vector<double>& times_s, const std::string& source, std::vector<Warning>& warnings);
 
-// The median; of an even number of values the upper one of the two in the middle. There must be one at least.
-[[nodiscard]] double median_of(std::vector<double> values);
-
 // The median of the intervals; 0 for fewer than two times.
 [[nodiscard]] double median_interval_s(const std::vector<double>& times_s);
 

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "telemetry/log_formats.h"
+#include "telemetry/log_samples.h"
 #include "telemetry/track_csv.h"
 #include "video/data_streams.h"
 
@@ -20,28 +21,36 @@ namespace {
 struct FileFormat {
   const char* name;
   bool (*recognises)(std::string_view head);
-  Result<Track> (*read)(const std::filesystem::path& file, const ReadTrackOptions& options);
+  Result<Track> (*track_of)(std::string_view bytes, const std::filesystem::path& file, const ReadTrackOptions& options);
+  std::uint64_t limit_bytes = kLogLimit_bytes;
 };
 
 // A format that is a stream of a container, recognised by what the container says about the stream.
 struct StreamFormat {
   const char* name;
   bool (*recognises)(const DataStream& stream);
-  Result<Track> (*read)(const std::filesystem::path& file, const DataStream& stream, const ReadTrackOptions& options);
+  Result<Track> (*track_of)(const std::filesystem::path& file, const DataStream& stream, const DataPackets& payloads);
 };
+
+// Of a format that is read so fast that nobody stops it.
+template <auto kTrackOf>
+Result<Track> without_options(std::string_view bytes, const std::filesystem::path& file, const ReadTrackOptions&) {
+  return kTrackOf(bytes, file);
+}
 
 // The first that recognises a file reads it. To add a format: one line here, and README.md.
 constexpr FileFormat kFileFormats[] = {
-    {"PX4 ULog", is_ulog, read_ulog},
-    {"ArduPilot dataflash", is_dataflash, read_dataflash},
-    {"DJI subtitles", is_dji_subtitles, read_dji_subtitles},
-    {"MISB ST 0601", is_klv, read_klv},
-    {"CSV", is_track_csv, read_track_csv},
+    {"PX4 ULog", is_ulog, without_options<ulog_track>},
+    {"ArduPilot dataflash", is_dataflash, without_options<dataflash_track>},
+    {"DJI subtitles", is_dji_subtitles, without_options<dji_subtitles_track>, kTextLimit_bytes},
+    {"MISB ST 0601", is_klv, without_options<klv_file_track>},
+    {"CSV", is_track_csv, track_of_csv, kTextLimit_bytes},
 };
 constexpr StreamFormat kStreamFormats[] = {
-    {"GoPro GPMF", is_gopro, read_gopro},
-    {"MISB ST 0601 in a stream", is_klv_stream, read_klv_stream},
-    {"DJI subtitles in a stream", is_dji_subtitle_stream, read_dji_subtitle_stream},
+    {"GoPro GPMF", is_gopro, [](const auto& file, const auto&, const auto& all) { return track_of_gopro(file, all); }},
+    {"MISB ST 0601 in a stream", is_klv_stream,
+     [](const auto& file, const auto&, const auto& all) { return klv_stream_track(file, all); }},
+    {"DJI subtitles in a stream", is_dji_subtitle_stream, dji_stream_track},
 };
 
 constexpr std::size_t kHead_bytes = 65536;
@@ -73,13 +82,21 @@ tl::unexpected<Error> no_format(const std::filesystem::path& file, const std::ve
 Result<std::function<Result<Track>()>> reader_of(const std::filesystem::path& file, const ReadTrackOptions& options) {
   const std::string head = head_of(file);
   for (const FileFormat& format : kFileFormats)
-    if (format.recognises(head)) return [&] { return format.read(file, options); };
+    if (format.recognises(head))
+      return [&]() -> Result<Track> {
+        const Result<std::string> bytes = read_text(file, format.limit_bytes);
+        return bytes ? format.track_of(*bytes, file, options) : fail(bytes.error());
+      };
   const Result<std::vector<DataStream>> streams = data_streams_of(file, options.cancel);
   // What FFmpeg says of a file that is no container would mislead; of an MP4 that was cut short it helps.
   if (!streams) return streams.error().kind == ErrorKind::cannot_read ? no_format(file, {}) : fail(streams.error());
   for (const StreamFormat& format : kStreamFormats)
     for (const DataStream& stream : *streams)
-      if (format.recognises(stream)) return [&, stream] { return format.read(file, stream, options); };
+      if (format.recognises(stream))
+        return [&, stream]() -> Result<Track> {
+          const Result<DataPackets> payloads = read_data_stream(file, stream.index, options.cancel);
+          return payloads ? format.track_of(file, stream, *payloads) : fail(payloads.error());
+        };
   return no_format(file, *streams);
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -13,6 +12,7 @@
 
 #include "base/csv.h"
 #include "base/input_file.h"
+#include "base/parsing.h"
 #include "base/text.h"
 #include "telemetry/csv_columns.h"
 #include "telemetry/log_samples.h"
@@ -99,19 +99,12 @@ std::string row_of(std::vector<Feed>& feeds, double time_s) {
 
 // --- Reading.
 
-std::optional<double> number_of(std::string_view text) {
-  double number = 0;
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return {};
-  return number;
-}
-
 // "30000/1001" or "29.97".
 std::optional<double> rate_of(std::string_view text) {
   const std::size_t slash = text.find('/');
-  const std::optional<double> above = number_of(trimmed(text.substr(0, slash)));
-  const std::optional<double> below = slash == std::string_view::npos ? 1 : number_of(trimmed(text.substr(slash + 1)));
+  const std::optional<double> above = finite_number(trimmed(text.substr(0, slash)));
+  const std::optional<double> below =
+      slash == std::string_view::npos ? 1 : finite_number(trimmed(text.substr(slash + 1)));
   if (!above || !below || !(*above > 0) || !(*below > 0)) return {};
   return *above / *below;
 }
@@ -211,12 +204,12 @@ class Reader {
     if (const std::string format = settings.text("format"); !format.empty()) track_.format = format;
     track_.device = settings.text("device");
     track_.on_footage_time = settings.text("on_footage_time") == "true";
-    track_.utc_at_zero_s = number_of(settings.text("utc_at_zero_s"));
+    track_.utc_at_zero_s = finite_number(settings.text("utc_at_zero_s"));
     track_.heading_is_north = settings.text("heading_is_north") != "false";
     track_.level_is_known = settings.text("level_is_known") != "false";
     track_.attitude_is_whole = settings.text("attitude_is_whole") == "true";
     track_.height_above_ellipsoid = settings.text("height_above_ellipsoid") == "true";
-    track_.readout_s = number_of(settings.text("readout_s"));
+    track_.readout_s = finite_number(settings.text("readout_s"));
     track_.damaged = settings.text("damaged") == "true";
     for (const std::string& warning : settings.warnings) track_.warnings.push_back({"", warning});
     said_before_ = track_.warnings.size();
@@ -283,7 +276,7 @@ class Reader {
     if (column < 0) return 0;
     if (column >= static_cast<int>(fields.size()) || fields[static_cast<std::size_t>(column)].empty()) return kNone;
     const std::string_view field = fields[static_cast<std::size_t>(column)];
-    const std::optional<double> number = number_of(field);
+    const std::optional<double> number = finite_number(field);
     if (!number) warn(fmt::format("\"{}\" is no number; left out", field.substr(0, 40)), line_);
     return number.value_or(kNone);
   }
@@ -389,12 +382,6 @@ bool is_track_csv(std::string_view head) {
 
 Result<Track> track_of_csv(std::string_view text, const std::filesystem::path& file, const ReadTrackOptions& options) {
   return Reader(file, options).read(text);
-}
-
-Result<Track> read_track_csv(const std::filesystem::path& file, const ReadTrackOptions& options) {
-  const Result<std::string> text = read_text(file);
-  if (!text) return fail(text.error());
-  return track_of_csv(*text, file, options);
 }
 
 }  // namespace sigs

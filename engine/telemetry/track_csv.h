@@ -49,12 +49,10 @@ namespace sigs {
 // columns.
 [[nodiscard]] bool is_track_csv(std::string_view head);
 
-// Reads it. Cells that are no numbers, rows whose time does not go with those around them (StampedValues), and
+// Reads its text. Cells that are no numbers, rows whose time does not go with those around them (StampedValues), and
 // columns that are not known are left out with a warning. A channel without all of its columns is left out with a
 // warning; height_m may be missing, it is 0 then. Errors as those of read_track().
-[[nodiscard]] Result<Track> read_track_csv(const std::filesystem::path& file, const ReadTrackOptions& options);
-
-// The same from text; `file` is for the messages.
+//   file  for the messages
 [[nodiscard]] Result<Track> track_of_csv(std::string_view text, const std::filesystem::path& file,
                                          const ReadTrackOptions& options = {});
 

@@ -5,11 +5,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
 
+#include "base/pose.h"
+#include "base/statistics.h"
 #include "base/text.h"
+#include "geo/geodetic.h"
+#include "plot/plot.h"
 #include "telemetry/csv_columns.h"
 #include "telemetry/log_samples.h"
 #include "telemetry/track.h"
@@ -24,7 +30,7 @@ double typical_interval_s(const std::vector<double>& times_s) {
   std::vector<double> intervals_s;
   for (std::size_t i = 1; i < times_s.size(); ++i)
     if (times_s[i] > times_s[i - 1]) intervals_s.push_back(times_s[i] - times_s[i - 1]);
-  return intervals_s.empty() ? 0 : median_of(std::move(intervals_s));
+  return intervals_s.empty() ? 0 : median(std::move(intervals_s));
 }
 
 std::string name_of_jump(double jump_s, double slack_s) {
@@ -201,6 +207,110 @@ std::string contents_text(const Track& track) {
       there.push_back(fmt::format("{} ({})", word->second, channel.source));
   });
   return listed(there);
+}
+
+namespace {
+
+constexpr double kPanel_px = 270, kMap_px = 560;
+
+PlotSeries line_of(std::string title) {
+  return {.title = std::move(title), .runs = {{}}};
+}
+
+// Angles go on beyond 180 degrees rather than jump.
+void add_attitude(std::vector<PlotSeries>& list, const std::string& prefix, const Channel<glm::dquat>& channel) {
+  if (channel.empty()) return;
+  std::array<PlotSeries, 3> angles{line_of(prefix + "roll"), line_of(prefix + "pitch"), line_of(prefix + "yaw")};
+  for (std::size_t i = 0; i < channel.values.size(); ++i) {
+    const Attitude attitude = attitude_of(channel.values[i]);
+    const std::array<double, 3> angles_rad{attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad};
+    for (std::size_t k = 0; k < angles.size(); ++k) {
+      std::vector<PlotPoint>& run = angles[k].runs.front();
+      double deg = deg_of_rad(angles_rad[k]);
+      if (!run.empty()) deg += 360 * std::round((run.back().y - deg) / 360);
+      run.push_back({channel.times_s[i], deg});
+    }
+  }
+  for (PlotSeries& angle : angles) list.push_back(std::move(angle));
+}
+
+std::vector<PlotSeries> attitude_series(const Track& track) {
+  std::vector<PlotSeries> list;
+  add_attitude(list, "", track.ned_from_airframe);
+  add_attitude(list, "camera ", track.ned_from_camera);
+  return list;
+}
+
+std::vector<PlotSeries> start_series(const Track& track) {
+  std::vector<PlotSeries> list;
+  if (track.ned_from_airframe.empty() && track.ned_from_camera.empty())
+    add_attitude(list, "camera ", track.start_from_camera);
+  return list;
+}
+
+std::vector<PlotSeries> rate_series(const Channel<glm::dvec3>& channel) {
+  if (channel.empty()) return {};
+  std::vector<PlotSeries> list{line_of("X forward"), line_of("Y right"), line_of("Z down")};
+  for (std::size_t i = 0; i < channel.values.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      list[static_cast<std::size_t>(axis)].runs.front().push_back(
+          {channel.times_s[i], deg_of_rad(channel.values[i][axis])});
+  return list;
+}
+
+std::vector<PlotSeries> height_series(const Track& track) {
+  const auto& places = track.position;
+  const auto& local = track.local_position_ned_m;
+  PlotSeries height = line_of(places.empty() ? "local" : "height");
+  for (std::size_t i = 0; i < places.values.size(); ++i)
+    height.runs.front().push_back({places.times_s[i], places.values[i].height_m});
+  for (std::size_t i = 0; i < local.values.size() && places.empty(); ++i)
+    height.runs.front().push_back({local.times_s[i], -local.values[i].z});
+  return height.runs.front().empty() ? std::vector<PlotSeries>{} : std::vector<PlotSeries>{std::move(height)};
+}
+
+std::vector<PlotSeries> ground_series(const Track& track) {
+  PlotSeries path = line_of("path");
+  const auto add = [&](const glm::dvec3& ned_m) { path.runs.front().push_back({ned_m.y, ned_m.x}); };
+  if (!track.position.empty()) {
+    const LocalFrame frame(track.position.values.front(), 0);  // heading 0: the world's X is north
+    for (const GeodeticPosition& place : track.position.values) add(frame.world_of(place));
+  } else {
+    for (const glm::dvec3& place_m : track.local_position_ned_m.values) add(place_m);
+  }
+  if (path.runs.front().empty()) return {};
+  PlotSeries start{.title = "start", .runs = {{path.runs.front().front()}}, .kind = SeriesKind::marks};
+  return {std::move(path), std::move(start)};
+}
+
+}  // namespace
+
+cv::Mat track_plot(const Track& track) {
+  std::vector<Plot> plots;
+  const auto add = [&](std::string title, std::vector<PlotSeries> series) {
+    if (series.empty()) return;
+    const PlotSpan times_s = range_of(series, &PlotPoint::x), values = range_of(series, &PlotPoint::y);
+    plots.push_back({.title = std::move(title),
+                     .x_label = "time, s",
+                     .x_range = times_s,
+                     .y_range = values,
+                     .series = std::move(series),
+                     .height = kPanel_px});
+  };
+  add("attitude, degrees", attitude_series(track));
+  add("attitude of the camera against its start, degrees", start_series(track));
+  add("angular rate of the camera, degrees/s", rate_series(track.camera_rate_radps));
+  add("angular rate of the airframe, degrees/s", rate_series(track.airframe_rate_radps));
+  add("height, m", height_series(track));
+  const std::size_t over_time = plots.size();
+  add("ground track, north up", ground_series(track));
+  if (plots.size() > over_time) {
+    plots.back().x_label = "m east";
+    plots.back().y_label = "m north";
+    plots.back().same_scale = true;
+    plots.back().height = kMap_px;
+  }
+  return image_of(plots);
 }
 
 }  // namespace sigs

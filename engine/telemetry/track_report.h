@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
@@ -52,5 +53,10 @@ inline constexpr double kGapFactor = 2.5;
 
 // What a track has, on one line: "position (GPMF GPS5), angular rates of the camera (GPMF GYRO)".
 [[nodiscard]] std::string contents_text(const Track& track);
+
+// Drawings of a track over time, one below the other, of what it has: roll, pitch and yaw of the airframe and of the
+// camera in degrees, angular rates in degrees per second, height or depth, and the ground track from above in metres
+// (north up, both axes to the same scale). BGR, 8 bits. Empty: there is nothing of these in the track.
+[[nodiscard]] cv::Mat track_plot(const Track& track);
 
 }  // namespace sigs

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "base/input_file.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "geo/geodetic.h"
@@ -362,19 +361,13 @@ bool is_ulog(std::string_view head) {
   return has_ulog_magic(head);
 }
 
-Result<Track> ulog_track(std::string_view bytes, const std::filesystem::path& file, const ReadTrackOptions&) {
+Result<Track> ulog_track(std::string_view bytes, const std::filesystem::path& file) {
   UlogReading reading;
   const Result<UlogContents> log = read_ulog_messages(bytes, file.string(), reading.reader());
   if (!log) return fail(log.error());
   Track track = reading.track(*log, file);
   if (!has_samples(track)) return fail(file.string(), "has no sound sample of a topic that SIGS reads");
   return track;
-}
-
-Result<Track> read_ulog(const std::filesystem::path& file, const ReadTrackOptions& options) {
-  const Result<std::string> bytes = read_text(file, kLogLimit_bytes);
-  if (!bytes) return fail(bytes.error());
-  return ulog_track(*bytes, file, options);
 }
 
 }  // namespace sigs

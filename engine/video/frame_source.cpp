@@ -13,7 +13,6 @@
 #include "video/libav/image_file.h"
 #include "video/libav/planes.h"
 #include "video/libav/stream_info.h"
-#include "video/libav/stream_quantisers.h"
 
 namespace sigs {
 namespace {

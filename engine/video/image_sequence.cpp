@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -19,7 +18,9 @@ extern "C" {
 
 #include "base/input_file.h"
 #include "base/numbered_files.h"
+#include "base/parsing.h"
 #include "base/paths.h"
+#include "base/statistics.h"
 #include "base/text.h"
 
 namespace sigs {
@@ -36,13 +37,6 @@ struct TimeLine {
   std::int64_t whole = 0;  // for nanoseconds
   std::string_view name{};
 };
-
-template <class Number>
-std::optional<Number> whole_text_as(std::string_view text) {
-  Number number = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return code == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
-}
 
 bool is_long_whole(std::string_view text) {
   return text.size() >= kNanosecondDigits && text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -69,7 +63,7 @@ class TimeLines {
       const std::string_view line = trimmed(next_line(text));
       if (line.empty()) continue;
       const auto [time, name] = time_and_name(line);
-      const std::optional<double> seconds = whole_text_as<double>(time);
+      const std::optional<double> seconds = parsed_number<double>(time);
       const bool is_heading = line.front() == '#' || (lines.empty() && !seconds && !std::exchange(has_heading_, true));
       if (is_heading) {
         in_nanoseconds_ |= line.find("[ns]") != std::string_view::npos;
@@ -77,7 +71,7 @@ class TimeLines {
       }
       if (lines.empty()) in_nanoseconds_ |= is_long_whole(time);
       const std::optional<std::int64_t> whole =
-          in_nanoseconds_ ? whole_text_as<std::int64_t>(time) : std::optional<std::int64_t>(0);
+          in_nanoseconds_ ? parsed_number<std::int64_t>(time) : std::optional<std::int64_t>(0);
       if (!seconds || !std::isfinite(*seconds) || !whole)
         return fail(place_of(number), fmt::format("expected a time in {}, found \"{}\"",
                                                   in_nanoseconds_ ? "whole nanoseconds" : "seconds", time));
@@ -197,16 +191,14 @@ void space_evenly(ImageSequence& sequence, double rate_hz) {
     sequence.times_s.push_back(static_cast<double>(n) * rate.den / rate.num);
 }
 
-// The nominal rate is that of the middle interval, to a thousandth; one image has the default one.
+// The nominal rate is that of the median interval, to a thousandth; one image has the default one.
 void set_stated_times(ImageSequence& sequence, std::vector<double> times_s) {
   sequence.times_s = std::move(times_s);
   std::vector<double> intervals_s;
   for (std::size_t n = 1; n < sequence.times_s.size(); ++n)
     intervals_s.push_back(sequence.times_s[n] - sequence.times_s[n - 1]);
   if (intervals_s.empty()) return;
-  const auto middle = intervals_s.begin() + static_cast<std::ptrdiff_t>(intervals_s.size() / 2);
-  std::nth_element(intervals_s.begin(), middle, intervals_s.end());
-  const double interval_s = *middle;
+  const double interval_s = median(intervals_s);
   const AVRational rate = rational_of(std::max(std::round(1000 / interval_s) / 1000, 0.001));
   sequence.frame_rate_num = rate.num;
   sequence.frame_rate_den = rate.den;

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "encounter/units.h"
+#include "encounter/well_clear.h"
 #include "geo/geodetic.h"
 
 using namespace sigs;

@@ -8,7 +8,7 @@
 
 #include "encounter/daa_file.h"
 #include "encounter/encounter.h"
-#include "encounter/units.h"
+#include "encounter/well_clear.h"
 #include "support/test_data.h"
 
 using namespace sigs;

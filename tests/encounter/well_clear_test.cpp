@@ -8,8 +8,6 @@
 #include <random>
 #include <vector>
 
-#include "encounter/units.h"
-
 using namespace sigs;
 
 namespace {

@@ -135,8 +135,8 @@ TEST_CASE("pairs of drawn flights have the miss distances, side and bearing that
   int refused = 0;
   for (std::uint64_t pair = 0; pair < 2000; ++pair) {
     Random random(99, pair);
-    const ModelFlight own = sampled_track(flying, {}, random);
-    const ModelFlight intruder = sampled_track(flying, {}, random);
+    const ModelFlight own = drawn_flight(flying, {}, random);
+    const ModelFlight intruder = drawn_flight(flying, {}, random);
     const ApproachRequest asked{.time_s = pair % 5 == 0 ? 30 : 60 * random.uniform(),
                                 .hmd_m = pair % 7 == 0 ? 0 : 3000 * (random.uniform() - 0.5),
                                 .vmd_m = 300 * (random.uniform() - 0.5),

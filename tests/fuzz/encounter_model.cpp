@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/ensure.h"
-#include "encounter_model/sampled_track.h"
+#include "encounter_model/model_flight.h"
 #include "fuzz/fuzz_input.h"
 
 namespace sigs::fuzz {
@@ -27,7 +27,7 @@ void try_encounter_model(const FuzzInput& input) {
   check_network(model->transition);
   if (const Result<void> flies = check_can_fly(*model); !flies) return check_message(flies.error());
   Random random(1);
-  const ModelFlight flight = sampled_track(*model, {.duration_s = 5}, random);
+  const ModelFlight flight = drawn_flight(*model, {.duration_s = 5}, random);
   ENSURE(flight.points.size() == 6);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geo/waypoints.h"
+#include "geo/recorded_path.h"
 
 #include <doctest/doctest.h>
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "plot/plot.h"
+#include "plot/axis.h"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <pugixml.hpp>
 #include <sstream>
 #include <string>
+
+#include "plot/plot.h"
 
 using namespace sigs;
 
@@ -22,7 +25,7 @@ Plot two_series() {
           .y_range = {0, 10},
           .shaded = {{40, 60}},
           .series = {{.title = "first", .runs = {{{0, 0}, {50, 5}, {100, 10}}}},
-                     {.title = "marks", .runs = {{{25, 8}, {75, 8}}}, .is_scatter = true},
+                     {.title = "marks", .runs = {{{25, 8}, {75, 8}}}, .kind = SeriesKind::marks},
                      {.title = "none"}}};
 }
 
@@ -109,7 +112,7 @@ TEST_CASE("every series is in the key, with points or without, and no text leave
 TEST_CASE("lines are cut at the frame, and what lies outside is not drawn") {
   Plot plot = two_series();
   plot.series = {{.title = "out", .runs = {{{-100, 5}, {200, 5}}, {{10, 50}, {20, 50}}, {{50, -10}, {50, 20}}}},
-                 {.title = "far", .runs = {{{500, 5}, {50, 1e9}}}, .is_scatter = true}};
+                 {.title = "far", .runs = {{{500, 5}, {50, 1e9}}}, .kind = SeriesKind::marks}};
   const pugi::xml_document svg = parsed(svg_of(plot));
   const Corners frame = frame_of(svg);
   const cv::Point2d low = frame.low, high = frame.high;
@@ -166,4 +169,60 @@ TEST_CASE("a plot of nothing, of a single value or of equal ends is drawn") {
     CHECK(svg_of(plot).find("nan") == std::string::npos);
   }
   CHECK(svg_of(two_series()) == svg_of(two_series()));
+}
+
+TEST_CASE("a falling axis begins with its greater number, and a logarithmic one has a decade as far as the next") {
+  Plot plot{.name = "p",
+            .x_range = {1000, 0},
+            .y_range = {0.01, 100},
+            .y_scale = PlotScale::log,
+            .series = {{.title = "a", .runs = {{{1000, 0.01}, {500, 1}, {0, 100}}}}}};
+  const pugi::xml_document svg = parsed(svg_of(plot));
+  const Corners frame = frame_of(svg);
+  const auto line = lines_of(svg, kFirst).at(0);
+  REQUIRE(line.size() == 3);
+  CHECK(line[0].x == doctest::Approx(frame.low.x));
+  CHECK(line[1].x == doctest::Approx((frame.low.x + frame.high.x) / 2).epsilon(1e-4));
+  CHECK(line[1].y == doctest::Approx((frame.low.y + frame.high.y) / 2).epsilon(1e-4));
+  CHECK(ticks_of({0.01, 100}, PlotScale::log) == std::vector<double>{0.01, 0.1, 1, 10, 100});
+}
+
+TEST_CASE("with the same scale a circle's height and width are the same in pixels") {
+  Plot plot{.name = "p", .x_range = {-5, 5}, .y_range = {-5, 5}, .same_scale = true};
+  PlotSeries circle{.title = "c", .runs = {{}}};
+  for (int i = 0; i <= 360; ++i) circle.runs[0].push_back({4 * std::cos(i * 0.0174533), 4 * std::sin(i * 0.0174533)});
+  plot.series = {circle};
+  double low_x = 1e9, high_x = 0, low_y = 1e9, high_y = 0;
+  const auto lines = lines_of(parsed(svg_of(plot)), kFirst);
+  for (const cv::Point2d& at : lines.at(0)) {
+    low_x = std::min(low_x, at.x), high_x = std::max(high_x, at.x);
+    low_y = std::min(low_y, at.y), high_y = std::max(high_y, at.y);
+  }
+  CHECK(high_x - low_x == doctest::Approx(high_y - low_y).epsilon(1e-3));  // two decimals of some 300 px
+}
+
+TEST_CASE("areas are filled from corner to corner, and a line of very many points keeps its peaks") {
+  Plot plot{.name = "p", .x_range = {0, 10}, .y_range = {0, 10}};
+  plot.series = {{.title = "a", .runs = {{{2, 8}, {4, 2}}}, .kind = SeriesKind::areas, .color = PlotColor{10, 20, 30}}};
+  const pugi::xml_document svg = parsed(svg_of(plot));
+  const Corners frame = frame_of(svg);
+  const pugi::xml_node area = svg.select_node("//rect[@fill='#0a141e']").node();
+  CHECK(area.attribute("width").as_double() == doctest::Approx(0.2 * (frame.high.x - frame.low.x)).epsilon(1e-4));
+  CHECK(area.attribute("height").as_double() == doctest::Approx(0.6 * (frame.high.y - frame.low.y)).epsilon(1e-4));
+  PlotSeries noisy{.title = "n", .runs = {{}}};
+  for (int i = 0; i < 100000; ++i) noisy.runs[0].push_back({i * 1e-4, i == 54321 ? 9.0 : 1.0});
+  plot.series = {noisy};
+  const auto line = lines_of(parsed(svg_of(plot)), kFirst).at(0);
+  CHECK(line.size() < 5000);
+  double highest = 1e9;
+  for (const cv::Point2d& at : line) highest = std::min(highest, at.y);
+  CHECK(highest == doctest::Approx(frame.low.y + 0.1 * (frame.high.y - frame.low.y)).epsilon(1e-3));
+}
+
+TEST_CASE("several plots stand beside and below one another") {
+  const Plot plot = two_series();
+  const cv::Size one = image_of(plot).size();
+  CHECK(image_of(std::vector<Plot>{}).empty());
+  CHECK(image_of(std::vector{plot, plot, plot}).size() == cv::Size(one.width, 3 * one.height));
+  CHECK(image_of(std::vector{plot, plot, plot}, 2).size() == cv::Size(2 * one.width, 2 * one.height));
 }

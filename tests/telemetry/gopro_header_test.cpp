@@ -6,7 +6,7 @@
 
 #include "support/test_data.h"
 #include "telemetry/dji_cues.h"
-#include "telemetry/gopro_header.h"
+#include "telemetry/gpmf.h"
 #include "telemetry/gpmf_writer.h"
 
 using namespace sigs;

@@ -56,7 +56,7 @@ TEST_CASE("every sample of a real clip's gyroscope, accelerometer and exposure a
   CHECK(track->format == "GoPro GPMF");
   CHECK(track->on_footage_time);
   CHECK_FALSE(track->damaged);
-  // Columns are up, left, backwards (gopro_orientation.h).
+  // Columns are up, left, backwards (gopro_stream.h).
   const auto gyro = karma_rows("karma_gyro.csv");
   REQUIRE(track->camera_rate_radps.values.size() == gyro.size());
   int differ = 0;

@@ -13,6 +13,7 @@
 
 #include "base/pose.h"
 #include "support/test_data.h"
+#include "telemetry/read_track.h"
 #include "telemetry/track.h"
 
 using namespace sigs;
@@ -229,4 +230,10 @@ TEST_CASE("a pause, and a clock that is set, are no outliers") {
   CHECK(track->velocity_ned_mps.values.size() == 100);
   CHECK(track->velocity_ned_mps.times_s.back() == doctest::Approx(0.05 * 99));
   CHECK(warnings_about(*track, "90 such rows left out") == 1);
+}
+
+TEST_CASE("a file that is missing is an error that names it") {
+  const Result<Track> track = read_track("/nowhere/flight.ulg");
+  REQUIRE(!track);
+  CHECK(track.error().kind == ErrorKind::cannot_read);
 }

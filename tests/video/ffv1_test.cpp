@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kImages = 9;
+constexpr int kCodedImages = 9;
 
 // Black, masks that touch borders and middles, where slices meet, and images of all kinds of steps between neighbours.
 Frame image_of_kind(PixelLayout layout, cv::Size size_px, int kind) {
@@ -75,7 +75,7 @@ TEST_CASE("FFV1's packets have the bytes of FFmpeg's encoder, and its decoder gi
       REQUIRE(writer.has_value());
       std::vector<Samples> images;
       std::ofstream raw(folder / "images.raw", std::ios::binary);
-      for (int kind = 0; kind < kImages; ++kind) {
+      for (int kind = 0; kind < kCodedImages; ++kind) {
         const Frame frame = image_of_kind(layout, size, kind);
         images.push_back(samples_of(frame));
         raw.write(reinterpret_cast<const char*>(images.back().data()),

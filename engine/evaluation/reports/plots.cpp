@@ -159,7 +159,7 @@ Plot detection_rate_plot(const DetectionReport& report) {
             .y_range = {-0.05, 1.05}};
   double most = 1;
   for (const DetectionScore& score : report.scores) {
-    PlotSeries series{.title = score.name, .is_scatter = true};
+    PlotSeries series{.title = score.name, .kind = SeriesKind::marks};
     if (score.all.encounters > 0) series.runs.push_back({{score.false_alarms_per_hour, score.all.rate()}});
     if (std::isfinite(score.false_alarms_per_hour)) most = std::max(most, score.false_alarms_per_hour);
     plot.series.push_back(std::move(series));

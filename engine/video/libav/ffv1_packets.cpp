@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "video/libav/ffv1_packets.h"
+#include "video/libav/encoding.h"
 
 #include <algorithm>
 #include <iterator>

@@ -11,7 +11,7 @@
 
 #include "base/ensure.h"
 #include "base/image_file.h"
-#include "video/libav/stream_quantisers.h"
+#include "video/libav/stream_info.h"
 
 namespace sigs::libav {
 namespace {

@@ -19,7 +19,7 @@ extern "C" {
 #include "video/libav/color_tags.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/planes.h"
-#include "video/libav/stream_quantisers.h"
+#include "video/libav/stream_info.h"
 
 namespace sigs::libav {
 
@@ -121,7 +121,8 @@ Result<bool> StillFrames::show(int n) {
     return false;
   }
   kept_.push_back({n, std::move(*image)});
-  const std::size_t most = std::clamp<std::size_t>(kMaxKept_bytes / still_bytes(*kept_.back().image.frame), 1, kMaxKept);
+  const std::size_t most =
+      std::clamp<std::size_t>(kMaxKept_bytes / still_bytes(*kept_.back().image.frame), 1, kMaxKept);
   while (kept_.size() > most) kept_.pop_front();
   return true;
 }

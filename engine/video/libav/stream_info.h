@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "base/result.h"
 #include "video/frame.h"
+#include "video/frame_quantisers.h"
 #include "video/frame_source.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/frame_order.h"
@@ -64,5 +66,18 @@ void set_oriented(VideoInfo& info, cv::Size stored_px, const Orientation& orient
 [[nodiscard]] VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxer,
                                       const PacketTable& table, const FrameOrder& order, const AVFrame& first,
                                       const Orientation& orientation);
+
+// The quantisers of a decoded image, in the image as it is stored; null where neither the decoder nor the packet has
+// told any.
+//   image   its decoder had AV_CODEC_EXPORT_DATA_VIDEO_ENC_PARAMS set; 8-bit QPs are made of deeper ones
+//   tables  of the image's packet, for JPEG; all 0: none
+[[nodiscard]] std::shared_ptr<const FrameQuantisers> quantisers_of(const AVFrame& image, AVCodecID codec,
+                                                                   const JpegTables& tables);
+
+// The same for the upright image: the map of macroblocks is turned with it, and JPEG's tables where rows and columns
+// are exchanged.
+//   stored_px  size of the stored image
+[[nodiscard]] std::shared_ptr<const FrameQuantisers> oriented(const std::shared_ptr<const FrameQuantisers>& quantisers,
+                                                              cv::Size stored_px, const Orientation& orientation);
 
 }  // namespace sigs::libav

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "video/libav/stream_quantisers.h"
+#include "video/libav/stream_info.h"
 
 extern "C" {
 #include <libavutil/pixdesc.h>

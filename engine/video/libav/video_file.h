@@ -9,7 +9,6 @@
 #include "base/output_stream.h"
 #include "base/result.h"
 #include "video/libav/encoding.h"
-#include "video/libav/ffv1_packets.h"
 #include "video/libav/handles.h"
 
 namespace sigs::libav {

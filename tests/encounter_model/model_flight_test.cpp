@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "encounter_model/sampled_track.h"
+#include "encounter_model/model_flight.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/pose.h"
-#include "encounter_model/sampler.h"
 #include "encounter_model/small_model.h"
 #include "support/test_data.h"
 
@@ -82,7 +81,7 @@ TEST_CASE("a drawn flight is continuous and flies what the model says, in the fi
   const EncounterModel model = small_flying();
   for (std::uint64_t number = 0; number < 200; ++number) {
     Random random(1, number);
-    const ModelFlight track = sampled_track(model, {.duration_s = 30, .level_step_ft = 0}, random);
+    const ModelFlight track = drawn_flight(model, {.duration_s = 30, .level_step_ft = 0}, random);
     Random again(1, number);
     ModelState state = initial_state(model, again);
     double altitude_ft = state.values[0];
@@ -111,7 +110,7 @@ TEST_CASE("the altitude of a level flight is a multiple of 500 ft, never the gro
     Random random(1, number);
     Random again(1, number);
     const double drawn_ft = initial_state(model, again).values[0];
-    const ModelFlight track = sampled_track(model, {.duration_s = 1}, random);
+    const ModelFlight track = drawn_flight(model, {.duration_s = 1}, random);
     const double altitude_ft = track.initial_values[0];
     if (track.initial_values[2] != 0 || drawn_ft <= 250) {
       CHECK(altitude_ft == drawn_ft);
@@ -132,7 +131,7 @@ TEST_CASE("flights below the ground or beyond the speeds of the model are drawn 
   int outside = 0;
   for (std::uint64_t number = 0; number < 500; ++number) {
     Random random(4, number);
-    const ModelFlight free = sampled_track(model, {.duration_s = 300}, random);
+    const ModelFlight free = drawn_flight(model, {.duration_s = 300}, random);
     bool is_inside = true;
     for (const SampledPoint& point : free.points)
       is_inside =
@@ -140,7 +139,7 @@ TEST_CASE("flights below the ground or beyond the speeds of the model are drawn 
     CHECK(free.is_within_limits == is_inside);
     outside += is_inside ? 0 : 1;
     Random again(4, number);
-    const ModelFlight kept = sampled_track(model, {.duration_s = 300, .max_redraws = 1000}, again);
+    const ModelFlight kept = drawn_flight(model, {.duration_s = 300, .max_redraws = 1000}, again);
     CHECK(kept.is_within_limits);
     CHECK((kept.redraws > 0) == !is_inside);
   }
@@ -155,7 +154,7 @@ TEST_CASE("every published model flies, and a seed gives the same bytes") {
     REQUIRE(check_can_fly(model));
     const auto bytes = [&](std::uint64_t seed) {
       Random random(seed);
-      const ModelFlight track = sampled_track(model, {.duration_s = 120}, random);
+      const ModelFlight track = drawn_flight(model, {.duration_s = 120}, random);
       std::string text(track.points.size() * sizeof(SampledPoint), '\0');
       std::memcpy(text.data(), track.points.data(), text.size());
       return text;

@@ -11,7 +11,7 @@ namespace sigs {
 
 // Where an aircraft is and what it does from this second on.
 struct SampledPoint {
-  double time_s = 0;                   // from the track's begin
+  double time_s = 0;                   // from the flight's begin
   glm::dvec3 position_neu_m{0, 0, 0};  // north, east, up; up is the model's altitude
   double heading_rad = 0;              // of the motion over the ground, from north to the east; not wrapped
   double speed_mps = 0;                // horizontal; never negative
@@ -31,23 +31,23 @@ struct ModelFlight {
   std::vector<SampledPoint> points;    // at 0 s, 1 s, ...; at least one
   std::vector<double> initial_values;  // of all variables, in the file's units, the altitude rounded as below
   // Never below altitude 0, and always faster than the lowest and slower than the highest limit of the speed's bins. A
-  // model's walk knows no limits; the published program discards tracks that leave these.
+  // model's walk knows no limits; the published program discards flights that leave these.
   bool is_within_limits = true;
-  int redraws = 0;  // tracks that were discarded before this one
+  int redraws = 0;  // flights that were discarded before this one
 
   [[nodiscard]] double duration_s() const { return points.back().time_s; }
 };
 
-struct SampledTrackSettings {
+struct ModelFlightSettings {
   int duration_s = 60;  // 1 or more
   // The altitude of a flight that begins level (vertical rate exactly 0) is rounded to a multiple of this, halves
   // downward; not where that would be the ground, altitude 0. 0: never rounded.
   double level_step_ft = 500;
-  int max_redraws = 0;  // how often a track that leaves the limits may be drawn anew; the last one stays as it is
+  int max_redraws = 0;  // how often a flight that leaves the limits may be drawn anew; the last one stays as it is
 };
 
-// The place on the track at a time within it, by moved_on() from the point before.
-[[nodiscard]] SampledPoint at_time(const ModelFlight& track, double time_s);
+// The place on the flight at a time within it, by moved_on() from the point before.
+[[nodiscard]] SampledPoint at_time(const ModelFlight& flight, double time_s);
 
 // Which variables fly the aircraft: "L" altitude in ft, "v" speed in kt, "\dot v" acceleration in kt/s, "\dot h"
 // vertical rate in ft/min, "\dot \psi" turn rate in deg/s. All but the altitude may be missing and are 0 then: balloons
@@ -59,7 +59,40 @@ struct SampledTrackSettings {
 // from then on the integrals of its rates; their bins stay the same and go on steering the rates. Needs a model that
 // can fly. Bins and values of all seconds are the same bits on every machine; positions also depend on the C library's
 // sine and cosine.
-[[nodiscard]] ModelFlight sampled_track(const EncounterModel& model, const SampledTrackSettings& settings,
-                                        Random& random);
+[[nodiscard]] ModelFlight drawn_flight(const EncounterModel& model, const ModelFlightSettings& settings,
+                                       Random& random);
+
+// Drawing from a model. All of it is sums and products of numbers of the file and of Random, so that a seed gives
+// the same bits on every machine.
+
+// The state of an aircraft at a second, by variable.
+struct ModelState {
+  std::vector<int> bins;       // from 0
+  std::vector<double> values;  // in the file's units; of a category the number of its bin, from 1
+
+  [[nodiscard]] bool operator==(const ModelState&) const = default;
+};
+
+// The bins at the first second: each variable in the network's order, given the bins of its parents, with the counts as
+// probabilities. A configuration of the parents that was never counted gives all bins of the variable with equal
+// probability. One random number for each variable.
+[[nodiscard]] std::vector<int> initial_bins(const EncounterModel& model, Random& random);
+
+// The bins a second later. Variables without a successor (\dot v has one, L and v have none in the published models)
+// keep theirs. In a configuration of the parents that was never counted a variable keeps its bin too, as in the prior
+// of the published program that lets nothing change.
+[[nodiscard]] std::vector<int> next_bins(const EncounterModel& model, const std::vector<int>& bins, Random& random);
+
+// A value of a bin: uniform within it; exactly 0 in the zero bin, of a category the bin's number from 1. No random
+// number is taken for these two.
+[[nodiscard]] double value_in_bin(const ModelVariable& variable, int bin, Random& random);
+
+// The state at the first second: initial_bins(), then a value of each in the order of the variables.
+[[nodiscard]] ModelState initial_state(const EncounterModel& model, Random& random);
+
+// The state a second later: next_bins(), then for each variable in order: another value where its bin has changed;
+// where it has not, another value of the same bin with the probability resample_rate, else the same value. A random
+// number decides that for each unchanged variable whose rate is above 0.
+[[nodiscard]] ModelState next_state(const EncounterModel& model, const ModelState& state, Random& random);
 
 }  // namespace sigs

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "encounter_model/sampled_track.h"
+#include "encounter_model/model_flight.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 
 #include "base/ensure.h"
 #include "base/pose.h"
-#include "encounter_model/sampler.h"
 
 namespace sigs {
 
@@ -108,7 +109,7 @@ class Limits {
   double high_mps_ = std::numeric_limits<double>::infinity();
 };
 
-ModelFlight drawn_track(const EncounterModel& model, const SampledTrackSettings& settings, Random& random) {
+ModelFlight drawn_once(const EncounterModel& model, const ModelFlightSettings& settings, Random& random) {
   const FlightVariables variables = flight_variables(model);
   const Limits limits(model, variables);
   ModelState state = initial_state(model, random);
@@ -117,16 +118,16 @@ ModelFlight drawn_track(const EncounterModel& model, const SampledTrackSettings&
   point.position_neu_m.z = value_of(state, variables.altitude) * kFoot_m;
   point.speed_mps = std::max(0.0, value_of(state, variables.speed) * kKnot_mps);
   steer(point, state, variables);
-  ModelFlight track{.points = {point}, .initial_values = state.values, .is_within_limits = limits.contain(point)};
+  ModelFlight flight{.points = {point}, .initial_values = state.values, .is_within_limits = limits.contain(point)};
   for (int second = 1; second <= settings.duration_s; ++second) {
     point = moved_on(point, 1);
     point.time_s = second;
     state = next_state(model, state, random);
     steer(point, state, variables);
-    track.points.push_back(point);
-    track.is_within_limits = track.is_within_limits && limits.contain(point);
+    flight.points.push_back(point);
+    flight.is_within_limits = flight.is_within_limits && limits.contain(point);
   }
-  return track;
+  return flight;
 }
 
 }  // namespace
@@ -149,31 +150,124 @@ SampledPoint moved_on(const SampledPoint& point, double after_s) {
   return moved;
 }
 
-SampledPoint at_time(const ModelFlight& track, double time_s) {
-  ENSURE(!track.points.empty() && time_s >= 0 && time_s <= track.duration_s());
-  const auto second = std::min(static_cast<std::size_t>(time_s), track.points.size() - 1);
-  const SampledPoint& before = track.points[second];
+SampledPoint at_time(const ModelFlight& flight, double time_s) {
+  ENSURE(!flight.points.empty() && time_s >= 0 && time_s <= flight.duration_s());
+  const auto second = std::min(static_cast<std::size_t>(time_s), flight.points.size() - 1);
+  const SampledPoint& before = flight.points[second];
   return moved_on(before, time_s - before.time_s);
 }
 
 Result<void> check_can_fly(const EncounterModel& model) {
-  if (!model.find("L")) return fail("", "the model has no altitude L, so it gives no tracks");
+  if (!model.find("L")) return fail("", "the model has no altitude L, so it gives no flights");
   for (const char* const label : {"L", "v", "\\dot v", "\\dot h", "\\dot \\psi"}) {
     const std::optional<int> variable = model.find(label);
     if (variable && model.variables[static_cast<std::size_t>(*variable)].boundaries.empty())
-      return fail("", fmt::format("{} has no limits of its bins in # boundaries, so the model gives no tracks", label));
+      return fail("",
+                  fmt::format("{} has no limits of its bins in # boundaries, so the model gives no flights", label));
   }
   return {};
 }
 
-ModelFlight sampled_track(const EncounterModel& model, const SampledTrackSettings& settings, Random& random) {
+ModelFlight drawn_flight(const EncounterModel& model, const ModelFlightSettings& settings, Random& random) {
   ENSURE(settings.duration_s >= 1 && check_can_fly(model));
-  ModelFlight track = drawn_track(model, settings, random);
-  for (int redraws = 1; !track.is_within_limits && redraws <= settings.max_redraws; ++redraws) {
-    track = drawn_track(model, settings, random);
-    track.redraws = redraws;
+  ModelFlight flight = drawn_once(model, settings, random);
+  for (int redraws = 1; !flight.is_within_limits && redraws <= settings.max_redraws; ++redraws) {
+    flight = drawn_once(model, settings, random);
+    flight.redraws = redraws;
   }
-  return track;
+  return flight;
+}
+
+namespace {
+
+// Counts of the bins, given those of the parents.
+std::span<const double> counts_given(const CountTable& table, const std::vector<int>& bins,
+                                     const std::vector<CountTable>& tables,
+                                     const std::vector<ModelVariable>& variables) {
+  std::size_t configuration = 0;
+  std::size_t stride = 1;
+  for (const int parent : table.parents) {
+    const auto at = static_cast<std::size_t>(parent);
+    configuration += stride * static_cast<std::size_t>(bins[at]);
+    stride *= static_cast<std::size_t>(at < variables.size() ? variables[at].bins : tables[at].bins);
+  }
+  const auto size = static_cast<std::size_t>(table.bins);
+  return std::span(table.counts).subspan(configuration * size, size);
+}
+
+// A bin with the probability of its count. `never_counted`: the answer where all counts are 0.
+//   share  of [0, 1)
+int drawn_bin(std::span<const double> counts, double share, int never_counted) {
+  const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
+  if (total <= 0) return never_counted;
+  const double target = share * total;
+  double sum = 0;
+  int last = 0;
+  for (std::size_t bin = 0; bin < counts.size(); ++bin) {
+    if (counts[bin] <= 0) continue;
+    sum += counts[bin];
+    last = static_cast<int>(bin);
+    if (target < sum) return last;
+  }
+  return last;  // the product may have been rounded up to the total
+}
+
+}  // namespace
+
+std::vector<int> initial_bins(const EncounterModel& model, Random& random) {
+  std::vector<int> bins(model.variables.size(), 0);
+  for (const int variable : model.initial.order) {
+    const CountTable& table = model.initial.tables[static_cast<std::size_t>(variable)];
+    const double share = random.uniform();
+    const int any = std::min(static_cast<int>(share * table.bins), table.bins - 1);
+    bins[static_cast<std::size_t>(variable)] =
+        drawn_bin(counts_given(table, bins, model.initial.tables, model.variables), share, any);
+  }
+  return bins;
+}
+
+std::vector<int> next_bins(const EncounterModel& model, const std::vector<int>& bins, Random& random) {
+  const std::size_t count = model.variables.size();
+  ENSURE(bins.size() == count);
+  const std::vector<CountTable>& tables = model.transition.tables;
+  std::vector<int> both = bins;  // the variables at the second, then their successors
+  both.resize(tables.size(), 0);
+  for (const int variable : model.transition.order) {
+    const auto at = static_cast<std::size_t>(variable);
+    if (at < count) continue;
+    const int kept = bins[static_cast<std::size_t>(model.next_of[at - count])];
+    both[at] = drawn_bin(counts_given(tables[at], both, tables, model.variables), random.uniform(), kept);
+  }
+  std::vector<int> next = bins;
+  for (std::size_t i = 0; i < model.next_of.size(); ++i)
+    next[static_cast<std::size_t>(model.next_of[i])] = both[count + i];
+  return next;
+}
+
+double value_in_bin(const ModelVariable& variable, int bin, Random& random) {
+  if (variable.boundaries.empty()) return bin + 1;
+  if (variable.zero_bin == bin) return 0;
+  const auto at = static_cast<std::size_t>(bin);
+  const double low = variable.boundaries[at];
+  return low + (variable.boundaries[at + 1] - low) * random.uniform();
+}
+
+ModelState initial_state(const EncounterModel& model, Random& random) {
+  ModelState state{.bins = initial_bins(model, random), .values = {}};
+  for (std::size_t i = 0; i < model.variables.size(); ++i)
+    state.values.push_back(value_in_bin(model.variables[i], state.bins[i], random));
+  return state;
+}
+
+ModelState next_state(const EncounterModel& model, const ModelState& state, Random& random) {
+  ModelState next{.bins = next_bins(model, state.bins, random), .values = state.values};
+  for (std::size_t i = 0; i < model.variables.size(); ++i) {
+    const ModelVariable& variable = model.variables[i];
+    const bool is_same = next.bins[i] == state.bins[i];
+    if (is_same && (variable.resample_rate <= 0 || random.uniform() >= variable.resample_rate)) continue;
+    next.values[i] = value_in_bin(variable, next.bins[i], random);
+  }
+  return next;
 }
 
 }  // namespace sigs
