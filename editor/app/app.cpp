@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/resources.h"
-#include "editor/app/shortcuts.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/texts.h"

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "editor/app/app_shell.h"
@@ -18,13 +19,27 @@
 #include "editor/preview/preview_output.h"
 #include "editor/preview/preview_state.h"
 #include "editor/preview/scoring.h"
-#include "editor/views/appearance/appearance_session.h"
-#include "editor/views/ego_motion/ego_motion_session.h"
+#include "editor/views/context.h"
+#include "editor/views/estimate_session.h"
 #include "editor/views/own_body/own_body_session.h"
 #include "editor/widgets/textures.h"
 #include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
+
+// A key and what it does, for the help page: what handle_keys follows, and below that what views take themselves while
+// the mouse is over them.
+struct Shortcut {
+  const char* group;
+  const char* keys;
+  const char* what;
+};
+// In the order of the help page; lines of one group follow each other. The texts are literals.
+[[nodiscard]] std::span<const Shortcut> shortcuts();
+
+// Asks for what the keys pressed in this update mean. Not while text is typed or a dialog is open; while the mouse
+// holds something only those that go and play; without a project those of the program alone.
+void handle_keys(const ViewContext& context, bool has_project);
 
 // What the probe reports beside the document and the preview.
 struct ProbedWindow {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "editor/app/layout.h"
-#include "editor/document/dropped_file.h"
-#include "editor/views/menu_bar.h"
-#include "editor/views/viewport/readout.h"
+#include "editor/document/project_paths.h"
+#include "editor/views/dialogs.h"
+#include "editor/views/viewport/viewport_view.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 

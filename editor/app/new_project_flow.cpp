@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/app/new_project_flow.h"
+#include "editor/app/app_shell.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/text.h"
-#include "editor/document/dropped_file.h"
 #include "editor/document/project_paths.h"
 #include "editor/widgets/texts.h"
 

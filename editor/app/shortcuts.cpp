@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/app/shortcuts.h"
+#include "editor/app/app.h"
 
 #include <imgui.h>
 

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <utility>
 
-#include "editor/app/input_queue.h"
 #include "editor/app/window_canvas.h"
 #include "editor/widgets/theme.h"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "editor/geometry/lens_projection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +8,6 @@
 #include <numbers>
 #include <optional>
 #include <vector>
-
-#include "editor/geometry/lens_projection.h"
 
 #include "editor/geometry/image_view.h"
 

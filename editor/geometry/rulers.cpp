@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "editor/geometry/rulers.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
-
-#include "editor/geometry/rulers.h"
 
 namespace sigs::editor {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/preview_decoder.h"
+#include "editor/preview/preview_state.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "editor/document/content_id.h"
-#include "editor/preview/composited_image.h"
+#include "editor/preview/opened_footage.h"
 #include "editor/preview/preview_output.h"
 #include "editor/preview/preview_state.h"
 #include "editor/preview/surveys.h"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "editor/preview/opened_footage.h"
-#include "editor/preview/preview_decoder.h"
 #include "editor/preview/preview_renderer.h"
 
 namespace sigs::editor {

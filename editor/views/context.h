@@ -9,8 +9,8 @@
 
 #include "editor/document/document.h"
 #include "editor/document/settings.h"
-#include "editor/preview/appearance_job.h"
-#include "editor/preview/ego_motion_job.h"
+#include "editor/geometry/lens_projection.h"
+#include "editor/preview/jobs.h"
 #include "editor/preview/preview_output.h"
 #include "editor/preview/scoring.h"
 #include "editor/widgets/keys.h"
@@ -123,5 +123,32 @@ struct DragGesture {
                                                  std::string name = {}) {
   return {.name = std::move(name), .revision_before = context.document.revision().number, .pressed = mouse};
 }
+
+// Where the camera is, for all views. What the project alone decides (place at the start, mounting, speed) is the
+// document's, so that it does not lag behind a drag; what files decide (path and attitude of a log, an attitude file)
+// is that of the newest scene that is open.
+
+// The camera by the settings alone: straight on along world X, with what carries it level.
+[[nodiscard]] CameraPose camera_pose_at(const Project& project, double time_s);
+
+// The camera at a time of the footage.
+[[nodiscard]] CameraPose camera_pose_at(const ViewContext& context, double time_s);
+
+// Time of a frame in seconds, by the footage where it is known, else by 25 frames a second.
+[[nodiscard]] double time_of(const ViewContext& context, double frame);
+
+// How far the document's camera.position_m has moved the path of the scene's log since that scene was opened; 0 where
+// no log moves the camera. World, metres.
+[[nodiscard]] glm::dvec3 path_shift_m(const ViewContext& context);
+
+// Whether a file turns the camera: an attitude file, or a log that was read.
+[[nodiscard]] bool is_turned_by_file(const ViewContext& context);
+
+// Along which axes of the world camera.position_m moves the camera: all, unless a log gives its place on the Earth.
+[[nodiscard]] glm::bvec3 movable_axes(const ViewContext& context);
+
+// Why the camera cannot be moved over the ground, in a sentence.
+inline constexpr const char* kWhyCameraIsFixed =
+    "The log says where the camera is: it has geodetic positions, and latitude and longitude of the world are stated.";
 
 }  // namespace sigs::editor

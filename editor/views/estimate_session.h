@@ -9,6 +9,7 @@
 
 #include "editor/document/document.h"
 #include "editor/preview/background_job.h"
+#include "editor/preview/jobs.h"
 
 namespace sigs::editor {
 
@@ -82,5 +83,55 @@ class EstimateSession {
   std::shared_ptr<const Value> taken_;  // used by the project
   bool was_running_ = false;
 };
+
+// The camera's motion is estimated from the footage and put into the project: camera.track names the file,
+// camera.attitude_deg is that of the camera at frame 0, and the file has its whole attitude (follow_attitudes()).
+class EgoMotionSession : public EstimateSession<EgoMotionRequest, EstimatedMotion> {
+ public:
+  // work: tests give one that reads no video.
+  EgoMotionSession(Edits& edits, std::function<void()> wake, Work work = estimated_motion);
+
+  // Begins an estimate of the project's footage, into a file beside the project that is not there yet. Nothing happens
+  // while one is running; without footage it says what is missing.
+  void start(const Document& document);
+
+ private:
+  void use(const Document& document, const std::shared_ptr<const EstimatedMotion>& found) override;
+};
+
+// One beside the project that is not there yet: NAME.attitude.csv, NAME.attitude_2.csv, ...; beside the footage where
+// the project was never saved.
+[[nodiscard]] std::filesystem::path new_attitude_file(const Project& project);
+
+// "found in 300 frames, 12 of them unknown; ..." for the message and the inspector.
+[[nodiscard]] std::string summary_of(const EstimatedMotion& motion);
+
+// "Match the footage": how the footage looks is estimated and set in the project.
+class AppearanceSession : public EstimateSession<AppearanceRequest, Appearance> {
+ public:
+  // work: tests give one that reads no video.
+  AppearanceSession(Edits& edits, std::function<void()> wake, Work work = estimated_appearance);
+
+  // Begins an estimate of the project's footage. Nothing happens while one is running; without footage it says so.
+  void start(const Document& document);
+
+ private:
+  void use(const Document& document, const std::shared_ptr<const Appearance>& found) override;
+};
+
+// "Lit like this": the exposure is found by something real in the footage, and set in the project.
+class LightSession : public EstimateSession<LightRequest, LitLike> {
+ public:
+  LightSession(Edits& edits, std::function<void()> wake, Work work = found_light);
+
+  // Begins to look at the box. Nothing happens while one is looked at; without an intruder it says so.
+  void start(const Document& document, const LightLike& wanted);
+
+ private:
+  void use(const Document& document, const std::shared_ptr<const LitLike>& found) override;
+};
+
+// "7 of 9 quantities found in 48 frames" for the message.
+[[nodiscard]] std::string summary_of(const Appearance& appearance);
 
 }  // namespace sigs::editor

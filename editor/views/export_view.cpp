@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "editor/preview/export_plan.h"
-#include "editor/views/export_parts.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"

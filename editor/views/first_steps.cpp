@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/first_steps.h"
+#include "editor/views/start_page.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -14,7 +14,7 @@
 
 #include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
-#include "editor/views/shown_camera.h"
+#include "editor/views/context.h"
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/menu_bar.h"
+#include "editor/views/dialogs.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "base/text.h"
-#include "editor/views/export_parts.h"
+#include "editor/views/export_view.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"

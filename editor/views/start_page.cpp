@@ -10,7 +10,7 @@
 
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "editor/document/dropped_file.h"
+#include "editor/document/project_paths.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
@@ -22,9 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kImageWidth_px = 480;
-constexpr int kImageHeight_px = 270;
-constexpr float kImageShape = float(kImageHeight_px) / kImageWidth_px;
+constexpr int kCardImageWidth_px = 480;
+constexpr int kCardImageHeight_px = 270;
+constexpr float kCardImageShape = float(kCardImageHeight_px) / kCardImageWidth_px;
 
 std::string time_ago(std::int64_t unix_s) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -76,7 +76,8 @@ std::string first_sentence(const std::string& markdown) {
 }
 
 StartPage::StartPage(const fs::path& samples, std::function<void()> wake)
-    : samples_(samples_in(samples)), images_({kImageWidth_px, kImageHeight_px}, std::move(wake), project_thumbnail) {}
+    : samples_(samples_in(samples)),
+      images_({kCardImageWidth_px, kCardImageHeight_px}, std::move(wake), project_thumbnail) {}
 
 std::vector<SampleProject> samples_in(const fs::path& folder) {
   std::vector<SampleProject> samples;
@@ -152,7 +153,7 @@ void StartPage::draw_abandoned(const ViewContext& context, const StartPageConten
 
 void StartPage::draw_card(const ViewContext& context, const SampleProject& sample, float width, float height) {
   const ImVec2 place = ImGui::GetCursorScreenPos();
-  const float image_height = width * kImageShape;
+  const float image_height = width * kCardImageShape;
   if (ImGui::InvisibleButton(sample.name.c_str(), {width, height})) context.edits.ask(OpenProject{sample.file});
   context.ui_probe.note_item("start/sample." + sample.name);
   const bool hovered = ImGui::IsItemHovered();
@@ -193,7 +194,7 @@ void StartPage::draw_samples(const ViewContext& context, float width) {
   for (const SampleProject& sample : samples_)
     text = std::max(text, font(Font::small)->CalcTextSizeA(small, FLT_MAX, card - scaled(20), sample.text.c_str()).y);
   const float height =
-      card * kImageShape + scaled(26) + ImGui::GetTextLineHeight() + std::min(text, 4 * small + scaled(6));
+      card * kCardImageShape + scaled(26) + ImGui::GetTextLineHeight() + std::min(text, 4 * small + scaled(6));
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (i % static_cast<std::size_t>(columns) != 0)
       ImGui::SameLine(0, gap);

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "editor/widgets/keys.h"
-#include "editor/widgets/screen_vec.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -20,7 +19,6 @@ namespace {
 constexpr double kArrow_px = 78;  // where the text is 15 px high
 constexpr std::array<GizmoPart, 3> kArrows{GizmoPart::x, GizmoPart::y, GizmoPart::z};
 constexpr std::array<GizmoPart, 3> kPlanes{GizmoPart::xy, GizmoPart::yz, GizmoPart::zx};
-constexpr std::array<ImU32, 3> kArrowColors{color::kAxisX, color::kAxisY, color::kAxisZ};
 constexpr std::array<ImU32, 3> kPlaneColors{color::kAxisZ, color::kAxisX, color::kAxisY};  // of the axis they leave out
 constexpr std::array<const char*, 3> kNames{"X", "Y", "Z"};
 
@@ -99,7 +97,7 @@ void GizmoHandle::draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoInpu
     if (shape->planes[i]) draw_plane(list, *shape->planes[i], kPlaneColors[i], hot(kPlanes[i]));
   for (std::size_t i = 0; i < 3; ++i)
     if (shape->tips[i])
-      draw_arrow(list, shape->center, *shape->tips[i], hot(kArrows[i]) ? color::kWaypoint : kArrowColors[i], kNames[i]);
+      draw_arrow(list, shape->center, *shape->tips[i], hot(kArrows[i]) ? color::kWaypoint : color::kAxes[i], kNames[i]);
   list.AddCircleFilled(im(shape->center), scaled(hot(GizmoPart::screen) ? 7.5 : 6), IM_COL32(0, 0, 0, 130));
   list.AddCircle(im(shape->center), scaled(hot(GizmoPart::screen) ? 7.5 : 6), color::kWaypoint, 0, scaled(1.8));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "editor/widgets/texts.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -8,8 +9,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-
-#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 

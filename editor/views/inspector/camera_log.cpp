@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/camera_log.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include "base/pose.h"
-#include "editor/preview/ego_motion_job.h"
-#include "editor/views/inspector/job_progress.h"
-#include "editor/views/shown_camera.h"
+#include "editor/preview/jobs.h"
+#include "editor/views/context.h"
+#include "editor/views/inspector/field_rows.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"

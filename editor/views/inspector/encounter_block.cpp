@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/encounter_block.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

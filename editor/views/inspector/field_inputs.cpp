@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/field_inputs.h"
+#include "editor/views/inspector/field_rows.h"
 
 #include <imgui.h>
 
@@ -231,7 +231,6 @@ bool number_input(const char* id, double& value, const Field& field, float width
 
 bool vector_input(glm::dvec3& value, const Field& field, float width) {
   constexpr std::array<const char*, 3> kIds{"##X", "##Y", "##Z"};
-  constexpr std::array<ImU32, 3> kColors{color::kAxisX, color::kAxisY, color::kAxisZ};
   const float gap = scaled(4);
   const bool side_by_side = (width - 2 * gap) / 3 >= scaled(64);
   const float each = side_by_side ? std::floor((width - 2 * gap) / 3) : width;
@@ -244,7 +243,7 @@ bool vector_input(glm::dvec3& value, const Field& field, float width) {
     has_changed |= number_input(kIds[axis], value[i], part, each);
     const ImVec2 low = ImGui::GetItemRectMin();
     const ImVec2 high = ImGui::GetItemRectMax();
-    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + scaled(3), high.y}, kColors[axis], scaled(2),
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + scaled(3), high.y}, color::kAxes[axis], scaled(2),
                                               ImDrawFlags_RoundCornersLeft);
   }
   return has_changed;

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -243,6 +244,16 @@ void FieldRows::finish() {
     memory_.gesture_is_open = false;
   }
   if (memory_.wanted_updates > 0) --memory_.wanted_updates;
+}
+
+bool draw_job_progress(int done, int total, bool is_stopping) {
+  const float share = total > 0 ? static_cast<float>(done) / static_cast<float>(total) : 0;
+  const std::string text = total > 0 ? fmt::format("{} of {} frames", done, total) : "reading";
+  ImGui::ProgressBar(share, {-1, 0}, text.c_str());
+  ImGui::BeginDisabled(is_stopping);
+  const bool is_clicked = ImGui::Button("Stop");
+  ImGui::EndDisabled();
+  return is_clicked;
 }
 
 }  // namespace sigs::editor

@@ -3,17 +3,56 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "editor/document/field_edits.h"
+#include "editor/preview/background_job.h"
 #include "editor/views/context.h"
-#include "editor/views/inspector/field_inputs.h"
 #include "project/validate.h"
 
 namespace sigs::editor {
+
+// How a field is shown, where its type does not say all.
+struct RowOptions {
+  // "": by its key.
+  std::string label;
+  // Not empty: it cannot be edited, and why.
+  std::string off_because;
+  // A text that is one of these is chosen from a list.
+  std::vector<std::string> names;
+  // The value of an optional number when it is switched on.
+  std::optional<double> suggested;
+  bool is_color = false;
+};
+
+// A text that is being typed becomes the field's value when it is finished.
+struct TypedText {
+  std::string key;
+  std::string text;
+};
+
+// A value that the person has given. One that is still being dragged or typed is not yet finished: it is part of a
+// gesture.
+struct Edited {
+  PlainValue value;
+  bool is_finished = false;
+};
+
+// The editor of a field by its type, from the cursor on, `width` screen pixels wide. None: nothing was edited in this
+// update.
+[[nodiscard]] std::optional<Edited> field_input(const Field& field, const RowOptions& look, float width,
+                                                TypedText& typed);
+
+// A number with its unit: dragged, or typed after a click; true in updates in which it has changed. Stays in the range.
+[[nodiscard]] bool number_input(const char* id, double& value, const Field& field, float width);
+
+// X, Y, Z side by side, or below each other where there is no room; true in updates in which one has changed.
+[[nodiscard]] bool vector_input(glm::dvec3& value, const Field& field, float width);
 
 // What is wrong, by the key of the field that it is in: "intruders[0].model.file".
 using ProblemsByField = std::multimap<std::string, Problem, std::less<>>;
@@ -98,5 +137,14 @@ class ButtonFlow {
   // Right edge of the last one, on the screen; -1: there is none yet.
   float right_x_ = -1;
 };
+
+// A bar with the frames that are done, and the button "Stop" below it, which is the item drawn last. True when the
+// button is clicked.
+[[nodiscard]] bool draw_job_progress(int done, int total, bool is_stopping);
+
+template <class Request, class Value>
+[[nodiscard]] bool draw_job_progress(const JobState<Request, Value>& state) {
+  return draw_job_progress(state.done, state.total, state.is_stopping);
+}
 
 }  // namespace sigs::editor

@@ -9,8 +9,6 @@
 
 #include "base/text.h"
 #include "editor/document/field_edits.h"
-#include "editor/views/inspector/camera_log.h"
-#include "editor/views/inspector/scene_blocks.h"
 #include "editor/views/results/results_view.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/light_block.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -12,8 +12,8 @@
 
 #include "base/pose.h"
 #include "editor/document/field_edits.h"
-#include "editor/views/inspector/job_progress.h"
-#include "editor/views/shown_camera.h"
+#include "editor/views/context.h"
+#include "editor/views/inspector/field_rows.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 #include "scene/scene_at.h"

@@ -13,7 +13,7 @@
 
 #include "base/text.h"
 #include "editor/document/field_edits.h"
-#include "editor/views/inspector/trajectory.h"
+#include "editor/views/inspector/inspector_view.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/scene_blocks.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "editor/document/field_edits.h"
 #include "editor/preview/thumbnails.h"
-#include "editor/views/shown_camera.h"
+#include "editor/views/context.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/texts.h"

@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 #include "editor/document/field_edits.h"
-#include "editor/views/export_parts.h"
+#include "editor/views/export_view.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"

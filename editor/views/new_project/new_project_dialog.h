@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "editor/preview/first_project_job.h"
+#include "editor/preview/jobs.h"
 #include "editor/views/context.h"
-#include "editor/views/models/model_gallery.h"
+#include "editor/views/models/change_model.h"
 #include "editor/views/new_project/new_project_form.h"
 
 namespace sigs::editor {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/preview/first_project_job.h"
+#include "editor/preview/jobs.h"
 
 namespace sigs::editor {
 

@@ -11,7 +11,6 @@
 
 #include "base/ensure.h"
 #include "base/text.h"
-#include "editor/widgets/screen_vec.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/zoomable_image.h"

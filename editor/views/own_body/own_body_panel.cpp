@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/own_body/own_body_panel.h"
+#include "editor/views/own_body/own_body_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/views/export_parts.h"
+#include "editor/views/export_view.h"
 #include "editor/views/inspector/field_rows.h"
 #include "editor/views/own_body/own_body_images.h"
 #include "editor/widgets/dialog.h"

@@ -13,6 +13,7 @@
 
 #include "base/text.h"
 #include "editor/views/own_body/own_body_images.h"
+#include "editor/views/viewport/viewport_view.h"
 #include "editor/widgets/dialog.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
@@ -165,10 +166,6 @@ namespace {
 
 constexpr double kPanel = 290;  // wide, where the text is 15 px high
 constexpr double kRadius = 120;
-
-float readout_height() {
-  return std::ceil(font(Font::mono)->FontSize + scaled(9));
-}
 
 }  // namespace
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "editor/views/results/results_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -11,9 +12,7 @@
 #include <vector>
 
 #include "base/text.h"
-#include "editor/views/results/results_view.h"
 #include "editor/widgets/icons.h"
-#include "editor/widgets/screen_vec.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
@@ -91,10 +90,6 @@ glm::dvec2 middle_of(const ScreenRect& rect) {
   return (rect.low + rect.high) / 2.0;
 }
 
-ScreenRect on_screen(const ImageCanvas& canvas, const Box& box) {
-  return {canvas.view.screen_of({box.x, box.y}), canvas.view.screen_of({box.x + box.width, box.y + box.height})};
-}
-
 // From where the truth's middle must be, by the errors, to the reported one.
 void draw_path_line(const ImageCanvas& canvas, const ScreenRect& box, const FrameScore* score, ImU32 shade) {
   if (score == nullptr || !score->dx_px || !score->dy_px) return;
@@ -112,7 +107,7 @@ void draw_reported(const ImageCanvas& canvas, const Scored& scored, const Scored
   const ReportedBox* const reported = tracker.results ? tracker.results->best_at(frame) : nullptr;
   if (reported == nullptr) return;
   const ImU32 shade = result_color(tracker.file.color);
-  const ScreenRect box = on_screen(canvas, reported->box);
+  const ScreenRect box = canvas.on_screen(reported->box);
   draw_path_line(canvas, box, score_at(tracker, scored.first_frame, frame), shade);
   // A dark line outside, none between the dashes: where it agrees with the truth, that shows through.
   const double line = std::max(1.0F, std::round(scaled(1)));
@@ -219,7 +214,7 @@ void draw_head(const Scored& scored) {
   }
 }
 
-std::string number_text(double value) {
+std::string figure_text(double value) {
   std::string text = pixels_text(value);
   return text.substr(0, text.find(' '));
 }
@@ -252,7 +247,7 @@ void draw_figures(const Scored& scored, const ScoredTracker& tracker) {
   const ImU32 shade = scored.truth == TruthKind::measured ? color::kText : color::kQuiet;
   const bool is_scored = score != nullptr && score->scored > 0;
   const std::string figures[] = {
-      is_scored ? number_text(score->mean_center_error_px) : "-", is_scored ? share_text(score->precision_at_20) : "-",
+      is_scored ? figure_text(score->mean_center_error_px) : "-", is_scored ? share_text(score->precision_at_20) : "-",
       is_scored ? share_text(score->success_auc) : "-", is_scored ? std::to_string(score->lost) : "-"};
   for (const std::string& figure : figures) {
     ImGui::TableNextColumn();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/stages/stage_grid.h"
+#include "editor/views/stages/stages_view.h"
 
 #include <imgui.h>
 

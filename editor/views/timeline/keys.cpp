@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/keys.h"
+#include "editor/views/timeline/timeline_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -18,7 +18,6 @@
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
-#include "editor/widgets/screen_vec.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/lane_curve.h"
+#include "editor/views/timeline/lane_values.h"
 
 #include <algorithm>
 #include <cmath>

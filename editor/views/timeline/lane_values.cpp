@@ -11,7 +11,7 @@
 
 #include "base/ensure.h"
 #include "base/pose.h"
-#include "editor/views/timeline/clear_strip.h"
+#include "editor/views/timeline/lane_marks.h"
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 

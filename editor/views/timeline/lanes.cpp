@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/lanes.h"
+#include "editor/views/timeline/timeline_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -11,9 +11,9 @@
 #include <optional>
 #include <string>
 
-#include "editor/views/timeline/clear_strip.h"
+#include "editor/document/field_edits.h"
+#include "editor/views/context.h"
 #include "editor/views/timeline/lane_marks.h"
-#include "editor/views/timeline/lane_names.h"
 #include "editor/views/timeline/lane_values.h"
 #include "editor/views/timeline/ruler.h"
 #include "editor/views/waypoint_actions.h"
@@ -22,6 +22,71 @@
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
+
+void draw_lane_names(const TimelineStrip& strip, const char* title, ImVec2 low, float height, const std::string& value,
+                     const std::string& extent) {
+  ImGui::PushFont(font(Font::small));
+  const float line = font(Font::small)->FontSize;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float right = strip.names_x + strip.names_width - scaled(8);
+  const bool two_lines = !extent.empty() && height >= 2 * line + scaled(2);
+  const float text_height = line * (two_lines ? 2 : 1);
+  const float y = std::floor(low.y + std::min((height - text_height) / 2, scaled(4)));
+  const float value_width = ImGui::CalcTextSize(value.c_str()).x;
+  const std::string shown_title = elided(title, right - value_width - strip.names_x - scaled(8));
+  list.AddText({strip.names_x + scaled(2), y}, color::kQuiet, shown_title.c_str());
+  list.AddText({right - value_width, y}, color::kText, value.c_str());
+  if (two_lines) {
+    const std::string shown = elided(extent, right - strip.names_x);
+    list.AddText({strip.names_x + scaled(2), y + line}, faded(color::kQuiet, 0.75), shown.c_str());
+  }
+  ImGui::PopFont();
+}
+
+namespace {
+
+constexpr const char* kKey = "camera.track.offset_s";
+
+glm::dvec2 mouse() {
+  return {ImGui::GetMousePos().x, ImGui::GetMousePos().y};
+}
+
+}  // namespace
+
+bool OffsetDrag::update_on_item(const ViewContext& context, const TimelineStrip& strip) {
+  const unsigned int item = ImGui::GetID("lane");
+  if (held_ && held_->item != item) return false;
+  const bool may_begin = !context.project().camera.track.file.empty() && ImGui::GetIO().KeyAlt;
+  if (!held_ && may_begin && ImGui::IsItemActivated())
+    held_ = Held{.item = item,
+                 .offset_before_s = context.project().camera.track.offset_s,
+                 .gesture = drag_gesture_at(context, mouse(), fmt::format("log offset {}", ++gestures_))};
+  if (held_ || (may_begin && ImGui::IsItemHovered())) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (!held_) return false;
+  if (!ImGui::IsItemActive()) {
+    if (!held_->is_over) held_->gesture.end(context);
+    held_.reset();
+  } else if (!held_->is_over) {
+    drag(context, strip);
+  }
+  return true;
+}
+
+// The curve goes with the mouse: what was at the press is at the mouse's moment, so the log's time there is earlier.
+void OffsetDrag::drag(const ViewContext& context, const TimelineStrip& strip) {
+  DragGesture& gesture = held_->gesture;
+  if (gesture.is_lost(context) || gesture.cancelled_by_key(context)) {
+    held_->is_over = true;
+    return;
+  }
+  gesture.is_moving = gesture.is_moving || gesture.has_left_press(mouse());
+  if (!gesture.is_moving) return;
+  const double by_s =
+      time_of(context, strip.moment_at(mouse().x)) - time_of(context, strip.moment_at(gesture.pressed.x));
+  const double offset_s = std::round((held_->offset_before_s - by_s) * 1000) / 1000;
+  context.edits.change(
+      "shift log in time", [offset_s](Project& project) { put_value(project, kKey, offset_s); }, gesture.name);
+}
 
 // One lane on the screen.
 struct LaneRows::Row {

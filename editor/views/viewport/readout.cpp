@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/viewport/readout.h"
+#include "editor/views/viewport/viewport_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -146,7 +146,7 @@ void draw_readout(const ViewContext& context, const ViewportReadout& readout) {
 
 namespace {
 
-constexpr std::size_t kMaxShown = 4;
+constexpr std::size_t kMaxProblemLines = 4;
 
 float padding() {
   return scaled(8);
@@ -185,9 +185,11 @@ void ProblemBanner::lay_out(const ScreenRect& rect) {
   const float room = std::max(scaled(60), maximum_width - indent - padding());
   std::vector<std::string> texts{count_text(std::ssize(problems_), "problem")};
   if (!folded_) {
-    texts.assign(problems_.begin(), problems_.begin() + static_cast<long>(std::min(kMaxShown, problems_.size())));
-    if (problems_.size() > kMaxShown)
-      texts.push_back(fmt::format("and {} more, at their fields in the inspector", problems_.size() - kMaxShown));
+    texts.assign(problems_.begin(),
+                 problems_.begin() + static_cast<long>(std::min(kMaxProblemLines, problems_.size())));
+    if (problems_.size() > kMaxProblemLines)
+      texts.push_back(
+          fmt::format("and {} more, at their fields in the inspector", problems_.size() - kMaxProblemLines));
   }
   glm::dvec2 size(0, 2 * padding() - scaled(3));
   for (const std::string& text : texts) {
@@ -225,11 +227,11 @@ void ProblemBanner::draw(ImDrawList& draw) const {
   const float text_x = left + icon_side() + padding();
   float y = static_cast<float>(plate_.low.y) + padding();
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (i < kMaxShown)
+    if (i < kMaxProblemLines)
       draw_icon(draw, Icon::warning, {left + icon_side() / 2, y + icon_side() / 2}, icon_side(), color::kPartly);
     const float room = static_cast<float>(plate_.high.x) - text_x - padding() + 1;
-    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {text_x, y}, i < kMaxShown ? color::kText : color::kQuiet,
-                 lines_[i].text.c_str(), nullptr, room);
+    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {text_x, y},
+                 i < kMaxProblemLines ? color::kText : color::kQuiet, lines_[i].text.c_str(), nullptr, room);
     y += lines_[i].height;
   }
   draw.PopClipRect();

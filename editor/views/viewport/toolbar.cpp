@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/viewport/toolbar.h"
+#include "editor/views/viewport/viewport_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include "editor/views/results/results_view.h"
-#include "editor/views/viewport/readout.h"
-#include "editor/views/viewport/toolbar.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/keys.h"
 #include "editor/widgets/texts.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/world/approach_handle.h"
+#include "editor/views/world/world_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/world/canvas.h"
+#include "editor/views/world/scene.h"
 
 #include <algorithm>
 #include <cmath>

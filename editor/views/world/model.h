@@ -12,7 +12,6 @@
 #include "editor/geometry/lens_projection.h"
 #include "editor/preview/preview_output.h"
 #include "editor/views/context.h"
-#include "editor/views/shown_camera.h"
 
 namespace sigs::editor {
 
@@ -80,7 +79,7 @@ struct WorldBody {
   Pose<frame::World, frame::Body> world_from_body;
   std::shared_ptr<const Model> model;
 };
-// The playhead's moment, with the camera of views/shown_camera.h.
+// The playhead's moment, with the camera of views/context.h.
 struct WorldMoment {
   double time_s = 0;
   CameraPose world_from_camera;

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "editor/geometry/screen_marks.h"
+#include "editor/geometry/image_view.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/views/world/bodies.h"
+#include "editor/views/world/scene.h"
 
 namespace sigs::editor {
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string>
 
+#include "editor/geometry/image_view.h"
 #include "editor/geometry/rulers.h"
-#include "editor/geometry/screen_marks.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/texts.h"
 
@@ -21,7 +21,6 @@ constexpr double kEdgeOn_rad = 0.03;
 constexpr double kLabelledReach = 1.5;  // times the eye's distance: beyond, the lines are too close to each other
 constexpr ImU32 kLine = IM_COL32(255, 255, 255, 15);
 constexpr ImU32 kBoldLine = IM_COL32(255, 255, 255, 34);
-constexpr std::array<ImU32, 3> kAxisColors{color::kAxisX, color::kAxisY, color::kAxisZ};
 
 bool is_edge_on(const OrbitCamera& eye) {
   return std::abs(eye.elevation_rad) < kEdgeOn_rad;
@@ -101,13 +100,14 @@ void draw_axes(WorldCanvas& canvas) {
     const auto i = static_cast<int>(axis);
     const glm::dvec2 direction{eye.right()[i], -eye.up()[i]};
     const glm::dvec2 tip = origin + direction * reach;
-    canvas.list().AddLine(im(origin), im(tip), kAxisColors[axis], scaled(1.8));
+    canvas.list().AddLine(im(origin), im(tip), color::kAxes[axis], scaled(1.8));
     const char name[2] = {static_cast<char>('X' + i), 0};
     const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, name);
     const double length = glm::length(direction);
     if (length < 0.25) continue;  // the axis points at the eye
     const glm::dvec2 middle = tip + direction / length * (0.7 * face->FontSize);
-    canvas.list().AddText(face, face->FontSize, im(middle - glm::dvec2(size.x, size.y) / 2.0), kAxisColors[axis], name);
+    canvas.list().AddText(face, face->FontSize, im(middle - glm::dvec2(size.x, size.y) / 2.0), color::kAxes[axis],
+                          name);
   }
   canvas.keep_free({origin - reach * 1.5, origin + reach * 1.5});
 }
@@ -155,11 +155,10 @@ void draw_camera_icon(WorldCanvas& canvas, const CameraPose& pose, ImU32 color) 
 // Forward, right and down of the camera, in the colours of the world's X, Y and Z.
 void draw_camera_axes(WorldCanvas& canvas, const CameraPose& pose) {
   const double length_m = scaled(kCameraAxes_px) / canvas.eye().pixels_per_metre(pose.translation_m, canvas.rect());
-  constexpr std::array<ImU32, 3> kColors{color::kAxisX, color::kAxisY, color::kAxisZ};
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 tip{0, 0, 0};
     tip[axis] = length_m;
-    canvas.line(pose.translation_m, pose * tip, kColors[static_cast<std::size_t>(axis)], 1.4);
+    canvas.line(pose.translation_m, pose * tip, color::kAxes[static_cast<std::size_t>(axis)], 1.4);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/world/tools.h"
+#include "editor/views/world/world_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/world/view_presets.h"
+#include "editor/views/world/world_view.h"
 
 #include <algorithm>
 #include <cmath>

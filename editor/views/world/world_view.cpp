@@ -8,8 +8,6 @@
 
 #include "editor/views/waypoint_actions.h"
 #include "editor/views/world/scene.h"
-#include "editor/views/world/view_presets.h"
-#include "editor/views/world/volumes.h"
 #include "editor/widgets/keys.h"
 
 namespace sigs::editor {
