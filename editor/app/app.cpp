@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editor/app/app.h"
 
-#include <imgui.h>
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -14,7 +11,6 @@
 #include "base/resources.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/texts.h"
 #include "project/json.h"
 
 namespace sigs::editor {

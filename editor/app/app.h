@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -22,8 +21,6 @@
 #include "editor/views/context.h"
 #include "editor/views/estimate_session.h"
 #include "editor/views/own_body/own_body_session.h"
-#include "editor/widgets/textures.h"
-#include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
 

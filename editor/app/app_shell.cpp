@@ -5,15 +5,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <optional>
-#include <utility>
 
 #include "editor/app/layout.h"
 #include "editor/document/project_paths.h"
-#include "editor/views/dialogs.h"
 #include "editor/views/viewport/viewport_view.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "base/text.h"
 #include "editor/document/project_paths.h"
 #include "editor/widgets/texts.h"

@@ -11,7 +11,6 @@
 #include <limits>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 namespace sigs::editor {
 
@@ -120,6 +119,32 @@ bool touch(const std::vector<ImVec4>& some, const std::vector<ImVec4>& others) {
   return std::any_of(some.begin(), some.end(), [&](const ImVec4& one) {
     return std::any_of(others.begin(), others.end(), [&](const ImVec4& other) { return overlap(one, other); });
   });
+}
+
+std::vector<ImVec4> clips_of(const ImDrawData& data) {
+  std::vector<ImVec4> clips;
+  for (int i = 0; i < data.CmdListsCount; ++i)
+    for (const ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) clips.push_back(command.ClipRect);
+  return clips;
+}
+
+template <class Clip>
+void set_clips(ImDrawData& data, Clip clip) {
+  std::size_t number = 0;
+  for (int i = 0; i < data.CmdListsCount; ++i)
+    for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) command.ClipRect = clip(number++);
+}
+
+ImVec4 upside_down(const ImVec4& rect, float height) {
+  return {rect.x, height - rect.w, rect.z, height - rect.y};
+}
+
+void turn_upside_down(ImDrawData& data) {
+  const float height = data.DisplaySize.y;
+  for (int i = 0; i < data.CmdListsCount; ++i) {
+    for (ImDrawVert& vertex : data.CmdLists[i]->VtxBuffer) vertex.pos.y = height - vertex.pos.y;
+    for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) command.ClipRect = upside_down(command.ClipRect, height);
+  }
 }
 
 }  // namespace
@@ -247,36 +272,6 @@ std::vector<ImVec4> ChangedRegions::of(const ImDrawData& data, const std::option
   size_ = data.DisplaySize;
   return regions;
 }
-
-namespace {
-
-std::vector<ImVec4> clips_of(const ImDrawData& data) {
-  std::vector<ImVec4> clips;
-  for (int i = 0; i < data.CmdListsCount; ++i)
-    for (const ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) clips.push_back(command.ClipRect);
-  return clips;
-}
-
-template <class Clip>
-void set_clips(ImDrawData& data, Clip clip) {
-  std::size_t number = 0;
-  for (int i = 0; i < data.CmdListsCount; ++i)
-    for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) command.ClipRect = clip(number++);
-}
-
-ImVec4 upside_down(const ImVec4& rect, float height) {
-  return {rect.x, height - rect.w, rect.z, height - rect.y};
-}
-
-void turn_upside_down(ImDrawData& data) {
-  const float height = data.DisplaySize.y;
-  for (int i = 0; i < data.CmdListsCount; ++i) {
-    for (ImDrawVert& vertex : data.CmdLists[i]->VtxBuffer) vertex.pos.y = height - vertex.pos.y;
-    for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) command.ClipRect = upside_down(command.ClipRect, height);
-  }
-}
-
-}  // namespace
 
 Canvas::~Canvas() {
   glDeleteFramebuffers(1, &framebuffer_);

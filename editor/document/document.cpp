@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "editor/document/project_paths.h"
 #include "project/json.h"

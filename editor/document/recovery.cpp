@@ -14,7 +14,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "base/file_lock.h"
 #include "base/staged_outputs.h"
 #include "editor/document/mask_painting.h"
 #include "project/json_reading.h"

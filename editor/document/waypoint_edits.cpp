@@ -21,19 +21,6 @@ bool is_waypoint(const TrajectoryPlan& plan, int waypoint) {
   return waypoint >= 0 && static_cast<std::size_t>(waypoint) < plan.waypoints.size();
 }
 
-}  // namespace
-
-void put_at(WaypointSettings& waypoint, const glm::dvec3& position_m, const std::optional<LocalFrame>& earth) {
-  waypoint.position_m = position_m;
-  if (!waypoint.place) return;
-  waypoint.place.reset();
-  if (!earth) return;
-  const GeodeticPosition place = earth->place_of(position_m);
-  waypoint.place = {place.latitude_deg, place.longitude_deg, place.height_m};
-}
-
-namespace {
-
 WaypointSettings new_waypoint(const TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
                               const std::optional<LocalFrame>& earth) {
   WaypointSettings waypoint{.frame = frame};
@@ -46,6 +33,15 @@ WaypointSettings new_waypoint(const TrajectoryPlan& plan, double frame, const gl
 }
 
 }  // namespace
+
+void put_at(WaypointSettings& waypoint, const glm::dvec3& position_m, const std::optional<LocalFrame>& earth) {
+  waypoint.position_m = position_m;
+  if (!waypoint.place) return;
+  waypoint.place.reset();
+  if (!earth) return;
+  const GeodeticPosition place = earth->place_of(position_m);
+  waypoint.place = {place.latitude_deg, place.longitude_deg, place.height_m};
+}
 
 int put_waypoint(TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
                  const std::vector<double>& frames_now, const std::optional<LocalFrame>& earth) {

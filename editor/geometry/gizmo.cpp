@@ -154,6 +154,24 @@ std::optional<glm::dvec3> pulled(GizmoPart part, const Pull& pull, const OrbitCa
   return std::nullopt;
 }
 
+constexpr double kLeastSlope = 0.19;  // sine of 11 degrees
+constexpr double kLongest_m = 1e8;
+
+double kept(double along_m) {
+  return std::isfinite(along_m) ? std::clamp(along_m, -kLongest_m, kLongest_m) : 0;
+}
+
+// Of the axis through the start: where it passes nearest to the ray.
+double along_axis_m(const glm::dvec3& start_m, const glm::dvec3& axis, const Ray& ray) {
+  const glm::dvec3 to_ray = ray.origin_m - start_m;
+  const double cosine = glm::dot(axis, ray.direction);
+  return (glm::dot(to_ray, axis) - glm::dot(to_ray, ray.direction) * cosine) / (1 - cosine * cosine);
+}
+
+double seen_length(const glm::dvec3& axis, const Ray& ray) {
+  return glm::length(glm::cross(axis, ray.direction));
+}
+
 }  // namespace
 
 std::optional<GizmoShape> gizmo_shape(const Gizmo& gizmo, const OrbitCamera& camera, const ScreenRect& rect) {
@@ -201,28 +219,6 @@ glm::dvec3 dragged(const GizmoDrag& drag, const glm::dvec2& mouse, const OrbitCa
 double snap_step_m(const OrbitCamera& camera, const glm::dvec3& at_m, const ScreenRect& rect) {
   return round_step(kStepPx / camera.pixels_per_metre(at_m, rect));
 }
-
-namespace {
-
-constexpr double kLeastSlope = 0.19;  // sine of 11 degrees
-constexpr double kLongest_m = 1e8;
-
-double kept(double along_m) {
-  return std::isfinite(along_m) ? std::clamp(along_m, -kLongest_m, kLongest_m) : 0;
-}
-
-// Of the axis through the start: where it passes nearest to the ray.
-double along_axis_m(const glm::dvec3& start_m, const glm::dvec3& axis, const Ray& ray) {
-  const glm::dvec3 to_ray = ray.origin_m - start_m;
-  const double cosine = glm::dot(axis, ray.direction);
-  return (glm::dot(to_ray, axis) - glm::dot(to_ray, ray.direction) * cosine) / (1 - cosine * cosine);
-}
-
-double seen_length(const glm::dvec3& axis, const Ray& ray) {
-  return glm::length(glm::cross(axis, ray.direction));
-}
-
-}  // namespace
 
 glm::dvec2 dragged_in_plane_m(const PlaneDrag& drag, const glm::dvec2& mouse, const OrbitCamera& camera,
                               const ScreenRect& rect) {

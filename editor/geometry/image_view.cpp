@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/ensure.h"
 
@@ -44,6 +43,37 @@ double kept_in_sight(double origin, double length, double low, double high, bool
     maximum = std::floor(maximum);
   }
   return std::clamp(whole ? std::round(origin) : origin, minimum, maximum);
+}
+
+struct Span {
+  int begin = 0;
+  int end = 0;  // the one after the last
+};
+
+// Whole blocks within the span, and what is left over at the image's end.
+Span in_blocks(const Span& span, int image_end, int block) {
+  const int begin = (span.begin + block - 1) / block * block;
+  return {begin, span.end == image_end ? image_end : span.end / block * block};
+}
+
+Span inner(const Span& span, int image_end, int block) {
+  return {span.begin == 0 ? 0 : span.begin + block, span.end == image_end ? image_end : span.end - block};
+}
+
+cv::Rect rect_of(const Span& x, const Span& y) {
+  if (x.end <= x.begin || y.end <= y.begin) return {};
+  return {x.begin, y.begin, x.end - x.begin, y.end - y.begin};
+}
+
+constexpr double kTiePx = 1;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double distance_px(const PickPoint& point, const glm::dvec2& mouse) {
+  return point.at ? glm::distance(*point.at, mouse) : kInfinity;
+}
+
+bool overlap(const ScreenRect& a, const ScreenRect& b) {
+  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
 
 }  // namespace
@@ -102,30 +132,6 @@ ImageView panned(const ImageView& view, const glm::dvec2& by_px, const glm::dvec
            kept_in_sight(origin.y, length.y, rect.low.y, rect.high.y, whole)}};
 }
 
-namespace {
-
-struct Span {
-  int begin = 0;
-  int end = 0;  // the one after the last
-};
-
-// Whole blocks within the span, and what is left over at the image's end.
-Span in_blocks(const Span& span, int image_end, int block) {
-  const int begin = (span.begin + block - 1) / block * block;
-  return {begin, span.end == image_end ? image_end : span.end / block * block};
-}
-
-Span inner(const Span& span, int image_end, int block) {
-  return {span.begin == 0 ? 0 : span.begin + block, span.end == image_end ? image_end : span.end - block};
-}
-
-cv::Rect rect_of(const Span& x, const Span& y) {
-  if (x.end <= x.begin || y.end <= y.begin) return {};
-  return {x.begin, y.begin, x.end - x.begin, y.end - y.begin};
-}
-
-}  // namespace
-
 cv::Vec3b PatchedImage::bgr_at(const cv::Point& pixel) const {
   ENSURE(cv::Rect({0, 0}, size()).contains(pixel));
   const bool is_patched = patch_rect().contains(pixel);
@@ -150,21 +156,6 @@ DrawnPatch drawn_patch(const PatchedImage& image, int divisor) {
   const Span y = in_blocks({rect.y, rect.y + rect.height}, image.size().height, divisor);
   return {rect_of(x, y), rect_of(inner(x, image.size().width, divisor), inner(y, image.size().height, divisor))};
 }
-
-namespace {
-
-constexpr double kTiePx = 1;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double distance_px(const PickPoint& point, const glm::dvec2& mouse) {
-  return point.at ? glm::distance(*point.at, mouse) : kInfinity;
-}
-
-bool overlap(const ScreenRect& a, const ScreenRect& b) {
-  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
-}
-
-}  // namespace
 
 std::optional<std::size_t> nearest_point(std::span<const PickPoint> points, const glm::dvec2& mouse, double reach_px) {
   double min_px = kInfinity;

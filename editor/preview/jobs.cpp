@@ -7,7 +7,6 @@
 #include "appearance/project_hints.h"
 #include "base/staged_outputs.h"
 #include "first_project/first_camera.h"
-#include "first_project/first_project.h"
 #include "scene/opened_project.h"
 #include "telemetry/track_csv.h"
 #include "video/frame_source.h"

@@ -36,6 +36,15 @@ constexpr std::chrono::milliseconds kOldSurvey(300);  // how long an older surve
 constexpr double kSurveySlice_s = 0.003;
 constexpr int kBackgroundTasks = 3;
 
+FootageId footage_id_of(const std::shared_ptr<const Project>& project) {
+  const SequenceTiming timing = timing_of(*project);
+  ContentId id = id_of(footage_stamp_of(*project));
+  if (quantisers_for(*project) == Quantisers::read) id = combined_id(id, id);
+  if (timing.frame_rate_hz > 0) id = combined_id(id, id_of(FileStamp{.path = exact_text(timing.frame_rate_hz)}));
+  if (!timing.times_file.empty()) id = combined_id(id, id_of(stamp_of(timing.times_file)));
+  return {id, project};
+}
+
 }  // namespace
 
 void SceneRenderer::keep(const std::shared_ptr<const Model>& model) {
@@ -122,19 +131,6 @@ void PreviewRenderer::run() {
     preview_state_.wait_for_changes(snapshot->version, did && snapshot->ahead ? kFileCheckInterval : kEditPause);
   }
 }
-
-namespace {
-
-FootageId footage_id_of(const std::shared_ptr<const Project>& project) {
-  const SequenceTiming timing = timing_of(*project);
-  ContentId id = id_of(footage_stamp_of(*project));
-  if (quantisers_for(*project) == Quantisers::read) id = combined_id(id, id);
-  if (timing.frame_rate_hz > 0) id = combined_id(id, id_of(FileStamp{.path = exact_text(timing.frame_rate_hz)}));
-  if (!timing.times_file.empty()) id = combined_id(id, id_of(stamp_of(timing.times_file)));
-  return {id, project};
-}
-
-}  // namespace
 
 int PreviewRenderer::clamped(int frame) const {
   return std::clamp(frame, 0, static_cast<int>(scene_->footage->shape.times_s.size()) - 1);

@@ -5,7 +5,6 @@
 #include <deque>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "editor/document/content_id.h"
 #include "editor/preview/opened_footage.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "editor/preview/opened_footage.h"
 #include "editor/preview/preview_renderer.h"
 
 namespace sigs::editor {

@@ -2,14 +2,11 @@
 #include "editor/preview/scoring.h"
 
 #include <algorithm>
-#include <chrono>
 #include <system_error>
 #include <utility>
 
 #include "base/threads.h"
 #include "editor/preview/surveys.h"
-#include "editor/preview/worker_thread.h"
-#include "evaluation/track_score.h"
 
 namespace sigs::editor {
 
@@ -28,6 +25,36 @@ std::string why_not(const OpenedScene& scene) {
 Result<void> streamed(const TruthBuilder::StreamFrames& show, const Project& project,
                       const TruthBuilder::OnFrame& on_frame) {
   return guarded([&] { return show(project, 1, on_frame); }, "composing");
+}
+
+constexpr double kMinSide_px = 0;  // of the first box that a tracker is started with
+
+bool is_same(const FootageTruth& a, const FootageTruth& b) {
+  return a.video == b.video && a.size_px == b.size_px && a.first_frame == b.first_frame &&
+         a.last_frame == b.last_frame && a.frame_rate_num == b.frame_rate_num && a.frame_rate_den == b.frame_rate_den;
+}
+
+Result<Results> read_safely(const std::filesystem::path& path, const FootageTruth& footage, std::optional<int> start) {
+  return guarded([&] { return read_results(path, footage, {.start_frame = start}); }, path.string());
+}
+
+const TargetTruth* target_in(const ClipTruth& clip, int id) {
+  const auto found =
+      std::find_if(clip.targets.begin(), clip.targets.end(), [id](const TargetTruth& t) { return t.id == id; });
+  return found == clip.targets.end() ? nullptr : &*found;
+}
+
+// Number in the scene of the project's intruder; -1: it flies nowhere, or there is none.
+int target_of(const ScoringRequest& wanted) {
+  const std::vector<int>& ids = wanted.scene->draft.intruder_of_project;
+  const auto intruder = static_cast<std::size_t>(wanted.intruder);
+  return wanted.intruder >= 0 && intruder < ids.size() ? ids[intruder] : -1;
+}
+
+// As `sigs evaluate track` measures where nothing else is asked for; none: the target is never visible.
+std::optional<TrackPolicy> policy_for(const ClipTruth* clip, int target) {
+  const TargetTruth* const truth = clip == nullptr ? nullptr : target_in(*clip, target);
+  return truth == nullptr ? std::nullopt : policy_from_start(*clip, *truth);
 }
 
 }  // namespace
@@ -156,40 +183,6 @@ void ResultFiles::set_shown(int id, bool shown) {
   for (ResultFile& file : files_)
     if (file.id == id) file.is_shown = shown;
 }
-
-namespace {
-
-constexpr double kMinSide_px = 0;  // of the first box that a tracker is started with
-
-bool is_same(const FootageTruth& a, const FootageTruth& b) {
-  return a.video == b.video && a.size_px == b.size_px && a.first_frame == b.first_frame &&
-         a.last_frame == b.last_frame && a.frame_rate_num == b.frame_rate_num && a.frame_rate_den == b.frame_rate_den;
-}
-
-Result<Results> read_safely(const std::filesystem::path& path, const FootageTruth& footage, std::optional<int> start) {
-  return guarded([&] { return read_results(path, footage, {.start_frame = start}); }, path.string());
-}
-
-const TargetTruth* target_in(const ClipTruth& clip, int id) {
-  const auto found =
-      std::find_if(clip.targets.begin(), clip.targets.end(), [id](const TargetTruth& t) { return t.id == id; });
-  return found == clip.targets.end() ? nullptr : &*found;
-}
-
-// Number in the scene of the project's intruder; -1: it flies nowhere, or there is none.
-int target_of(const ScoringRequest& wanted) {
-  const std::vector<int>& ids = wanted.scene->draft.intruder_of_project;
-  const auto intruder = static_cast<std::size_t>(wanted.intruder);
-  return wanted.intruder >= 0 && intruder < ids.size() ? ids[intruder] : -1;
-}
-
-// As `sigs evaluate track` measures where nothing else is asked for; none: the target is never visible.
-std::optional<TrackPolicy> policy_for(const ClipTruth* clip, int target) {
-  const TargetTruth* const truth = clip == nullptr ? nullptr : target_in(*clip, target);
-  return truth == nullptr ? std::nullopt : policy_from_start(*clip, *truth);
-}
-
-}  // namespace
 
 Scoring::Scoring(std::function<void()> wake, TruthBuilder::StreamFrames show)
     : wake_(std::move(wake)),

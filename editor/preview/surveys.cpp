@@ -7,7 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include "editor/preview/preview_output.h"
 #include "export/frame_stream.h"
 #include "project/project.h"
 #include "scene/encounter_tracks.h"
@@ -34,6 +33,35 @@ VolumeLosses losses_of(const VolumeOutcome& outcome, const EncounterSummary& sum
                              .has_entry = loss.begin_s > summary.first_s,
                              .has_exit = loss.end_s < summary.last_s});
   return result;
+}
+
+TargetFrame target_frame_of(const VisibilityEstimate& estimate, const cv::Rect& image) {
+  TargetFrame frame{.amodal_box = estimate.silhouette, .distance_m = estimate.distance_m};
+  const bool is_visible = estimate.visibility_state == VisibilityState::in_view ||
+                          estimate.visibility_state == VisibilityState::partly_occluded;
+  if (!is_visible || !estimate.silhouette) return frame;
+  const cv::Rect pixels = pixels_touched(*estimate.silhouette, 0, image);
+  if (pixels.empty()) return frame;
+  frame.visible = box_of(pixels);
+  frame.visible_fraction = 1;
+  return frame;
+}
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kWorthShowing = 64;  // frames; then each time it has grown by half
+
+// Rates of roll, pitch and yaw by those about the body's axes (Stevens, Lewis, Johnson: Aircraft Control and
+// Simulation, 3rd edition, eq. 1.4-3), taken for small turns.
+Attitude deviations_of_angles(const Attitude& at, const glm::dvec3& sd_rad) {
+  const double cos_pitch = std::max(std::abs(std::cos(at.pitch_rad)), 1e-9);
+  const double up = sd_rad.y * std::sin(at.roll_rad);
+  const double side = sd_rad.z * std::cos(at.roll_rad);
+  const double yaw_rad = std::hypot(up, side) / cos_pitch;
+  const double roll_rad = std::hypot(sd_rad.x, yaw_rad * std::sin(at.pitch_rad));
+  const double pitch_rad = std::hypot(sd_rad.y * std::cos(at.roll_rad), sd_rad.z * std::sin(at.roll_rad));
+  const auto limited = [](double angle_rad) { return std::min(angle_rad, std::numbers::pi); };
+  return {.roll_rad = limited(roll_rad), .pitch_rad = limited(pitch_rad), .yaw_rad = limited(yaw_rad)};
 }
 
 }  // namespace
@@ -81,26 +109,6 @@ EncounterSurvey encounter_survey(const Scene& scene, int intruder, const std::ve
   }
   return survey;
 }
-
-namespace {
-
-TargetFrame target_frame_of(const VisibilityEstimate& estimate, const cv::Rect& image) {
-  TargetFrame frame{.amodal_box = estimate.silhouette, .distance_m = estimate.distance_m};
-  const bool is_visible = estimate.visibility_state == VisibilityState::in_view ||
-                          estimate.visibility_state == VisibilityState::partly_occluded;
-  if (!is_visible || !estimate.silhouette) return frame;
-  const cv::Rect pixels = pixels_touched(*estimate.silhouette, 0, image);
-  if (pixels.empty()) return frame;
-  frame.visible = box_of(pixels);
-  frame.visible_fraction = 1;
-  return frame;
-}
-
-using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t kWorthShowing = 64;  // frames; then each time it has grown by half
-
-}  // namespace
 
 FootageTruth footage_truth_of(const OpenedScene& scene) {
   const Scene& opened = scene.draft.scene;
@@ -150,23 +158,6 @@ void SurveyBuilder::want_volumes(std::vector<WellClearVolume> volumes) {
   volumes_ = std::move(volumes);
   next_encounter_ = 0;
 }
-
-namespace {
-
-// Rates of roll, pitch and yaw by those about the body's axes (Stevens, Lewis, Johnson: Aircraft Control and
-// Simulation, 3rd edition, eq. 1.4-3), taken for small turns.
-Attitude deviations_of_angles(const Attitude& at, const glm::dvec3& sd_rad) {
-  const double cos_pitch = std::max(std::abs(std::cos(at.pitch_rad)), 1e-9);
-  const double up = sd_rad.y * std::sin(at.roll_rad);
-  const double side = sd_rad.z * std::cos(at.roll_rad);
-  const double yaw_rad = std::hypot(up, side) / cos_pitch;
-  const double roll_rad = std::hypot(sd_rad.x, yaw_rad * std::sin(at.pitch_rad));
-  const double pitch_rad = std::hypot(sd_rad.y * std::cos(at.roll_rad), sd_rad.z * std::sin(at.roll_rad));
-  const auto limited = [](double angle_rad) { return std::min(angle_rad, std::numbers::pi); };
-  return {.roll_rad = limited(roll_rad), .pitch_rad = limited(pitch_rad), .yaw_rad = limited(yaw_rad)};
-}
-
-}  // namespace
 
 CameraTurn camera_turn_at(const CameraMotion& motion, double time_s, const CameraTurn* before) {
   CameraTurn turn{.attitude = attitude_of(camera_at(motion, time_s).rotation)};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <imgui.h>
-
 #include <cstddef>
 #include <deque>
 #include <map>
@@ -16,7 +14,6 @@
 #include "editor/document/settings.h"
 #include "editor/preview/background_job.h"
 #include "editor/views/context.h"
-#include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <imgui.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -11,7 +9,6 @@
 
 #include "editor/preview/background_job.h"
 #include "editor/views/context.h"
-#include "editor/widgets/icons.h"
 
 namespace sigs::editor {
 

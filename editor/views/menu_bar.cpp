@@ -2,19 +2,12 @@
 #include "editor/views/dialogs.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "base/text.h"
 #include "editor/views/export_view.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -22,8 +15,8 @@ namespace {
 
 // An item that is known by name to whoever drives the window from outside.
 bool item(const ViewContext& context, const char* label, const char* keys, bool enabled = true, bool checked = false) {
-  const bool chosen = ImGui::MenuItem(label, keys, checked, enabled);
-  context.ui_probe.note_item(std::string("menu/") + label);
+  const bool chosen =
+      context.ui_probe.noted(ImGui::MenuItem(label, keys, checked, enabled), std::string("menu/") + label);
   return chosen;
 }
 
@@ -68,10 +61,10 @@ void draw_edit_menu(const ViewContext& context, bool has_project) {
   const Document& document = context.document;
   const std::string undo = fmt::format("Undo {}###Undo", document.undo_name());
   const std::string redo = fmt::format("Redo {}###Redo", document.redo_name());
-  if (ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo())) context.edits.undo();
-  context.ui_probe.note_item("menu/Undo");
-  if (ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo())) context.edits.redo();
-  context.ui_probe.note_item("menu/Redo");
+  if (context.ui_probe.noted(ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo()), "menu/Undo"))
+    context.edits.undo();
+  if (context.ui_probe.noted(ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo()), "menu/Redo"))
+    context.edits.redo();
   ImGui::Separator();
   const bool on_waypoint = document.selection().kind == Selected::waypoint;
   const bool on_intruder = on_waypoint || document.selection().kind == Selected::intruder;
@@ -141,8 +134,8 @@ class RightSide {
     if (!take(width)) return;
     const ImVec2 place = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
-    if (ImGui::InvisibleButton("problems", {width, height}) && is_missing) context_.edits.ask(ShowMissingFiles{});
-    context_.ui_probe.note_item("menu/problems");
+    if (context_.ui_probe.noted(ImGui::InvisibleButton("problems", {width, height}), "menu/problems") && is_missing)
+      context_.edits.ask(ShowMissingFiles{});
     if (ImGui::IsItemHovered()) show_list(problems);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     draw_icon(list, Icon::warning, {place.x + scaled(9), place.y + height / 2}, scaled(13), color::kPartly);
@@ -175,9 +168,8 @@ class RightSide {
     if (!take(width)) return false;
     const ImVec2 place = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
-    const bool is_clicked = ImGui::InvisibleButton(id, {width, height});
-    context_.ui_probe.note_item(std::string("menu/") + id);
-    tooltip_for_item(tooltip);
+    const bool is_clicked =
+        context_.ui_probe.noted(ImGui::InvisibleButton(id, {width, height}), std::string("menu/") + id, tooltip);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float inset = scaled(3);
     const ImVec2 low{place.x, place.y + inset};

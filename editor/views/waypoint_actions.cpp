@@ -8,7 +8,6 @@
 
 #include "base/pose.h"
 #include "editor/document/waypoint_edits.h"
-#include "editor/views/context.h"
 #include "project/places.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/widgets/file_browser.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -222,7 +220,7 @@ void FileBrowser::handle_keys() {
   if (pressed(Key::home)) select(0), scroll_to_selected_ = true;
   if (pressed(Key::end)) select(static_cast<int>(shown_.size()) - 1), scroll_to_selected_ = true;
   if (pressed(Key::backspace, true)) go_up();
-  if (pressed(Key::enter) || pressed(Key::keypad_enter)) activate(selected_);
+  if (enter_pressed()) activate(selected_);
   handle_typed();
 }
 

@@ -10,7 +10,6 @@
 #include <condition_variable>
 #include <ctime>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include "base/paths.h"

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editor/widgets/gizmo_handle.h"
 
-#include <imgui.h>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <utility>
 
 #include "editor/widgets/keys.h"
@@ -48,6 +45,24 @@ void draw_arrow(ImDrawList& list, const glm::dvec2& from, const glm::dvec2& tip,
 void draw_plane(ImDrawList& list, const std::array<glm::dvec2, 4>& quad, ImU32 color, bool hot) {
   list.AddQuadFilled(im(quad[0]), im(quad[1]), im(quad[2]), im(quad[3]), faded(color, hot ? 0.75 : 0.35));
   list.AddQuad(im(quad[0]), im(quad[1]), im(quad[2]), im(quad[3]), faded(color, hot ? 1 : 0.8), 1);
+}
+
+constexpr const char* kId = "point entry";
+constexpr double kMaxCoordinate_m = 1e8;
+
+struct Row {
+  const char* id;
+  const char* name;
+  const char* meaning;
+  ImU32 color;
+};
+constexpr std::array<Row, 3> kRows{{{"##x", "X", "forward", color::kAxisX},
+                                    {"##y", "Y", "right", color::kAxisY},
+                                    {"##z", "Z", "down", color::kAxisZ}}};
+
+// What a person may type that is no place: an overflow, 1e400.
+bool is_a_place(const glm::dvec3& p_m) {
+  return std::isfinite(p_m.x) && std::isfinite(p_m.y) && std::isfinite(p_m.z);
 }
 
 }  // namespace
@@ -136,32 +151,6 @@ void GizmoHandle::probe_places(UiProbe& ui_probe, const glm::dvec3& at_m, const 
   note("middle", shape->center);
 }
 
-namespace {
-
-constexpr const char* kId = "point entry";
-constexpr double kMaxCoordinate_m = 1e8;
-
-struct Row {
-  const char* id;
-  const char* name;
-  const char* meaning;
-  ImU32 color;
-};
-constexpr std::array<Row, 3> kRows{{{"##x", "X", "forward", color::kAxisX},
-                                    {"##y", "Y", "right", color::kAxisY},
-                                    {"##z", "Z", "down", color::kAxisZ}}};
-
-bool enter_pressed() {
-  return pressed(Key::enter) || pressed(Key::keypad_enter);
-}
-
-// What a person may type that is no place: an overflow, 1e400.
-bool is_a_place(const glm::dvec3& p_m) {
-  return std::isfinite(p_m.x) && std::isfinite(p_m.y) && std::isfinite(p_m.z);
-}
-
-}  // namespace
-
 void PointEntry::open(std::string title, const glm::dvec3& point_m) {
   title_ = std::move(title);
   point_m_ = point_m;
@@ -169,9 +158,7 @@ void PointEntry::open(std::string title, const glm::dvec3& point_m) {
 }
 
 void PointEntry::draw_fields() {
-  ImGui::PushFont(font(Font::bold));
-  ImGui::TextUnformatted(title_.c_str());
-  ImGui::PopFont();
+  draw_text(title_, color::kText, Font::bold);
   for (int i = 0; i < 3; ++i) {
     const Row& row = kRows[static_cast<std::size_t>(i)];
     ImGui::AlignTextToFramePadding();

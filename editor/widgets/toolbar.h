@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <imgui.h>
-
 #include <functional>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 

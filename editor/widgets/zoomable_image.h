@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <imgui.h>
-
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "base/image.h"
 #include "editor/geometry/image_view.h"

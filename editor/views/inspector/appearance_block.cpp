@@ -2,7 +2,6 @@
 #include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +9,6 @@
 #include <string_view>
 
 #include "editor/preview/jobs.h"
-#include "editor/views/inspector/field_rows.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -55,26 +50,9 @@ FoundLine line_of_color(const AppearanceQuantity* parts) {
   return {name, fmt::format("{} \u00b1 {:.1g}", color, std::max({red.sd, green.sd, blue.sd})), ""};
 }
 
-}  // namespace
-
-std::vector<FoundLine> found_lines(const Appearance& appearance) {
-  const std::vector<AppearanceQuantity> quantities = quantities_of(appearance);
-  std::vector<FoundLine> lines;
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    const bool is_color = quantities[i].name.ends_with(kFirstOfColor) && i + kParts <= quantities.size();
-    lines.push_back(is_color ? line_of_color(&quantities[i]) : line_of(quantities[i]));
-    if (is_color) i += kParts - 1;
-  }
-  return lines;
-}
-
-namespace {
-
 void draw_cell(const std::string& text, bool is_quiet) {
   ImGui::TableNextColumn();
-  ImGui::PushStyleColor(ImGuiCol_Text, is_quiet ? color::kQuiet : ImGui::GetColorU32(ImGuiCol_Text));
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
+  draw_text(text, is_quiet ? color::kQuiet : ImGui::GetColorU32(ImGuiCol_Text));
 }
 
 void draw_line(const FoundLine& line) {
@@ -109,15 +87,27 @@ RowOptions look_of(const Field& field, const CompositingSettings& compositing, c
 
 }  // namespace
 
+std::vector<FoundLine> found_lines(const Appearance& appearance) {
+  const std::vector<AppearanceQuantity> quantities = quantities_of(appearance);
+  std::vector<FoundLine> lines;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const bool is_color = quantities[i].name.ends_with(kFirstOfColor) && i + kParts <= quantities.size();
+    lines.push_back(is_color ? line_of_color(&quantities[i]) : line_of(quantities[i]));
+    if (is_color) i += kParts - 1;
+  }
+  return lines;
+}
+
 void AppearanceBlock::draw_match(const ViewContext& context, const AppearanceState& state) {
   if (state.is_running()) {
     if (draw_job_progress(state)) context.edits.ask(StopMatchingFootage{});
     context.ui_probe.note_item("inspector/stop matching footage");
     return;
   }
-  if (ImGui::Button("Match the footage")) context.edits.ask(MatchFootage{});
-  context.ui_probe.note_item("inspector/match the footage");
-  tooltip_for_item("Finds blur, noise, compression, haze and light in the footage, in the background, and sets them.");
+  if (context.ui_probe.noted(
+          ImGui::Button("Match the footage"), "inspector/match the footage",
+          "Finds blur, noise, compression, haze and light in the footage, in the background, and sets them."))
+    context.edits.ask(MatchFootage{});
   if (state.value && state.value != shown_) ImGui::SetScrollHereY(0);
   shown_ = state.value;
   if (!state.value) return;

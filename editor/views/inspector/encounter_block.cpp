@@ -2,7 +2,6 @@
 #include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
@@ -10,8 +9,6 @@
 #include <numbers>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -136,8 +133,7 @@ std::optional<PlannedApproach> EncounterBlock::draw_numbers(const ViewContext& c
     const float width = rows.begin_row(number.label);
     PlannedApproach approach = shown;
     if (draw_number(number, approach, width)) edited = approach;
-    context.ui_probe.note_item(fmt::format("inspector/encounter/{}", number.id));
-    tooltip_for_item(number.help);
+    context.ui_probe.note_item(fmt::format("inspector/encounter/{}", number.id), number.help);
     follow_hold(context);
     ImGui::PopID();
   }
@@ -161,11 +157,11 @@ std::optional<PlannedApproach> EncounterBlock::draw_distance(const ViewContext& 
   ImGui::SetNextItemWidth(rows.begin_row("Closest, 3-D"));
   const bool is_changed =
       ImGui::DragScalar("##number", ImGuiDataType_Double, &distance_m, 0.5F, nullptr, nullptr, "%.2f m");
-  context.ui_probe.note_item("inspector/encounter/distance");
-  tooltip_for_item(fmt::format("Least distance in space, at {:.3f} s. A change makes both misses larger or smaller in "
-                               "the same proportion",
-                               present.nearest_3d.time_s)
-                       .c_str());
+  context.ui_probe.note_item(
+      "inspector/encounter/distance",
+      fmt::format("Least distance in space, at {:.3f} s. A change makes both misses larger or smaller in "
+                  "the same proportion",
+                  present.nearest_3d.time_s));
   follow_hold(context);
   ImGui::PopID();
   if (!is_changed) return std::nullopt;
@@ -183,9 +179,9 @@ std::optional<PlannedApproach> EncounterBlock::draw_distance(const ViewContext& 
 }
 
 void EncounterBlock::draw_straight(const ViewContext& context, int intruder) {
-  const bool is_clicked = ImGui::Button("Make it straight");
-  context.ui_probe.note_item("inspector/encounter/straight");
-  tooltip_for_item("Two waypoints, in the first frame and in the last one; the closest approach stays");
+  const bool is_clicked =
+      context.ui_probe.noted(ImGui::Button("Make it straight"), "inspector/encounter/straight",
+                             "Two waypoints, in the first frame and in the last one; the closest approach stays");
   if (!is_clicked) return;
   if (const std::optional<ApproachStart> start = approach_start(context, intruder)) {
     reason_ = make_straight(context, *start);
@@ -229,11 +225,7 @@ void EncounterBlock::draw(const ViewContext& context, FieldRows& rows) {
   frame_link(context, fmt::format("{:.1f}", present->frame), std::round(present->frame), color::kAccent);
   context.ui_probe.note_item("inspector/encounter/frame");
   if (!reason_.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(fmt::format("Not possible: {}", reason_).c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
+    draw_wrapped(fmt::format("Not possible: {}", reason_), color::kBad);
     context.ui_probe.note_item("inspector/encounter/reason");
   }
   draw_notes(*present, context);

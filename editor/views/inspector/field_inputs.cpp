@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/inspector/field_rows.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
-#include <utility>
 
-#include "editor/document/field_edits.h"
 #include "editor/geometry/rulers.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 

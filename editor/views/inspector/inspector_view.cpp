@@ -2,17 +2,12 @@
 #include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "base/text.h"
-#include "editor/document/field_edits.h"
 #include "editor/views/results/results_view.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "scene/opened_project.h"
 
 namespace sigs::editor {
@@ -46,9 +41,9 @@ void draw_own_body(const ViewContext& context, FieldRows& rows) {
     return look;
   });
   ImGui::Spacing();
-  if (ImGui::Button("Detect and paint...")) context.edits.ask(ShowOwnBody{});
-  context.ui_probe.note_item("inspector/own body");
-  tooltip_for_item("Finds the aircraft that carries the camera in its footage");
+  if (context.ui_probe.noted(ImGui::Button("Detect and paint..."), "inspector/own body",
+                             "Finds the aircraft that carries the camera in its footage"))
+    context.edits.ask(ShowOwnBody{});
   note("What else hides intruders: trees and hills, as a mask of one frame.");
   rows.rows("footage.occluder_");
 }
@@ -72,9 +67,9 @@ void draw_export(const ViewContext& context, FieldRows& rows) {
     return look;
   });
   ImGui::Spacing();
-  if (ImGui::Button("Export...")) context.edits.ask(ShowExport{});
-  context.ui_probe.note_item("inspector/export");
-  tooltip_for_item("Writes video, masks and labels (Ctrl + E)");
+  if (context.ui_probe.noted(ImGui::Button("Export..."), "inspector/export",
+                             "Writes video, masks and labels (Ctrl + E)"))
+    context.edits.ask(ShowExport{});
 }
 
 // How many problems a block holds, at the right end of its header.
@@ -150,8 +145,7 @@ void InspectorView::draw_depth(const ViewContext& context) const {
     ImGui::PushStyleColor(ImGuiCol_Button, is_on ? color::kAccentSoft : IM_COL32(0, 0, 0, 0));
     if (ImGui::Button(label)) context.edits.ask(ShowAllSettings{all});
     ImGui::PopStyleColor();
-    context.ui_probe.note_item(name);
-    tooltip_for_item(tooltip);
+    context.ui_probe.note_item(name, tooltip);
   };
   ImGui::SameLine(0, scaled(6));
   choice("Common", "inspector/common", false,

@@ -2,7 +2,6 @@
 #include "editor/views/inspector/problems.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
@@ -14,9 +13,6 @@
 #include "base/text.h"
 #include "editor/document/field_edits.h"
 #include "editor/views/inspector/inspector_view.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "export/export_project.h"
 #include "scene/opened_project.h"
 
@@ -128,6 +124,20 @@ std::optional<Visibility> whole_visibility(const OpenedScene& opened, const Surv
   return is_whole ? std::optional(visibility_of(*survey, frames)) : std::nullopt;
 }
 
+std::vector<Problem> lines_of(const ProblemsByField& problems) {
+  std::vector<Problem> lines;
+  for (const auto& [field, problem] : problems) lines.push_back(problem);
+  return lines;
+}
+
+// How much hangs on a guess: all distances on the lens, all places on the camera, the look of one aircraft on the rest.
+int weight_of(std::string_view field) {
+  constexpr std::array<std::string_view, 4> kFirst{"footage.", "camera.", "intruders", "light."};
+  const auto found =
+      std::find_if(kFirst.begin(), kFirst.end(), [&](std::string_view begin) { return field.starts_with(begin); });
+  return static_cast<int>(found - kFirst.begin());
+}
+
 }  // namespace
 
 std::string block_of(std::string_view key) {
@@ -224,24 +234,6 @@ std::optional<std::string> LossOfView::found(const ViewContext& context) {
   before_ = std::move(now);
   return message;
 }
-
-namespace {
-
-std::vector<Problem> lines_of(const ProblemsByField& problems) {
-  std::vector<Problem> lines;
-  for (const auto& [field, problem] : problems) lines.push_back(problem);
-  return lines;
-}
-
-// How much hangs on a guess: all distances on the lens, all places on the camera, the look of one aircraft on the rest.
-int weight_of(std::string_view field) {
-  constexpr std::array<std::string_view, 4> kFirst{"footage.", "camera.", "intruders", "light."};
-  const auto found =
-      std::find_if(kFirst.begin(), kFirst.end(), [&](std::string_view begin) { return field.starts_with(begin); });
-  return static_cast<int>(found - kFirst.begin());
-}
-
-}  // namespace
 
 int ProblemList::count_in(const std::string& block) const {
   const auto found = counts_.find(block);

@@ -2,20 +2,14 @@
 #include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <string>
 
 #include "base/ensure.h"
-#include "editor/document/field_edits.h"
 #include "editor/document/waypoint_edits.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -49,10 +43,47 @@ void draw_titles() {
   for (int column = 0; column < 5; ++column) {
     ImGui::TableSetColumnIndex(column);
     const ImU32 shade = column < 2 ? color::kQuiet : color::kAxes[static_cast<std::size_t>(column - 2)];
-    ImGui::PushStyleColor(ImGuiCol_Text, shade);
-    ImGui::TextUnformatted(kTitles[static_cast<std::size_t>(column)]);
-    ImGui::PopStyleColor();
+    draw_text(kTitles[static_cast<std::size_t>(column)], shade);
   }
+}
+
+constexpr int kMaxProblems = 3;
+
+// Of the waypoints as a whole and of single ones, above their table.
+void draw_problems(FieldRows& rows, const std::string& prefix) {
+  int shown = 0;
+  std::string last;
+  const ProblemsByField& problems = rows.problems();
+  for (auto found = problems.lower_bound(prefix); found != problems.end() && found->first.starts_with(prefix);
+       ++found) {
+    if (found->first == last || rows.sheet().find(found->first) != nullptr) continue;
+    last = found->first;
+    if (++shown > kMaxProblems) break;
+    const std::size_t bracket = last.find("waypoints[");
+    if (bracket != std::string::npos) {
+      const std::string number = last.substr(bracket + 10, last.find(']', bracket) - bracket - 10);
+      note("Waypoint " + number, true);
+    }
+    rows.problem_lines(last);
+  }
+}
+
+constexpr std::size_t kMaxFlags = 12;
+
+std::string tenths(double value, double step = 0.1) {
+  return number_text(std::round(value / step) * step);
+}
+
+void note_row(FieldRows& rows, const char* label, const std::string& text, const char* tooltip) {
+  (void)rows.begin_row(label);
+  draw_wrapped(text, color::kQuiet);
+  tooltip_for_item(tooltip);
+}
+
+std::string frames_text(const FlightFlag& flag) {
+  const long first = std::lround(flag.first_frame);
+  const long last = std::lround(flag.last_frame);
+  return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
 }
 
 }  // namespace
@@ -131,8 +162,7 @@ void WaypointTable::draw_row(const ViewContext& context, int intruder, int waypo
       context.edits.go_to_frame(static_cast<int>(std::clamp(frame, 0.0, 1e9)));
   }
   if (is_wrong) ImGui::PopStyleColor();
-  context.ui_probe.note_item("inspector/waypoint " + number);
-  tooltip_for_item("Click selects, double click goes to its frame");
+  context.ui_probe.note_item("inspector/waypoint " + number, "Click selects, double click goes to its frame");
   ImGui::TableSetColumnIndex(1);
   draw_frame(context, intruder, waypoint);
   context.ui_probe.note_item(fmt::format("inspector/waypoint {}/frame", number));
@@ -203,17 +233,18 @@ void WaypointTable::draw_buttons(const ViewContext& context, int intruder) const
   const auto after = static_cast<std::size_t>(chosen.value_or(0)) + 1;
   const bool has_room = chosen && after < count && frames_[after] - frames_[after - 1] >= 2 * kMinGap_frames;
   ButtonFlow flow;
-  if (flow.button("Add here", "A waypoint in the playhead's frame, on the trajectory (Enter)"))
+  if (context.ui_probe.noted(flow.button("Add here", "A waypoint in the playhead's frame, on the trajectory (Enter)"),
+                             "inspector/add waypoint"))
     add_waypoint_here(context);
-  context.ui_probe.note_item("inspector/add waypoint");
-  if (flow.button("Insert", "A waypoint on the curve, half way between this one and the next", has_room))
+  if (context.ui_probe.noted(
+          flow.button("Insert", "A waypoint on the curve, half way between this one and the next", has_room),
+          "inspector/insert waypoint"))
     insert_after(context, intruder, *chosen);
-  context.ui_probe.note_item("inspector/insert waypoint");
   if (flow.button("Duplicate##waypoint", "A copy of this one, farther on (Ctrl + D)", chosen.has_value()))
     duplicate_selected(context);
-  if (flow.button("Delete##waypoint", "Takes this waypoint out (Delete)", chosen && count > 1))
+  if (context.ui_probe.noted(flow.button("Delete##waypoint", "Takes this waypoint out (Delete)", chosen && count > 1),
+                             "inspector/delete waypoint"))
     delete_selected(context);
-  context.ui_probe.note_item("inspector/delete waypoint");
 }
 
 void WaypointTable::draw(const ViewContext& context, const ProblemsByField& problems, int intruder) {
@@ -221,31 +252,6 @@ void WaypointTable::draw(const ViewContext& context, const ProblemsByField& prob
   if (!frames_.empty()) draw_rows(context, problems, intruder);
   draw_buttons(context, intruder);
 }
-
-namespace {
-
-constexpr int kMaxProblems = 3;
-
-// Of the waypoints as a whole and of single ones, above their table.
-void draw_problems(FieldRows& rows, const std::string& prefix) {
-  int shown = 0;
-  std::string last;
-  const ProblemsByField& problems = rows.problems();
-  for (auto found = problems.lower_bound(prefix); found != problems.end() && found->first.starts_with(prefix);
-       ++found) {
-    if (found->first == last || rows.sheet().find(found->first) != nullptr) continue;
-    last = found->first;
-    if (++shown > kMaxProblems) break;
-    const std::size_t bracket = last.find("waypoints[");
-    if (bracket != std::string::npos) {
-      const std::string number = last.substr(bracket + 10, last.find(']', bracket) - bracket - 10);
-      note("Waypoint " + number, true);
-    }
-    rows.problem_lines(last);
-  }
-}
-
-}  // namespace
 
 void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   const std::optional<int> intruder = current_intruder(context);
@@ -271,32 +277,6 @@ void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   note("Flight");
   flight_.draw(context, rows, *intruder);
 }
-
-namespace {
-
-constexpr std::size_t kMaxFlags = 12;
-
-std::string tenths(double value, double step = 0.1) {
-  return number_text(std::round(value / step) * step);
-}
-
-void note_row(FieldRows& rows, const char* label, const std::string& text, const char* tooltip) {
-  (void)rows.begin_row(label);
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-  tooltip_for_item(tooltip);
-}
-
-std::string frames_text(const FlightFlag& flag) {
-  const long first = std::lround(flag.first_frame);
-  const long last = std::lround(flag.last_frame);
-  return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
-}
-
-}  // namespace
 
 Visibility visibility_of(const Survey& survey, int frames) {
   Visibility visibility{.frames = frames};

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/models/change_model.h"
 
-#include <fmt/format.h>
-#include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,10 +9,6 @@
 #include "editor/document/project_paths.h"
 #include "editor/views/export_view.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "first_project/first_model.h"
 
 namespace sigs::editor {
@@ -30,6 +23,21 @@ constexpr int kImageHeight_px = 132;
 constexpr float kImageShape = float(kImageHeight_px) / kImageWidth_px;
 constexpr ImU32 kSky = IM_COL32(104, 118, 138, 255);  // dark and white models stand out alike
 constexpr double kTileWidth = 92;                     // at least
+
+// The sample that a model was copied from, by its name.
+std::optional<std::size_t> sample_called(const std::vector<SampleModel>& samples, const std::string& model) {
+  const fs::path name = fs::path(model).filename();
+  const auto found =
+      std::ranges::find_if(samples, [&](const SampleModel& sample) { return sample.file.filename() == name; });
+  if (found == samples.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - samples.begin());
+}
+
+std::string message_of(const ChosenModel& chosen) {
+  std::string text = "Model: " + chosen.file.filename().string();
+  for (const std::string& guess : chosen.guesses) text += "; guessed: " + guess;
+  return text;
+}
 
 }  // namespace
 
@@ -95,27 +103,6 @@ std::optional<ModelGallery::Pressed> ModelGallery::draw(const ViewContext& conte
   ImGui::PopStyleVar();
   return pressed;
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-// The sample that a model was copied from, by its name.
-std::optional<std::size_t> sample_called(const std::vector<SampleModel>& samples, const std::string& model) {
-  const fs::path name = fs::path(model).filename();
-  const auto found =
-      std::ranges::find_if(samples, [&](const SampleModel& sample) { return sample.file.filename() == name; });
-  if (found == samples.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - samples.begin());
-}
-
-std::string message_of(const ChosenModel& chosen) {
-  std::string text = "Model: " + chosen.file.filename().string();
-  for (const std::string& guess : chosen.guesses) text += "; guessed: " + guess;
-  return text;
-}
-
-}  // namespace
 
 Result<ChosenModel> chosen_model(const ModelChoice& choice, const JobControl& control) {
   SceneFiles files;
@@ -228,10 +215,9 @@ void ChangeModelDialog::draw(const ViewContext& context) {
   ImGui::Dummy({0, scaled(6)});
   const char* const labels[] = {"Cancel", "Use this model"};
   align_buttons_right(labels, 2);
-  if (dialog_button("Cancel")) closed_ = true;
-  context.ui_probe.note_item("models/cancel");
+  if (context.ui_probe.noted(dialog_button("Cancel"), "models/cancel")) closed_ = true;
   ImGui::SameLine();
-  const bool is_entered = pressed(Key::enter) || pressed(Key::keypad_enter);
+  const bool is_entered = enter_pressed();
   if (dialog_button("Use this model", true, !is_copying) || (is_entered && !is_copying)) start(context);
   context.ui_probe.note_item("models/use");
   if (closed_ && is_awaited_) {

@@ -9,7 +9,6 @@
 
 #include "editor/preview/background_job.h"
 #include "editor/views/stages/stages_view.h"
-#include "editor/widgets/textures.h"
 #include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {

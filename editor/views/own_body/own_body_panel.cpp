@@ -2,7 +2,6 @@
 #include "editor/views/own_body/own_body_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,10 +10,7 @@
 
 #include "editor/views/export_view.h"
 #include "editor/views/inspector/field_rows.h"
-#include "editor/views/own_body/own_body_images.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -22,9 +18,7 @@ namespace {
 
 void panel_heading(const char* text) {
   ImGui::Dummy({0, scaled(4)});
-  ImGui::PushFont(font(Font::bold));
-  ImGui::TextUnformatted(text);
-  ImGui::PopFont();
+  draw_text(text, color::kText, Font::bold);
 }
 
 // As wide as the panel.
@@ -93,8 +87,7 @@ void OwnBodyPanel::draw_running(const ViewContext& context, OwnBodySession& sess
   ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
   note(progress_text(state));
   context.ui_probe.note_item("own body/progress");
-  if (wide_button("Stop", false, !state.is_stopping)) session.job().cancel();
-  context.ui_probe.note_item("own body/stop");
+  if (context.ui_probe.noted(wide_button("Stop", false, !state.is_stopping), "own body/stop")) session.job().cancel();
 }
 
 void OwnBodyPanel::draw_detection(const ViewContext& context, OwnBodySession& session) const {
@@ -104,8 +97,8 @@ void OwnBodyPanel::draw_detection(const ViewContext& context, OwnBodySession& se
     return;
   }
   if (has_footage(context)) note(frames_text(context));
-  if (wide_button("Detect", true, has_footage(context))) session.start(context.document);
-  context.ui_probe.note_item("own body/detect");
+  if (context.ui_probe.noted(wide_button("Detect", true, has_footage(context)), "own body/detect"))
+    session.start(context.document);
   if (!has_footage(context)) note("The footage cannot be read: choose a video in the inspector.", true);
   if (state.phase == JobPhase::failed) {
     note_line(Icon::warning, color::kBad, state.error.what);
@@ -141,22 +134,24 @@ bool OwnBodyPanel::draw_start_from(const ViewContext& context, OwnBodySession& s
         "the strokes.",
         true);
   ButtonFlow flow;
-  if (flow.button("Detected", "The mask that was found", session.detection().value != nullptr))
+  if (context.ui_probe.noted(flow.button("Detected", "The mask that was found", session.detection().value != nullptr),
+                             "own body/start from found"))
     session.start_from_found();
-  context.ui_probe.note_item("own body/start from found");
   if (session.could_start_from_project(context.project()) && !session.is_used(context.project())) {
-    if (flow.button("Project's", "The mask that the project uses")) session.start_from_project(context.project());
-    context.ui_probe.note_item("own body/start from project");
+    if (context.ui_probe.noted(flow.button("Project's", "The mask that the project uses"),
+                               "own body/start from project"))
+      session.start_from_project(context.project());
   }
-  if (flow.button("File...", "A mask in a file")) session.ask_start_from_file(context.project());
-  context.ui_probe.note_item("own body/start from file");
-  if (flow.button("Empty", "Nothing is masked")) session.start_from_empty();
-  context.ui_probe.note_item("own body/clear");
+  if (context.ui_probe.noted(flow.button("File...", "A mask in a file"), "own body/start from file"))
+    session.ask_start_from_file(context.project());
+  if (context.ui_probe.noted(flow.button("Empty", "Nothing is masked"), "own body/clear")) session.start_from_empty();
   if (session.edge_waits()) {
     note("The soft edge counts for strokes from now on. This mask has the edge that it had.");
-    if (flow.button("Feather this mask", "The whole mask gets the edge of the setting; Ctrl + Z brings the other back"))
+    if (context.ui_probe.noted(
+            flow.button("Feather this mask",
+                        "The whole mask gets the edge of the setting; Ctrl + Z brings the other back"),
+            "own body/feather"))
       session.feather();
-    context.ui_probe.note_item("own body/feather");
   }
   return session.painting().state() != before;
 }
@@ -165,8 +160,7 @@ void OwnBodyPanel::draw_misfit(const ViewContext& context, OwnBodySession& sessi
   if (session.painting().empty()) return;
   note_line(Icon::warning, color::kPartly,
             "This mask was painted for footage of another size. Save it, or begin anew.");
-  if (wide_button("Begin anew", false, true)) session.begin_anew();
-  context.ui_probe.note_item("own body/begin anew");
+  if (context.ui_probe.noted(wide_button("Begin anew", false, true), "own body/begin anew")) session.begin_anew();
 }
 
 void OwnBodyPanel::draw_replacing(const ViewContext& context, OwnBodySession& session) {
@@ -178,16 +172,14 @@ void OwnBodyPanel::draw_replacing(const ViewContext& context, OwnBodySession& se
             fmt::format("The project uses {}{}. Replace it, or take a new name?", name,
                         is_elsewhere ? ", which lies elsewhere: other projects may use it too" : ""));
   ButtonFlow flow;
-  if (flow.button("New name...", "The old mask stays as it is")) {
+  if (context.ui_probe.noted(flow.button("New name...", "The old mask stays as it is"), "own body/new name")) {
     session.ask_save_and_use(context.project());
     asks_to_replace_ = false;
   }
-  context.ui_probe.note_item("own body/new name");
-  if (flow.button("Replace", usual_mask_file(context.project()).c_str())) {
+  if (context.ui_probe.noted(flow.button("Replace", usual_mask_file(context.project()).c_str()), "own body/replace")) {
     session.replace_and_use(context.project());
     asks_to_replace_ = false;
   }
-  context.ui_probe.note_item("own body/replace");
   if (flow.button("Cancel", "")) asks_to_replace_ = false;
 }
 
@@ -203,16 +195,16 @@ void OwnBodyPanel::draw_file(const ViewContext& context, OwnBodySession& session
     draw_replacing(context, session);
     return;
   }
-  if (wide_button("Use in project", true,
-                  session.fits() && !session.is_used(project) && (is_unsaved || !session.file().empty()))) {
+  if (context.ui_probe.noted(
+          wide_button("Use in project", true,
+                      session.fits() && !session.is_used(project) && (is_unsaved || !session.file().empty())),
+          "own body/use", "Saves the mask and hides intruders behind it")) {
     asks_to_replace_ = session.could_replace(project);
     if (!asks_to_replace_) session.use(project);
   }
-  context.ui_probe.note_item("own body/use");
-  tooltip_for_item("Saves the mask and hides intruders behind it");
-  if (wide_button("Save as...", false, !session.painting().empty())) session.ask_save_as(project);
-  context.ui_probe.note_item("own body/save");
-  tooltip_for_item("A PNG of 8 bits, of the footage's size: 255 is own body");
+  if (context.ui_probe.noted(wide_button("Save as...", false, !session.painting().empty()), "own body/save",
+                             "A PNG of 8 bits, of the footage's size: 255 is own body"))
+    session.ask_save_as(project);
 }
 
 bool OwnBodyPanel::draw(const ViewContext& context, OwnBodySession& session) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/own_body/own_body_session.h"
 
-#include <string>
 #include <utility>
 
 #include "base/paths.h"

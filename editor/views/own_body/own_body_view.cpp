@@ -2,22 +2,15 @@
 #include "editor/views/own_body/own_body_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "base/text.h"
-#include "editor/views/own_body/own_body_images.h"
 #include "editor/views/viewport/viewport_view.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -36,6 +29,9 @@ void draw_sign(ImDrawList& draw, const glm::dvec2& at, bool minus, ImU32 color) 
     if (!minus) draw.AddLine(im(at - glm::dvec2(0, arm)), im(at + glm::dvec2(0, arm)), ink, width);
   }
 }
+
+constexpr double kPanel = 290;  // wide, where the text is 15 px high
+constexpr double kRadius = 120;
 
 }  // namespace
 
@@ -162,13 +158,6 @@ void OwnBodyCanvas::draw_readout(const OwnBodySession& session) const {
     draw.AddText(&mono, mono.FontSize, {low.x + size.x - width - scaled(10), y}, color::kQuiet, right.c_str());
 }
 
-namespace {
-
-constexpr double kPanel = 290;  // wide, where the text is 15 px high
-constexpr double kRadius = 120;
-
-}  // namespace
-
 ToolbarItem OwnBodyView::look_button(const ViewContext& context, const char* label, const char* tooltip, Mode look) {
   ToolbarItem item =
       choice_item({.id = label, .label = label, .tooltip = tooltip}, look_, look, [this] { grid_.show_all(); });
@@ -179,12 +168,13 @@ ToolbarItem OwnBodyView::look_button(const ViewContext& context, const char* lab
 void OwnBodyView::draw_radius(const ViewContext& context) {
   auto radius = static_cast<float>(canvas_.radius_px());
   ImGui::SetNextItemWidth(scaled(kRadius));
-  if (ImGui::DragFloat("##radius", &radius, std::max(0.05F, radius * 0.01F), static_cast<float>(kMinRadius_px),
-                       static_cast<float>(kMaxRadius_px), radius < 10 ? "radius %.1f px" : "radius %.0f px",
-                       ImGuiSliderFlags_AlwaysClamp))
+  if (context.ui_probe.noted(
+          ImGui::DragFloat("##radius", &radius, std::max(0.05F, radius * 0.01F), static_cast<float>(kMinRadius_px),
+                           static_cast<float>(kMaxRadius_px), radius < 10 ? "radius %.1f px" : "radius %.0f px",
+                           ImGuiSliderFlags_AlwaysClamp),
+          "own body/radius",
+          "Radius of the brush in the footage's pixels ([ and ]); its edge is as soft as the setting says"))
     canvas_.set_radius_px(radius);
-  context.ui_probe.note_item("own body/radius");
-  tooltip_for_item("Radius of the brush in the footage's pixels ([ and ]); its edge is as soft as the setting says");
 }
 
 void OwnBodyView::add_brush_items(std::vector<ToolbarItem>& items, const ViewContext& context, MaskPainting& painting) {

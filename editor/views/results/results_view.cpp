@@ -2,19 +2,12 @@
 #include "editor/views/results/results_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <string>
 #include <vector>
 
 #include "base/text.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -141,47 +134,6 @@ void draw_sample(ImDrawList& list, ImVec2 at, float width, const LegendLine& lin
     list.AddRectFilled({at.x + x, at.y - thick / 2}, {at.x + std::min(x + dash, width), at.y + thick / 2}, line.color);
 }
 
-}  // namespace
-
-void draw_result_boxes(const ImageCanvas& canvas, const ViewContext& context, int frame) {
-  if (context.scored == nullptr) return;
-  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
-  for (const ScoredTracker& tracker : context.scored->trackers)
-    if (tracker.file.is_shown) draw_reported(canvas, *context.scored, tracker, frame);
-  canvas.draw.PopClipRect();
-}
-
-void draw_result_legend(const ImageCanvas& canvas, const ViewContext& context, int frame) {
-  if (context.scored == nullptr) return;
-  ImGui::PushFont(font(Font::small));
-  const std::vector<LegendLine> lines = legend_of(*context.scored, frame);
-  const float sample = scaled(25);
-  const float gap = scaled(7);
-  const float row = std::ceil(ImGui::GetFontSize() + scaled(3));
-  float names = 0;
-  float values = 0;
-  for (const LegendLine& line : lines) {
-    names = std::max(names, ImGui::CalcTextSize(line.name.c_str()).x);
-    values = std::max(values, ImGui::CalcTextSize(line.value.c_str()).x);
-  }
-  const ImVec2 size{2 * gap + sample + gap + names + 2 * gap + values, static_cast<float>(lines.size()) * row + gap};
-  const glm::dvec2 low = glm::floor(glm::dvec2(canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8) - size.y));
-  const ImVec2 at = im(low);
-  context.ui_probe.note("viewport/legend", {low, low + glm::dvec2(size.x, size.y)});
-  canvas.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(12, 13, 16, 205), scaled(3));
-  float y = at.y + gap / 2;
-  for (const LegendLine& line : lines) {
-    draw_sample(canvas.draw, {at.x + gap, std::floor(y + row / 2)}, sample, line);
-    const float x = at.x + gap + sample + gap;
-    canvas.draw.AddText({x, y}, color::kText, line.name.c_str());
-    canvas.draw.AddText({x + names + 2 * gap, y}, line.color, line.value.c_str());
-    y += row;
-  }
-  ImGui::PopFont();
-}
-
-namespace {
-
 constexpr int kColumns = 7;  // eye, name, four figures, remove
 
 struct Column {
@@ -228,10 +180,9 @@ std::string share_text(double share) {
 void draw_switch(const ViewContext& context, const ScoredTracker& tracker, const std::string& place) {
   const float side = ImGui::GetFrameHeight();
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  if (ImGui::InvisibleButton("show", {side * 0.8F, side}))
+  if (context.ui_probe.noted(ImGui::InvisibleButton("show", {side * 0.8F, side}), place + "/show",
+                             tracker.file.is_shown ? "hide its boxes and its curve" : "show its boxes and its curve"))
     context.edits.ask(ShowResults{tracker.file.id, !tracker.file.is_shown});
-  context.ui_probe.note_item(place + "/show");
-  tooltip_for_item(tracker.file.is_shown ? "hide its boxes and its curve" : "show its boxes and its curve");
   const float half = side * 0.26F;
   const ImVec2 middle{low.x + side * 0.4F, low.y + side / 2};
   const ImU32 shade = result_color(tracker.file.color);
@@ -280,13 +231,13 @@ void draw_tracker(const ViewContext& context, const ScoredTracker& tracker) {
   const bool is_bad = !tracker.problem.empty();
   const std::string name = elided(shown_name(scored, tracker), ImGui::GetContentRegionAvail().x);
   ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(is_bad ? color::kBad : color::kText), "%s", name.c_str());
-  context.ui_probe.note_item(is_bad ? place + "/problem" : place);
-  tooltip_for_item((is_bad ? tracker.problem : counts_text(tracker)).c_str());
+  context.ui_probe.note_item(is_bad ? place + "/problem" : place,
+                             (is_bad ? tracker.problem : counts_text(tracker)).c_str());
   draw_figures(scored, tracker);
   ImGui::TableNextColumn();
-  if (icon_button("remove", Icon::cross, "remove it from here; the file stays"))
+  if (context.ui_probe.noted(icon_button("remove", Icon::cross, "remove it from here; the file stays"),
+                             place + "/remove"))
     context.edits.ask(RemoveResults{tracker.file.id});
-  context.ui_probe.note_item(place + "/remove");
   ImGui::PopID();
 }
 
@@ -309,9 +260,7 @@ void draw_table(const ViewContext& context) {
 void draw_problems(const Scored& scored) {
   for (const ScoredTracker& tracker : scored.trackers) {
     if (tracker.problem.empty()) continue;
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
-    ImGui::TextWrapped("%s", shortened(tracker.problem).c_str());
-    ImGui::PopStyleColor();
+    draw_wrapped(shortened(tracker.problem), color::kBad);
   }
 }
 
@@ -327,13 +276,50 @@ void draw_truth(const ViewContext& context) {
 
 }  // namespace
 
+void draw_result_boxes(const ImageCanvas& canvas, const ViewContext& context, int frame) {
+  if (context.scored == nullptr) return;
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  for (const ScoredTracker& tracker : context.scored->trackers)
+    if (tracker.file.is_shown) draw_reported(canvas, *context.scored, tracker, frame);
+  canvas.draw.PopClipRect();
+}
+
+void draw_result_legend(const ImageCanvas& canvas, const ViewContext& context, int frame) {
+  if (context.scored == nullptr) return;
+  ImGui::PushFont(font(Font::small));
+  const std::vector<LegendLine> lines = legend_of(*context.scored, frame);
+  const float sample = scaled(25);
+  const float gap = scaled(7);
+  const float row = std::ceil(ImGui::GetFontSize() + scaled(3));
+  float names = 0;
+  float values = 0;
+  for (const LegendLine& line : lines) {
+    names = std::max(names, ImGui::CalcTextSize(line.name.c_str()).x);
+    values = std::max(values, ImGui::CalcTextSize(line.value.c_str()).x);
+  }
+  const ImVec2 size{2 * gap + sample + gap + names + 2 * gap + values, static_cast<float>(lines.size()) * row + gap};
+  const glm::dvec2 low = glm::floor(glm::dvec2(canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8) - size.y));
+  const ImVec2 at = im(low);
+  context.ui_probe.note("viewport/legend", {low, low + glm::dvec2(size.x, size.y)});
+  canvas.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(12, 13, 16, 205), scaled(3));
+  float y = at.y + gap / 2;
+  for (const LegendLine& line : lines) {
+    draw_sample(canvas.draw, {at.x + gap, std::floor(y + row / 2)}, sample, line);
+    const float x = at.x + gap + sample + gap;
+    canvas.draw.AddText({x, y}, color::kText, line.name.c_str());
+    canvas.draw.AddText({x + names + 2 * gap, y}, line.color, line.value.c_str());
+    y += row;
+  }
+  ImGui::PopFont();
+}
+
 void draw_results_panel(const ViewContext& context) {
   if (context.scored == nullptr) return;
   draw_table(context);
   draw_problems(*context.scored);
-  if (ImGui::Button("Load more...")) context.edits.ask(LoadResults{});
-  context.ui_probe.note_item("results/load");
-  tooltip_for_item("Another tracker's result file; files can be dropped onto the window as well");
+  if (context.ui_probe.noted(ImGui::Button("Load more..."), "results/load",
+                             "Another tracker's result file; files can be dropped onto the window as well"))
+    context.edits.ask(LoadResults{});
   // Below the button, or that would move as the text grows and shrinks.
   draw_truth(context);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/stages/stages_view.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -11,10 +9,6 @@
 
 #include "base/text.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -57,6 +51,14 @@ StageTile tile_of(const std::string& stage, const cv::Mat& image) {
       std::find_if(kWords.begin(), kWords.end(), [&](const Words& known) { return stage == known.stage; });
   if (words == kWords.end()) return {stage, "", image};
   return {words->label, words->tooltip, image};
+}
+
+double head_px() {
+  return std::ceil(font(Font::small)->FontSize + scaled(8));
+}
+
+double gap_px() {
+  return std::round(scaled(4));
 }
 
 }  // namespace
@@ -103,18 +105,6 @@ cv::Mat Differences::of(const cv::Mat& a, const cv::Mat& b, double gain) {
   made_.push_back({a, b, gain, difference(a, b, gain)});
   return made_.back().image;
 }
-
-namespace {
-
-double head_px() {
-  return std::ceil(font(Font::small)->FontSize + scaled(8));
-}
-
-double gap_px() {
-  return std::round(scaled(4));
-}
-
-}  // namespace
 
 GridShape grid_shape(int count, const glm::dvec2& image_px, const glm::dvec2& room_px, double label_px) {
   GridShape best;

@@ -2,16 +2,12 @@
 #include "editor/views/stages/stages_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -172,8 +168,9 @@ void StagesView::draw_method_choice(const ViewContext& context) {
     if (!comparing && ImGui::Selectable(own.c_str(), other_method(context) == own_method(context))) method_.reset();
     for (const MethodChoice method : kMethods) {
       if (method == own_method(context)) continue;
-      if (ImGui::Selectable(method_name(method).c_str(), method == other_method(context))) method_ = method;
-      context.ui_probe.note_item("stages/method/" + method_name(method));
+      if (context.ui_probe.noted(ImGui::Selectable(method_name(method).c_str(), method == other_method(context)),
+                                 "stages/method/" + method_name(method)))
+        method_ = method;
     }
     end_choice();
   }

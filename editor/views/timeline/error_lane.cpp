@@ -2,17 +2,12 @@
 #include "editor/views/timeline/timeline_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
-
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -39,27 +34,6 @@ ErrorCurve curve_of_tracker(const ScoredTracker& tracker, int first_frame) {
   }
   return curve;
 }
-
-}  // namespace
-
-ErrorCurves error_curves(const Scored& scored) {
-  ErrorCurves result{.first_frame = scored.first_frame};
-  std::vector<double> all;
-  for (const ScoredTracker& tracker : scored.trackers) {
-    if (!tracker.file.is_shown || !tracker.score) continue;
-    result.curves.push_back(curve_of_tracker(tracker, scored.first_frame));
-    const std::vector<double>& errors_px = result.curves.back().errors_px;
-    all.insert(all.end(), errors_px.begin(), errors_px.end());
-  }
-  for (const double error_px : all)
-    if (std::isfinite(error_px)) result.max_px = std::max(result.max_px, error_px);
-  // From 0 in any case: how far a curve lies above the ground is what is read.
-  all.push_back(0);
-  result.scale = scale_for(all, kMinSpan_px, Scaling::logarithmic);
-  return result;
-}
-
-namespace {
 
 constexpr double kPrecision_px = 20;  // the threshold that precision is usually told at
 constexpr const char* kHelp =
@@ -173,6 +147,23 @@ void tooltip_at(const ViewContext& context, int frame) {
 }
 
 }  // namespace
+
+ErrorCurves error_curves(const Scored& scored) {
+  ErrorCurves result{.first_frame = scored.first_frame};
+  std::vector<double> all;
+  for (const ScoredTracker& tracker : scored.trackers) {
+    if (!tracker.file.is_shown || !tracker.score) continue;
+    result.curves.push_back(curve_of_tracker(tracker, scored.first_frame));
+    const std::vector<double>& errors_px = result.curves.back().errors_px;
+    all.insert(all.end(), errors_px.begin(), errors_px.end());
+  }
+  for (const double error_px : all)
+    if (std::isfinite(error_px)) result.max_px = std::max(result.max_px, error_px);
+  // From 0 in any case: how far a curve lies above the ground is what is read.
+  all.push_back(0);
+  result.scale = scale_for(all, kMinSpan_px, Scaling::logarithmic);
+  return result;
+}
 
 void ErrorLane::refresh(const Scored& scored) {
   std::vector<Drawn> present;

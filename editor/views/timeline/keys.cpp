@@ -2,24 +2,16 @@
 #include "editor/views/timeline/timeline_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "editor/document/waypoint_edits.h"
-#include "editor/views/timeline/ruler.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -152,19 +144,6 @@ void tooltip_for_keys(const KeyMarks& marks, double mouse_frame) {
   tooltip_for_item(flags.empty() ? "double click: add a waypoint on the curve here" : flags.c_str());
 }
 
-}  // namespace
-
-// What is worked out once for the row that is drawn.
-struct KeyRows::Row {
-  const TimelineStrip& strip;
-  int intruder = 0;
-  std::vector<double> frames;  // of its waypoints
-  float top_y = 0;
-  int under = -1;  // the waypoint below the mouse
-};
-
-namespace {
-
 void select(const ViewContext& context, int intruder, int waypoint) {
   const Selected kind = waypoint < 0 ? Selected::intruder : Selected::waypoint;
   context.edits.select({kind, intruder, std::max(0, waypoint)});
@@ -234,6 +213,15 @@ int key_under_mouse(const TimelineStrip& strip, const std::vector<double>& frame
 }
 
 }  // namespace
+
+// What is worked out once for the row that is drawn.
+struct KeyRows::Row {
+  const TimelineStrip& strip;
+  int intruder = 0;
+  std::vector<double> frames;  // of its waypoints
+  float top_y = 0;
+  int under = -1;  // the waypoint below the mouse
+};
 
 float KeyRows::row_height() {
   return std::ceil(ImGui::GetFontSize() + scaled(6));

@@ -6,14 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "base/ensure.h"
 #include "base/pose.h"
 #include "editor/views/timeline/lane_marks.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -147,6 +144,16 @@ std::size_t count_of(const Survey& survey, Lane lane) {
   return 0;
 }
 
+// In degrees, of a lane of the camera.
+double angle_deg(const Attitude& attitude, Lane lane) {
+  if (lane == Lane::roll) return deg_of_rad(attitude.roll_rad);
+  return deg_of_rad(lane == Lane::pitch ? attitude.pitch_rad : attitude.yaw_rad);
+}
+
+std::string angle_text(double angle_deg) {
+  return fmt::format("{:.1f}\u00b0", std::abs(angle_deg) < 0.05 ? 0.0 : angle_deg);
+}
+
 }  // namespace
 
 std::span<const LaneStyle> lane_styles() {
@@ -159,16 +166,6 @@ const LaneStyle& style_of(Lane lane) {
   ENSURE(style != kLaneStyles.end());
   return *style;
 }
-
-namespace {
-
-// In degrees, of a lane of the camera.
-double angle_deg(const Attitude& attitude, Lane lane) {
-  if (lane == Lane::roll) return deg_of_rad(attitude.roll_rad);
-  return deg_of_rad(lane == Lane::pitch ? attitude.pitch_rad : attitude.yaw_rad);
-}
-
-}  // namespace
 
 double deviation_in(const Survey& survey, Lane lane, std::size_t i) {
   if (!is_of_camera(lane) || !survey.camera[i].sd) return std::numeric_limits<double>::quiet_NaN();
@@ -224,14 +221,6 @@ LaneValues values_of(const Survey& survey, Lane lane) {
   }
   return result;
 }
-
-namespace {
-
-std::string angle_text(double angle_deg) {
-  return fmt::format("{:.1f}\u00b0", std::abs(angle_deg) < 0.05 ? 0.0 : angle_deg);
-}
-
-}  // namespace
 
 std::string value_text(Lane lane, double value) {
   if (!std::isfinite(value)) return "-";

@@ -2,24 +2,14 @@
 #include "editor/views/timeline/timeline_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <optional>
 #include <string>
 
 #include "editor/document/field_edits.h"
-#include "editor/views/context.h"
 #include "editor/views/timeline/lane_marks.h"
-#include "editor/views/timeline/lane_values.h"
-#include "editor/views/timeline/ruler.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -49,6 +39,40 @@ constexpr const char* kKey = "camera.track.offset_s";
 
 glm::dvec2 mouse() {
   return {ImGui::GetMousePos().x, ImGui::GetMousePos().y};
+}
+
+constexpr double kMinCurve_px = 29;
+constexpr double kMaxCurve_px = 96;
+constexpr float kErrorsShare = 1.7F;  // of a curve's height: several curves, and bars below them
+
+float strip_height() {
+  return std::ceil(font(Font::small)->FontSize + scaled(5));
+}
+
+LaneGroup group_of(Lane lane) {
+  return is_of_camera(lane) ? LaneGroup::camera : LaneGroup::intruder;
+}
+
+// "timeline/mark/entry": the first one of each kind.
+void note_marks(const ViewContext& context, const TimelineStrip& strip, const std::vector<EncounterMark>& marks) {
+  if (!context.ui_probe.wanted()) return;
+  constexpr std::array<const char*, 3> kNames{"entry", "exit", "closest"};
+  const double middle_y = (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y) / 2.0;
+  for (auto mark = marks.rbegin(); mark != marks.rend(); ++mark) {
+    const glm::dvec2 at{strip.moment_x(mark->frame), middle_y};
+    if (strip.shows(mark->frame))
+      context.ui_probe.note(fmt::format("timeline/mark/{}", kNames[static_cast<std::size_t>(mark->kind)]),
+                            {at - 3.0, at + 3.0});
+  }
+}
+
+std::string extent_text(Lane lane, const LaneValues& values) {
+  if (values.values.empty()) return {};
+  const std::string minimum = value_text(lane, values.minimum);
+  const std::string maximum = value_text(lane, values.maximum);
+  if (minimum == maximum) return {};
+  const std::string unit = minimum.substr(std::min(minimum.size(), minimum.find(' ')));
+  return (maximum.ends_with(unit) ? minimum.substr(0, minimum.size() - unit.size()) : minimum) + " .. " + maximum;
 }
 
 }  // namespace
@@ -96,44 +120,6 @@ struct LaneRows::Row {
   float height = 0;
 };
 
-namespace {
-
-constexpr double kMinCurve_px = 29;
-constexpr double kMaxCurve_px = 96;
-constexpr float kErrorsShare = 1.7F;  // of a curve's height: several curves, and bars below them
-
-float strip_height() {
-  return std::ceil(font(Font::small)->FontSize + scaled(5));
-}
-
-LaneGroup group_of(Lane lane) {
-  return is_of_camera(lane) ? LaneGroup::camera : LaneGroup::intruder;
-}
-
-// "timeline/mark/entry": the first one of each kind.
-void note_marks(const ViewContext& context, const TimelineStrip& strip, const std::vector<EncounterMark>& marks) {
-  if (!context.ui_probe.wanted()) return;
-  constexpr std::array<const char*, 3> kNames{"entry", "exit", "closest"};
-  const double middle_y = (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y) / 2.0;
-  for (auto mark = marks.rbegin(); mark != marks.rend(); ++mark) {
-    const glm::dvec2 at{strip.moment_x(mark->frame), middle_y};
-    if (strip.shows(mark->frame))
-      context.ui_probe.note(fmt::format("timeline/mark/{}", kNames[static_cast<std::size_t>(mark->kind)]),
-                            {at - 3.0, at + 3.0});
-  }
-}
-
-std::string extent_text(Lane lane, const LaneValues& values) {
-  if (values.values.empty()) return {};
-  const std::string minimum = value_text(lane, values.minimum);
-  const std::string maximum = value_text(lane, values.maximum);
-  if (minimum == maximum) return {};
-  const std::string unit = minimum.substr(std::min(minimum.size(), minimum.find(' ')));
-  return (maximum.ends_with(unit) ? minimum.substr(0, minimum.size() - unit.size()) : minimum) + " .. " + maximum;
-}
-
-}  // namespace
-
 LaneRows::LaneRows() {
   for (const LaneStyle& style : lane_styles()) lanes_.push_back({.style = style});
 }
@@ -149,8 +135,8 @@ bool LaneRows::shows_errors(const ViewContext& context) const {
 }
 
 void LaneRows::draw_chooser(const ViewContext& context) {
-  if (icon_button("lanes", Icon::settings, "choose the lanes below")) ImGui::OpenPopup("choose lanes");
-  context.ui_probe.note_item("timeline/lanes");
+  if (context.ui_probe.noted(icon_button("lanes", Icon::settings, "choose the lanes below"), "timeline/lanes"))
+    ImGui::OpenPopup("choose lanes");
   if (!ImGui::BeginPopup("choose lanes")) return;
   const auto draw_choice = [&](const char* title, bool& is_shown) {
     ImGui::Checkbox(title, &is_shown);

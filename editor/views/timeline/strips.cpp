@@ -5,11 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <string>
-
-#include "editor/views/timeline/lane_values.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 

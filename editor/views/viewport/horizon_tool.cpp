@@ -6,14 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "base/pose.h"
 #include "editor/views/context.h"
 #include "editor/views/viewport/overlays.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -94,69 +90,6 @@ void draw_flight_mark(const ImageCanvas& canvas, const glm::dvec2& pixel) {
   }
 }
 
-}  // namespace
-
-std::vector<HeadingMark> heading_marks(const FootageCamera& eye, const glm::dvec2& image_px, double reference_rad,
-                                       double number_gap_deg) {
-  const HeadingSteps steps = steps_for(number_gap_deg);
-  std::vector<HeadingMark> marks;
-  for (int heading_deg = 0; heading_deg < 360; heading_deg += steps.mark_deg) {
-    const double azimuth_rad = rad_of_deg(heading_deg) - reference_rad;
-    const std::optional<glm::dvec2> pixel = pixel_towards(direction_at(azimuth_rad, 0), eye);
-    const std::optional<glm::dvec2> higher = pixel_towards(direction_at(azimuth_rad, kUp_rad), eye);
-    if (!pixel || !higher || !is_in(*pixel, image_px) || glm::distance(*pixel, *higher) < 1e-6) continue;
-    marks.push_back({.heading_deg = static_cast<double>(heading_deg),
-                     .pixel = *pixel,
-                     .up = glm::normalize(*higher - *pixel),
-                     .is_numbered = heading_deg % steps.number_deg == 0});
-  }
-  return marks;
-}
-
-std::string heading_text(double heading_deg, bool from_north) {
-  const int whole = static_cast<int>(std::lround(heading_deg)) % 360;
-  if (!from_north) return fmt::format("{}\u00b0", whole > 180 ? whole - 360 : whole);
-  if (whole % 90 == 0) return std::string(1, "NESW"[whole / 90]);
-  return fmt::format("{:03}", whole);
-}
-
-HeadingReference heading_reference(const ViewContext& context) {
-  if (!context.shown.scene || !context.shown.scene->project) return {};
-  const Scene& scene = context.shown.scene->draft.scene;
-  const GeoSettings& geo = context.shown.scene->project->geo;
-  // Without a heading and without a log the world's X axis is taken to be north.
-  const bool is_known = geo.heading_deg || scene.motion.path;
-  if (!scene.earth || !is_known) return {};
-  return {.heading_of_x_rad = scene.earth->heading_rad(), .is_north = true};
-}
-
-std::optional<glm::dvec3> flight_direction(const ViewContext& context, int frame) {
-  const double time_s = time_of(context, frame);
-  const glm::dvec3 before_m = camera_pose_at(context, time_s - kSpeedSpan_s / 2).translation_m;
-  const glm::dvec3 way_m = camera_pose_at(context, time_s + kSpeedSpan_s / 2).translation_m - before_m;
-  if (glm::length(way_m) < kMinSpeed_mps * kSpeedSpan_s) return std::nullopt;
-  return glm::normalize(way_m);
-}
-
-void draw_heading_marks(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye,
-                        LabelPlacer& labels) {
-  const glm::dvec2 image_px{canvas.image_px.width, canvas.image_px.height};
-  const HeadingReference reference = heading_reference(context);
-  const std::vector<HeadingMark> marks =
-      heading_marks(eye, image_px, reference.heading_of_x_rad, number_gap_deg_of(canvas, eye));
-  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
-  for (const HeadingMark& mark : marks) {
-    draw_mark(canvas, mark);
-    if (mark.is_numbered) draw_number(canvas, mark, reference.is_north, labels);
-  }
-  if (const std::optional<glm::dvec3> ahead = flight_direction(context, eye.frame))
-    if (const std::optional<glm::dvec2> pixel = pixel_towards(*ahead, eye); pixel && is_in(*pixel, image_px))
-      draw_flight_mark(canvas, *pixel);
-  canvas.draw.PopClipRect();
-}
-
-namespace {
-
 constexpr double kLineReach_px = 7;  // of the line, where text is 15 px high
 
 glm::dvec2 image_size(const ToolContext& tool) {
@@ -219,6 +152,65 @@ void draw_text(const ImageCanvas& canvas, const HorizonGrip& grip, const std::st
 }
 
 }  // namespace
+
+std::vector<HeadingMark> heading_marks(const FootageCamera& eye, const glm::dvec2& image_px, double reference_rad,
+                                       double number_gap_deg) {
+  const HeadingSteps steps = steps_for(number_gap_deg);
+  std::vector<HeadingMark> marks;
+  for (int heading_deg = 0; heading_deg < 360; heading_deg += steps.mark_deg) {
+    const double azimuth_rad = rad_of_deg(heading_deg) - reference_rad;
+    const std::optional<glm::dvec2> pixel = pixel_towards(direction_at(azimuth_rad, 0), eye);
+    const std::optional<glm::dvec2> higher = pixel_towards(direction_at(azimuth_rad, kUp_rad), eye);
+    if (!pixel || !higher || !is_in(*pixel, image_px) || glm::distance(*pixel, *higher) < 1e-6) continue;
+    marks.push_back({.heading_deg = static_cast<double>(heading_deg),
+                     .pixel = *pixel,
+                     .up = glm::normalize(*higher - *pixel),
+                     .is_numbered = heading_deg % steps.number_deg == 0});
+  }
+  return marks;
+}
+
+std::string heading_text(double heading_deg, bool from_north) {
+  const int whole = static_cast<int>(std::lround(heading_deg)) % 360;
+  if (!from_north) return fmt::format("{}\u00b0", whole > 180 ? whole - 360 : whole);
+  if (whole % 90 == 0) return std::string(1, "NESW"[whole / 90]);
+  return fmt::format("{:03}", whole);
+}
+
+HeadingReference heading_reference(const ViewContext& context) {
+  if (!context.shown.scene || !context.shown.scene->project) return {};
+  const Scene& scene = context.shown.scene->draft.scene;
+  const GeoSettings& geo = context.shown.scene->project->geo;
+  // Without a heading and without a log the world's X axis is taken to be north.
+  const bool is_known = geo.heading_deg || scene.motion.path;
+  if (!scene.earth || !is_known) return {};
+  return {.heading_of_x_rad = scene.earth->heading_rad(), .is_north = true};
+}
+
+std::optional<glm::dvec3> flight_direction(const ViewContext& context, int frame) {
+  const double time_s = time_of(context, frame);
+  const glm::dvec3 before_m = camera_pose_at(context, time_s - kSpeedSpan_s / 2).translation_m;
+  const glm::dvec3 way_m = camera_pose_at(context, time_s + kSpeedSpan_s / 2).translation_m - before_m;
+  if (glm::length(way_m) < kMinSpeed_mps * kSpeedSpan_s) return std::nullopt;
+  return glm::normalize(way_m);
+}
+
+void draw_heading_marks(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye,
+                        LabelPlacer& labels) {
+  const glm::dvec2 image_px{canvas.image_px.width, canvas.image_px.height};
+  const HeadingReference reference = heading_reference(context);
+  const std::vector<HeadingMark> marks =
+      heading_marks(eye, image_px, reference.heading_of_x_rad, number_gap_deg_of(canvas, eye));
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  for (const HeadingMark& mark : marks) {
+    draw_mark(canvas, mark);
+    if (mark.is_numbered) draw_number(canvas, mark, reference.is_north, labels);
+  }
+  if (const std::optional<glm::dvec3> ahead = flight_direction(context, eye.frame))
+    if (const std::optional<glm::dvec2> pixel = pixel_towards(*ahead, eye); pixel && is_in(*pixel, image_px))
+      draw_flight_mark(canvas, *pixel);
+  canvas.draw.PopClipRect();
+}
 
 void keep_horizon(const ViewContext& context) {
   put_tilt(context, tilt_of(context.project()), {});

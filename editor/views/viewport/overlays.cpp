@@ -6,14 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "editor/geometry/image_view.h"
 #include "editor/views/own_body/own_body_images.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "scene/scene_at.h"
 
 namespace sigs::editor {

@@ -2,20 +2,12 @@
 #include "editor/views/viewport/viewport_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -32,15 +24,6 @@ struct Part {
 double mebibytes(std::size_t bytes) {
   return static_cast<double>(bytes) / (1 << 20);
 }
-
-}  // namespace
-
-PatchedImage watched_image(const ViewContext& context, bool of_footage) {
-  if (of_footage) return {.ground = context.shown.footage ? *context.shown.footage : cv::Mat()};
-  return context.shown.image ? context.shown.image->bgr : PatchedImage();
-}
-
-namespace {
 
 void add_pixel(std::vector<Part>& parts, const ViewContext& context, const ViewportReadout& readout) {
   const PatchedImage image = watched_image(context, readout.of_footage);
@@ -112,7 +95,22 @@ void draw_part(ImDrawList& draw, const Part& part, ImVec2 at) {
   draw.AddText(font(Font::mono), font(Font::mono)->FontSize, at, part.color, part.text.c_str());
 }
 
+constexpr std::size_t kMaxProblemLines = 4;
+
+float padding() {
+  return scaled(8);
+}
+
+float icon_side() {
+  return ImGui::GetFontSize();
+}
+
 }  // namespace
+
+PatchedImage watched_image(const ViewContext& context, bool of_footage) {
+  if (of_footage) return {.ground = context.shown.footage ? *context.shown.footage : cv::Mat()};
+  return context.shown.image ? context.shown.image->bgr : PatchedImage();
+}
 
 float readout_height() {
   return std::ceil(font(Font::mono)->FontSize + scaled(9));
@@ -143,20 +141,6 @@ void draw_readout(const ViewContext& context, const ViewportReadout& readout) {
   }
   ImGui::Dummy(size);
 }
-
-namespace {
-
-constexpr std::size_t kMaxProblemLines = 4;
-
-float padding() {
-  return scaled(8);
-}
-
-float icon_side() {
-  return ImGui::GetFontSize();
-}
-
-}  // namespace
 
 std::vector<std::string> problems_of(const ViewContext& context, const PreviewImage* image) {
   std::vector<std::string> problems;

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/viewport/viewport_view.h"
 
-#include <imgui.h>
-
 #include <cmath>
 
 #include "editor/views/results/results_view.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "editor/widgets/toolbar.h"
 
 namespace sigs::editor {
@@ -261,8 +256,8 @@ void ViewportView::draw_image_menu(const ViewContext& context, const ToolContext
   if (ImGui::MenuItem("Add waypoint here", "double click", false, can_add)) add_waypoint_at(*tool, menu_pixel_);
   if (intruders.empty() && ImGui::MenuItem("Add intruder")) add_intruder(context);
   ImGui::Separator();
-  if (ImGui::MenuItem("Lit like something here...")) ask_for_lit_box();
-  context.ui_probe.note_item("viewport/menu/lit like");
+  if (context.ui_probe.noted(ImGui::MenuItem("Lit like something here..."), "viewport/menu/lit like"))
+    ask_for_lit_box();
   if (ImGui::MenuItem("Wipe against the footage", nullptr, wipe_.is_on())) wipe_.toggle();
   if (ImGui::MenuItem("Fit", "F")) look_.fit();
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <imgui.h>
-
 #include <optional>
 #include <string>
 #include <vector>

@@ -3,15 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "editor/document/waypoint_edits.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_image.h"
 #include "project/places.h"
 #include "scene/scene_at.h"
 

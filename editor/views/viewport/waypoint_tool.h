@@ -5,7 +5,6 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "editor/geometry/lens_projection.h"

@@ -2,13 +2,10 @@
 #include "editor/views/world/world_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 

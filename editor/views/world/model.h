@@ -5,7 +5,6 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 

@@ -4,14 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
 
-#include "editor/geometry/image_view.h"
 #include "editor/geometry/rulers.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 
@@ -63,56 +59,6 @@ void draw_edge_on(WorldCanvas& canvas, const GroundGrid& grid, double text_px) {
       std::find_if(grid.lines.begin(), grid.lines.end(), [&](const GridLine& line) { return line.is_of_x != along_x; });
   if (across != grid.lines.end()) canvas.line(across->ends_m[0], across->ends_m[1], faded(color::kQuiet, 0.6));
 }
-
-}  // namespace
-
-void draw_ground(WorldCanvas& canvas) {
-  const GroundGrid grid = ground_grid(canvas.eye(), canvas.rect());
-  const double text_px = font(Font::small)->FontSize;
-  if (is_edge_on(canvas.eye())) {
-    draw_edge_on(canvas, grid, text_px);
-    return;
-  }
-  for (const GridLine& line : grid.lines)
-    if (const auto ends = canvas.within_rect(line.ends_m[0], line.ends_m[1]))
-      canvas.list().AddLine(im((*ends)[0]), im((*ends)[1]), line.bold ? kBoldLine : kLine);
-}
-
-void draw_ground_labels(WorldCanvas& canvas) {
-  if (is_edge_on(canvas.eye())) return;
-  const GroundGrid grid = ground_grid(canvas.eye(), canvas.rect());
-  const double text_px = font(Font::small)->FontSize;
-  for (const bool bold : {true, false})
-    for (const GridLine& line : grid.lines)
-      if (line.bold == bold && std::llround(line.at_m / grid.step_m) % 5 == 0) draw_label(canvas, line, text_px);
-}
-
-void draw_axes(WorldCanvas& canvas) {
-  const double reach = scaled(24);
-  const ScreenRect& rect = canvas.rect();
-  const glm::dvec2 origin{rect.low.x + reach * 1.6, rect.high.y - reach * 1.6};
-  const OrbitCamera& eye = canvas.eye();
-  std::array<std::size_t, 3> order{0, 1, 2};  // far to near
-  const auto depth = [&](std::size_t axis) { return eye.forward()[static_cast<int>(axis)]; };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth(a) > depth(b); });
-  ImFont* face = font(Font::small);
-  for (const std::size_t axis : order) {
-    const auto i = static_cast<int>(axis);
-    const glm::dvec2 direction{eye.right()[i], -eye.up()[i]};
-    const glm::dvec2 tip = origin + direction * reach;
-    canvas.list().AddLine(im(origin), im(tip), color::kAxes[axis], scaled(1.8));
-    const char name[2] = {static_cast<char>('X' + i), 0};
-    const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, name);
-    const double length = glm::length(direction);
-    if (length < 0.25) continue;  // the axis points at the eye
-    const glm::dvec2 middle = tip + direction / length * (0.7 * face->FontSize);
-    canvas.list().AddText(face, face->FontSize, im(middle - glm::dvec2(size.x, size.y) / 2.0), color::kAxes[axis],
-                          name);
-  }
-  canvas.keep_free({origin - reach * 1.5, origin + reach * 1.5});
-}
-
-namespace {
 
 constexpr double kCamera_px = 13;      // of the little camera, along its axis
 constexpr double kCameraAxes_px = 24;  // of its axes
@@ -212,6 +158,52 @@ void draw_control_lines(WorldCanvas& canvas, const TrajectoryPlan& plan, ImU32 c
 }
 
 }  // namespace
+
+void draw_ground(WorldCanvas& canvas) {
+  const GroundGrid grid = ground_grid(canvas.eye(), canvas.rect());
+  const double text_px = font(Font::small)->FontSize;
+  if (is_edge_on(canvas.eye())) {
+    draw_edge_on(canvas, grid, text_px);
+    return;
+  }
+  for (const GridLine& line : grid.lines)
+    if (const auto ends = canvas.within_rect(line.ends_m[0], line.ends_m[1]))
+      canvas.list().AddLine(im((*ends)[0]), im((*ends)[1]), line.bold ? kBoldLine : kLine);
+}
+
+void draw_ground_labels(WorldCanvas& canvas) {
+  if (is_edge_on(canvas.eye())) return;
+  const GroundGrid grid = ground_grid(canvas.eye(), canvas.rect());
+  const double text_px = font(Font::small)->FontSize;
+  for (const bool bold : {true, false})
+    for (const GridLine& line : grid.lines)
+      if (line.bold == bold && std::llround(line.at_m / grid.step_m) % 5 == 0) draw_label(canvas, line, text_px);
+}
+
+void draw_axes(WorldCanvas& canvas) {
+  const double reach = scaled(24);
+  const ScreenRect& rect = canvas.rect();
+  const glm::dvec2 origin{rect.low.x + reach * 1.6, rect.high.y - reach * 1.6};
+  const OrbitCamera& eye = canvas.eye();
+  std::array<std::size_t, 3> order{0, 1, 2};  // far to near
+  const auto depth = [&](std::size_t axis) { return eye.forward()[static_cast<int>(axis)]; };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth(a) > depth(b); });
+  ImFont* face = font(Font::small);
+  for (const std::size_t axis : order) {
+    const auto i = static_cast<int>(axis);
+    const glm::dvec2 direction{eye.right()[i], -eye.up()[i]};
+    const glm::dvec2 tip = origin + direction * reach;
+    canvas.list().AddLine(im(origin), im(tip), color::kAxes[axis], scaled(1.8));
+    const char name[2] = {static_cast<char>('X' + i), 0};
+    const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, name);
+    const double length = glm::length(direction);
+    if (length < 0.25) continue;  // the axis points at the eye
+    const glm::dvec2 middle = tip + direction / length * (0.7 * face->FontSize);
+    canvas.list().AddText(face, face->FontSize, im(middle - glm::dvec2(size.x, size.y) / 2.0), color::kAxes[axis],
+                          name);
+  }
+  canvas.keep_free({origin - reach * 1.5, origin + reach * 1.5});
+}
 
 double view_depth_m(const WorldModel& model) {
   // A curved edge bulges around the camera and would hide what is within.

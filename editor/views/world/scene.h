@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <imgui.h>
-
 #include <array>
 #include <glm/glm.hpp>
 #include <map>
@@ -18,7 +16,6 @@
 #include "editor/geometry/orbit_camera.h"
 #include "editor/views/context.h"
 #include "editor/views/world/model.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 

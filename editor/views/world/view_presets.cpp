@@ -6,7 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "editor/widgets/icons.h"
 #include "editor/widgets/toolbar.h"
 
 namespace sigs::editor {

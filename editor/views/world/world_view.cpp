@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/world/world_view.h"
 
-#include <imgui.h>
-
-#include <algorithm>
 #include <vector>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/views/world/scene.h"
-#include "editor/widgets/keys.h"
 
 namespace sigs::editor {
 

@@ -14,7 +14,6 @@
 #include "editor/views/world/picks.h"
 #include "editor/views/world/scene.h"
 #include "editor/widgets/gizmo_handle.h"
-#include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
 
