@@ -73,20 +73,14 @@ class NewProjectFlow {
   FirstProjectJob job_;
   Guesses guesses_;
   std::vector<Request> requests_;
-  // First number of the document whose guesses were read.
-  std::uint64_t guesses_of_ = 0;
-  // Wanted while drawing, done in update().
-  NewProjectChoice choice_;
-  // Made, and given to the session.
-  std::shared_ptr<const FirstProject> made_;
+  std::uint64_t guesses_of_ = 0;              // first number of the document whose guesses were read
+  NewProjectChoice choice_;                   // wanted while drawing, done in update()
+  std::shared_ptr<const FirstProject> made_;  // made, and given to the session
   // The same, until its intruder is shown. Null: nothing is awaited.
   std::shared_ptr<const FirstProject> awaited_;
-  // Of the document that holds it; 0: it is not open yet.
-  std::uint64_t document_number_ = 0;
-  // The frame that was gone to first; none: not yet.
-  std::optional<int> first_shown_;
-  // Of the intruder; null: not there yet.
-  std::shared_ptr<const Survey> survey_;
+  std::uint64_t document_number_ = 0;     // of the document that holds it; 0: it is not open yet
+  std::optional<int> first_shown_;        // the frame that was gone to first; none: not yet
+  std::shared_ptr<const Survey> survey_;  // of the intruder; null: not there yet
 };
 
 // Draws everything that concerns files and the program itself: menu bar, start page, dialogs, messages, export. The
@@ -94,12 +88,9 @@ class NewProjectFlow {
 class AppShell {
  public:
   struct Setup {
-    // Folder of the sample projects; it need not be there.
-    std::filesystem::path samples;
-    // Folder of the sample models; likewise.
-    std::filesystem::path models;
-    // Where unsaved work is kept for the case of a crash.
-    std::filesystem::path recovery_folder;
+    std::filesystem::path samples;          // folder of the sample projects; it need not be there
+    std::filesystem::path models;           // folder of the sample models; likewise
+    std::filesystem::path recovery_folder;  // where unsaved work is kept for the case of a crash
     // Of the program, for the About dialog.
     std::string version;
     std::vector<HelpLine> help;  // lines of the help page
@@ -159,8 +150,7 @@ class AppShell {
   StartPage start_page_;
   Toasts toasts_;
   FileBrowser browser_;
-  // Waiting for the file browser, oldest first.
-  std::deque<AskForFile> files_wanted_;
+  std::deque<AskForFile> files_wanted_;  // waiting for the file browser, oldest first
   // For what the browser asks at the moment.
   std::function<void(const std::filesystem::path&)> chosen_;
   ExportView export_view_;

@@ -50,8 +50,7 @@ class Layout {
   // A tab that is to come to the front in the next update.
   bool wants_own_body_ = false;
   bool wants_footage_ = false;
-  // The own-body view was in front in the last update.
-  bool shows_own_body_ = false;
+  bool shows_own_body_ = false;  // the own-body view was in front in the last update
 };
 
 }  // namespace sigs::editor

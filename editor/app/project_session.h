@@ -134,8 +134,7 @@ class ProjectSession {
   std::vector<AbandonedProject> abandoned_;
   std::optional<RecoveredMask> recovered_mask_;
   std::optional<Question> question_;
-  // One for each answer of question_.
-  std::vector<Step> steps_;
+  std::vector<Step> steps_;  // one for each answer of question_
   // What came while a question was open, oldest first.
   std::deque<Step> waiting_;
   std::vector<Request> requests_;

@@ -34,8 +34,7 @@ struct KeyEvent {
   bool down = false;
   int modifiers = 0;
   KeyKind kind = KeyKind::action;
-  // Unicode code point; where it is not 0, no other member counts.
-  unsigned character = 0;
+  unsigned character = 0;  // Unicode code point; where it is not 0, no other member counts
 };
 
 // Spreads key events over updates. ImGui up to 1.86 reads the state of the keys once per update: a key that goes down
@@ -73,8 +72,7 @@ struct Buttons {
     double x = 0;
     double y = 0;
   };
-  // None: no event; the present position of the mouse counts.
-  std::optional<Place> at;
+  std::optional<Place> at;  // none: no event; the present position of the mouse counts
 };
 
 // Spreads mouse events over updates. ImGui up to 1.86 reads the buttons once per update: of two clicks during a slow
@@ -89,8 +87,7 @@ class ButtonQueue {
 
  private:
   std::deque<ButtonEvent> events_;
-  // As the last update was told.
-  std::array<bool, 5> down_{};
+  std::array<bool, 5> down_{};  // as the last update was told
 };
 
 // A window of the desktop with an OpenGL context and ImGui in it. One per program; all calls but wake() come from the

@@ -34,8 +34,7 @@ struct Selection {
 
 // One change of the project.
 struct ChangeProject {
-  // For the menu: "move waypoint" reads "Undo move waypoint".
-  std::string name;
+  std::string name;  // for the menu: "move waypoint" reads "Undo move waypoint"
   // Called once, on a copy of the project; it may throw, and then nothing changes.
   std::function<void(Project&)> change;
   // A change with the same gesture as the one before joins its undo step, so that a drag is one step. "": a step of its
@@ -90,20 +89,16 @@ struct Quit {};
 // called.
 struct AskForFile {
   std::string title;
-  // With their dots: ".json"; empty: all files.
-  std::vector<std::string> extensions;
-  // The file need not be there; one that is there is asked about.
-  bool for_saving = false;
-  // A folder is wanted; extensions do not count.
-  bool of_folder = false;
+  std::vector<std::string> extensions;  // with their dots: ".json"; empty: all files
+  bool for_saving = false;              // the file need not be there; one that is there is asked about
+  bool of_folder = false;               // a folder is wanted; extensions do not count
   // As FileDialogRequest::start.
   std::filesystem::path start;
   std::function<void(const std::filesystem::path&)> chosen;
 };
 // Plays from the playhead on.
 struct Play {
-  // Times the footage's own speed; negative: backwards; 0: stop.
-  double speed = 1;
+  double speed = 1;  // times the footage's own speed; negative: backwards; 0: stop
 };
 struct TogglePlay {};
 struct SetLoop {
@@ -215,12 +210,9 @@ struct Revision {
   Revision(std::uint64_t revision_number, std::shared_ptr<const Project> state)
       : number(revision_number), project(std::move(state)), content(content_id_of(*project)) {}
 
-  // Each state has its own, from 1 on; 0: no state.
-  std::uint64_t number = 0;
-  // Null for number 0 alone.
-  std::shared_ptr<const Project> project;
-  // Digest of the project's settings; states with equal images share it.
-  ContentId content;
+  std::uint64_t number = 0;                // each state has its own, from 1 on; 0: no state
+  std::shared_ptr<const Project> project;  // null for number 0 alone
+  ContentId content;                       // digest of the project's settings; states with equal images share it
 
   // Numbers are never given twice.
   [[nodiscard]] bool operator==(const Revision& other) const { return number == other.number; }
@@ -334,8 +326,7 @@ class Document {
   FileStamp file_stamp_;
   std::vector<Step> past_;
   std::vector<Step> future_;
-  // Of the last step, while it lasts; "": none.
-  std::string gesture_;
+  std::string gesture_;  // of the last step, while it lasts; "": none
   // What could be redone before it, so that CancelGesture can bring it back.
   std::vector<Step> future_of_gesture_;
   Selection selection_;

@@ -64,8 +64,7 @@ struct JobState {
   // Frames a second and seconds until the end, as RateMeter gives them; none where it gives none.
   std::optional<double> rate_hz;
   std::optional<double> left_s;
-  // Of this run, in the order in which they came.
-  std::vector<Warning> warnings;
+  std::vector<Warning> warnings;  // of this run, in the order in which they came
   // Why the last run did not end well. Set where phase is failed, and with the kind interrupted where it is cancelled.
   Error error;
   // What the last run was asked for, whether it is still running or has ended in any way.
@@ -229,8 +228,7 @@ class BackgroundJob {
   State state_;
   RateMeter rate_;
   double last_wake_s_ = 0;
-  // The run that is under way was forgotten: its outcome is dropped.
-  bool forget_ = false;
+  bool forget_ = false;  // the run that is under way was forgotten: its outcome is dropped
   // JobControl::cancel of the run that is under way.
   std::atomic<bool> cancel_{false};
   std::thread thread_;

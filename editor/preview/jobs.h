@@ -124,8 +124,7 @@ struct VideoFacts {
   int frames = 0;
   double duration_s = 0;
   double rate_hz = 0;
-  // How its file states the lens; "": it does not.
-  std::string lens;
+  std::string lens;  // how its file states the lens; "": it does not
 };
 
 // Reads the index of a video, and what its file or its flight log says of the lens. Errors: those of

@@ -101,9 +101,8 @@ class PreviewRenderer {
   PreviewState& preview_state_;
   SceneRenderer scene_renderer_;
 
-  std::uint64_t revision_ = 0;  // whose files were looked at last
-  // When its files were looked at.
-  Clock::time_point files_checked_{};
+  std::uint64_t revision_ = 0;         // whose files were looked at last
+  Clock::time_point files_checked_{};  // when its files were looked at
   // combined_id() of that revision and its files, and the footage among them.
   ContentId content_;
   ContentId input_files_;
@@ -131,8 +130,7 @@ class PreviewRenderer {
     [[nodiscard]] bool operator==(const ModelKey&) const = default;
   };
   std::optional<ModelKey> model_;
-  // Which of prefetch, survey and turntable had the last turn.
-  int next_background_task_ = 0;
+  int next_background_task_ = 0;  // which of prefetch, survey and turntable had the last turn
 };
 
 }  // namespace sigs::editor

@@ -93,8 +93,7 @@ class TruthBuilder {
   // The last scene that was wanted while one with the same content was being composed: the truth belongs to it.
   Scene looked_at_;
 
-  // Last: its thread uses all of the above.
-  LatestRequestWorker<Scene> worker_;
+  LatestRequestWorker<Scene> worker_;  // last: its thread uses all of the above
 };
 
 // A file with the results of a tracker in this footage, while it is loaded. Not part of the project.
@@ -102,8 +101,7 @@ struct ResultFile {
   // Its own as long as the program runs; 0: none.
   int id = 0;
   std::filesystem::path path;
-  // Number of its colour (result_color): the smallest that no other file has.
-  int color = 0;
+  int color = 0;  // number of its colour (result_color): the smallest that no other file has
   // Whether its boxes and its curve are drawn. It is scored in any case.
   bool is_shown = true;
 
@@ -136,22 +134,17 @@ enum class TruthKind { none, outlines, measured };
 // One tracker's file, its results and its score, as far as they are known.
 struct ScoredTracker {
   ResultFile file;
-  // Of the tracker, as the file says it, else from the file's name.
-  std::string name;
-  // Not empty: the file cannot be used, and why, in one line.
-  std::string problem;
-  // Null: not read yet, or a problem.
-  std::shared_ptr<const Results> results;
-  // Null: not yet, or the intruder is never visible.
-  std::shared_ptr<const TrackScore> score;
+  std::string name;                         // of the tracker, as the file says it, else from the file's name
+  std::string problem;                      // not empty: the file cannot be used, and why, in one line
+  std::shared_ptr<const Results> results;   // Null: not read yet, or a problem
+  std::shared_ptr<const TrackScore> score;  // Null: not yet, or the intruder is never visible
 
   [[nodiscard]] bool operator==(const ScoredTracker&) const = default;
 };
 
 // What there is to show of trackers at this moment.
 struct Scored {
-  // In the order of the files.
-  std::vector<ScoredTracker> trackers;
+  std::vector<ScoredTracker> trackers;  // in the order of the files
   // Index in the project of the intruder that they are measured against, and its name; "" where it has no path.
   int intruder = 0;
   std::string target;
@@ -161,8 +154,7 @@ struct Scored {
   // Frames of the measured truth that are composed, of truth_total, while it is made.
   int truth_done = 0;
   int truth_total = 0;
-  // Why it cannot be measured; "": it is or will be.
-  std::string truth_problem;
+  std::string truth_problem;  // why it cannot be measured; "": it is or will be
 
   [[nodiscard]] bool operator==(const Scored&) const = default;
 };
@@ -173,8 +165,7 @@ struct ScoringRequest {
   // One for each of the project's intruders; the outlines come from these.
   std::vector<std::shared_ptr<const Survey>> surveys;
   std::vector<ResultFile> files;
-  // Index in the project.
-  int intruder = 0;
+  int intruder = 0;  // index in the project
 
   [[nodiscard]] bool operator==(const ScoringRequest&) const = default;
 };
@@ -203,8 +194,7 @@ class Scoring {
     // When it was read, and at the last look. What is being written is read once it has come to rest.
     FileStamp stamp;
     FileStamp last_stamp;
-    // By which it was read.
-    FootageTruth footage;
+    FootageTruth footage;  // by which it was read
     // The frame of the footage that the tracker was taken to be started in; none: not known.
     std::optional<int> start_frame;
     std::shared_ptr<const Results> results;

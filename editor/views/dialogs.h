@@ -40,8 +40,7 @@ class SettingsDialog {
   [[nodiscard]] bool draw(Settings& settings, UiProbe& ui_probe);
 
  private:
-  // What the slider shows while it is held; 0: it is not.
-  double font_px_ = 0;
+  double font_px_ = 0;  // what the slider shows while it is held; 0: it is not
 };
 
 // Asks where the project's missing files are. One that was found lets the others be found (suggested_places()).

@@ -63,21 +63,16 @@ class ExportView {
   const std::optional<std::vector<std::string>>& assignments(const Document& document);
 
   bool open_ = false;
-  // The person has closed it in this update.
-  bool closed_ = false;
-  // Where the files go, as typed; "": not chosen yet.
-  std::string folder_;
-  // From in to out rather than the project's whole range.
-  bool only_range_ = false;
-  // Frames composed in parallel; 0: by the number of cores.
-  int jobs_ = 0;
+  bool closed_ = false;      // the person has closed it in this update
+  std::string folder_;       // where the files go, as typed; "": not chosen yet
+  bool only_range_ = false;  // from in to out rather than the project's whole range
+  int jobs_ = 0;             // frames composed in parallel; 0: by the number of cores
   // The question whether the files in there_ may be replaced is shown.
   bool overwrite_asked_ = false;
   // For the revision with this number.
   std::optional<std::vector<std::string>> assignments_;
   std::uint64_t assignments_of_ = 0;
-  // What would be overwritten.
-  std::vector<std::filesystem::path> there_;
+  std::vector<std::filesystem::path> there_;  // what would be overwritten
 };
 
 }  // namespace sigs::editor

@@ -18,8 +18,7 @@ namespace sigs::editor {
 // What the page shows beside samples and recent projects; valid for the call.
 struct StartPageContent {
   const std::vector<AbandonedProject>& abandoned;
-  // A project file that is being read; "": none.
-  std::filesystem::path loading;
+  std::filesystem::path loading;  // a project file that is being read; "": none
 };
 
 // What the person wants with an abandoned project, in the update in which it is chosen; everything else goes through
@@ -33,8 +32,7 @@ struct StartPageChoice {
 struct SampleProject {
   std::filesystem::path file;
   std::string name;
-  // The first sentence of the README beside it; "": it has none.
-  std::string text;
+  std::string text;  // the first sentence of the README beside it; "": it has none
 };
 
 // The projects NAME/NAME.json below a folder, by name; other files of that name (recipes of datasets) are none. Empty

@@ -24,10 +24,8 @@ struct FolderEntry {
 // What a folder holds.
 struct FolderListing {
   std::filesystem::path folder;
-  // In no order, hidden ones too.
-  std::vector<FolderEntry> entries;
-  // Not empty: why it cannot be read, or not to its end.
-  std::string problem;
+  std::vector<FolderEntry> entries;  // in no order, hidden ones too
+  std::string problem;               // not empty: why it cannot be read, or not to its end
 };
 // Asks the file system, which may take long; never fails otherwise than by `problem`.
 [[nodiscard]] FolderListing listing_of(const std::filesystem::path& folder);
@@ -155,8 +153,7 @@ class FileBrowser {
   UiProbe* ui_probe_ = nullptr;
   std::vector<BrowserPlace> places_;
   bool open_ = false;
-  // Given in this update, to be returned by draw().
-  std::optional<std::filesystem::path> answer_;
+  std::optional<std::filesystem::path> answer_;  // given in this update, to be returned by draw()
 
   // The folder that is shown, while reading_ still without its entries.
   std::filesystem::path folder_;
@@ -164,8 +161,7 @@ class FileBrowser {
   bool reading_ = false;
   std::vector<FolderEntry> shown_;
   ListingOrder order_;
-  // The filter by extension is switched off.
-  bool all_files_ = false;
+  bool all_files_ = false;  // the filter by extension is switched off
   // Index into shown_; -1: none.
   int selected_ = -1;
   bool scroll_to_selected_ = false;
@@ -175,8 +171,7 @@ class FileBrowser {
   // Of the file to save, as typed.
   std::string name_;
   bool focus_name_ = false;
-  // Why the last try to answer or to make a folder failed; "": it did not.
-  std::string problem_;
+  std::string problem_;  // why the last try to answer or to make a folder failed; "": it did not
 
   // The bar of folders is a text field at the moment, with this text.
   bool editing_path_ = false;

@@ -19,12 +19,9 @@ namespace sigs::editor {
 
 // How a field is shown, where its type does not say all.
 struct RowOptions {
-  // "": by its key.
-  std::string label;
-  // Not empty: it cannot be edited, and why.
-  std::string off_because;
-  // A text that is one of these is chosen from a list.
-  std::vector<std::string> names;
+  std::string label;               // "": by its key
+  std::string off_because;         // not empty: it cannot be edited, and why
+  std::vector<std::string> names;  // a text that is one of these is chosen from a list
   // The value of an optional number when it is switched on.
   std::optional<double> suggested;
   bool is_color = false;
@@ -62,8 +59,7 @@ struct RowMemory {
   TypedText typed;
   // A row to be scrolled to and given the keyboard, once it is drawn; "": none.
   std::string wanted_key;
-  // For how many updates it is still waited for.
-  int wanted_updates = 0;
+  int wanted_updates = 0;  // for how many updates it is still waited for
   // A value is being dragged or typed, so its undo step is not complete.
   bool gesture_is_open = false;
 };
@@ -134,8 +130,7 @@ class ButtonFlow {
   [[nodiscard]] bool button(const char* label, const char* tooltip, bool enabled = true);
 
  private:
-  // Right edge of the last one, on the screen; -1: there is none yet.
-  float right_x_ = -1;
+  float right_x_ = -1;  // right edge of the last one, on the screen; -1: there is none yet
 };
 
 // A bar with the frames that are done, and the button "Stop" below it, which is the item drawn last. True when the

@@ -48,8 +48,7 @@ class ModelBlock {
   void draw_list(const ViewContext& context, const FieldRows& rows);
   void draw_preview(const ViewContext& context, int intruder);
 
-  // Of the turntable, as PreviewRequest::Turntable.
-  double turn_rad_ = 0;
+  double turn_rad_ = 0;  // of the turntable, as PreviewRequest::Turntable
 };
 
 // The fields of the kind of light that the project has; of the point light also its bearing, elevation and distance
@@ -135,8 +134,7 @@ class WaypointTable {
   int range_last_ = 0;
   // The moment of each waypoint, in frames, whether it has one of its own or not.
   std::vector<double> frames_;
-  // The selection that was scrolled to last.
-  Selection shown_;
+  Selection shown_;  // the selection that was scrolled to last
 };
 
 // In how many of the footage's frames an intruder is visible, by the survey's frames, which may not be all. frames:

@@ -44,8 +44,7 @@ class OwnBodyPanel {
   std::uint64_t sheet_revision_ = 0;
   ProblemList problems_;
   RowMemory memory_;
-  // The question of draw_replacing() is open.
-  bool asks_to_replace_ = false;
+  bool asks_to_replace_ = false;  // the question of draw_replacing() is open
 };
 
 // The mask as a tint over the footage, the mask alone (white: own body), or the detection's confidence.
@@ -89,12 +88,9 @@ class OwnBodyCanvas {
   cv::Mat confidence_;
   double radius_px_ = 20;
   bool erases_ = false;
-  // The mouse was over the canvas in this update.
-  bool hovered_ = false;
-  // The press that lasts moves the image instead of painting.
-  bool pans_ = false;
-  // Under the mouse; none: beside the image.
-  std::optional<cv::Point> pixel_;
+  bool hovered_ = false;            // the mouse was over the canvas in this update
+  bool pans_ = false;               // the press that lasts moves the image instead of painting
+  std::optional<cv::Point> pixel_;  // under the mouse; none: beside the image
 };
 
 // Where the own body's mask is made: found in the footage, looked at step by step, painted, saved and used. A toolbar
@@ -127,8 +123,7 @@ class OwnBodyView {
   StageGrid grid_;
   // The last press was on the image or its toolbar, or gave the painting another start.
   bool is_worked_in_ = false;
-  // Number of the ImGui frame in which it was drawn last.
-  int last_update_ = -1;
+  int last_update_ = -1;  // number of the ImGui frame in which it was drawn last
 };
 
 }  // namespace sigs::editor

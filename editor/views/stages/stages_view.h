@@ -92,16 +92,13 @@ class StageGrid {
   void handle_mouse(const StageTile& tile, bool linked, const ScreenRect& room);
 
   ZoomableImage look_;
-  // Label of the tile that fills the room; "": none.
-  std::string large_;
+  std::string large_;  // label of the tile that fills the room; "": none
   // The pixel of the frame under the mouse, marked in all linked tiles: as of the update before, and as this one finds
   // it.
   std::optional<cv::Point> pixel_;
   std::optional<cv::Point> next_pixel_;
-  // Label of the tile that the mouse was pressed on; "": none.
-  std::string pressed_;
-  // The press has become a drag: letting go is no click.
-  bool panned_ = false;
+  std::string pressed_;  // label of the tile that the mouse was pressed on; "": none
+  bool panned_ = false;  // the press has become a drag: letting go is no click
 };
 
 // The view of how a frame is made: all stages side by side with linked zoom; or the difference between the output and
@@ -148,12 +145,10 @@ class StagesView {
   StageGrid grid_;
   Differences differences_;
   Mode look_ = Mode::stages;
-  // As chosen; none: the project's own.
-  std::optional<MethodChoice> method_;
+  std::optional<MethodChoice> method_;  // as chosen; none: the project's own
   // As chosen, by the scene's number; none: the one that is worked on.
   std::optional<int> intruder_;
-  // Differences are shown that many times as large.
-  double gain_ = 8;
+  double gain_ = 8;  // differences are shown that many times as large
   // The newest there was of each: shown until there is a newer one.
   std::shared_ptr<const PreviewImage> staged_;
   std::shared_ptr<const PreviewImage> compared_;

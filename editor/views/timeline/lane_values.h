@@ -72,8 +72,7 @@ struct LaneStyle {
   bool shown_by_default;
   const char* title;
   const char* help;
-  // Of a curve; strips have a colour for each state.
-  ImU32 color = 0;
+  ImU32 color = 0;  // of a curve; strips have a colour for each state
   // Of a curve's scale, in the lane's unit: what varies less looks level.
   double min_span = 1;
   Scaling scaling = Scaling::linear;

@@ -53,8 +53,7 @@ class KeyRows {
   struct Held {
     int intruder = 0;
     int waypoint = 0;
-    // Frames from the mouse to the key.
-    double offset = 0;
+    double offset = 0;  // frames from the mouse to the key
     // Of the key when it was pressed.
     double frame_before = 0;
     DragGesture gesture;
@@ -64,8 +63,7 @@ class KeyRows {
     int intruder = 0;
     int waypoint = -1;
     double frame = 0;
-    // What is typed into "set frame".
-    double typed = 0;
+    double typed = 0;  // what is typed into "set frame"
   };
   struct Row;
 
@@ -83,22 +81,19 @@ class KeyRows {
 
   std::optional<Held> held_;
   Menu menu_;
-  // The menu is to be opened in this update.
-  bool menu_asked_ = false;
+  bool menu_asked_ = false;  // the menu is to be opened in this update
 };
 
 // Frames of the footage, both included, in which a tracker had lost its target or said nothing.
 struct LostStretch {
   int first_frame = 0;
   int last_frame = 0;
-  // lost or silent.
-  TrackerMoment moment = TrackerMoment::lost;
+  TrackerMoment moment = TrackerMoment::lost;  // lost or silent
 };
 
 // What the lane of centre errors shows of one tracker.
 struct ErrorCurve {
-  // Of its result file, for result_color().
-  int color = 0;
+  int color = 0;  // of its result file, for result_color()
   // From the middle of the truth's box to that of the tracker's, in pixels of the image: one a frame of the scores, NaN
   // where there is nothing to compare.
   std::vector<double> errors_px;
@@ -110,8 +105,7 @@ struct ErrorCurves {
   int first_frame = 0;
   std::vector<ErrorCurve> curves;
   LaneScale scale;
-  // The largest of all errors; 0: there is none.
-  double max_px = 0;
+  double max_px = 0;  // the largest of all errors; 0: there is none
 };
 
 // Of the trackers that are shown and have a score. The scale is logarithmic and begins at 0.
@@ -224,8 +218,7 @@ class LaneRows {
     LaneStyle style;
     // As it was ticked or unticked; none: by the style, and "Well clear" only where export.encounter names volumes.
     std::optional<bool> is_chosen = {};
-    // Of survey_.
-    LaneValues values = {};
+    LaneValues values = {};  // of survey_
   };
   struct Row;
 
@@ -280,8 +273,7 @@ class TimelineView {
   KeyRows keys_;
   LaneRows lanes_;
 
-  // Which frames are shown; left_x and width are those of strip_here().
-  TimeRuler ruler_;
+  TimeRuler ruler_;  // which frames are shown; left_x and width are those of strip_here()
   // What the ruler was made for: the number of frames of the footage, and the project.
   int frame_count_ = -1;
   std::filesystem::path file_;

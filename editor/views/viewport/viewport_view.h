@@ -51,12 +51,9 @@ void draw_viewport_toolbar(const ViewportSwitches& switches);
 
 // The line below the image: what the mouse is over, and what the image is.
 struct ViewportReadout {
-  // The pixel under the mouse; none: beside the image.
-  std::optional<cv::Point> pixel;
-  // Its colour is the untouched footage's, not the composited image's.
-  bool of_footage = false;
-  // Screen pixels for each pixel of the image.
-  double zoom = 1;
+  std::optional<cv::Point> pixel;  // the pixel under the mouse; none: beside the image
+  bool of_footage = false;         // its colour is the untouched footage's, not the composited image's
+  double zoom = 1;                 // screen pixels for each pixel of the image
 };
 
 // The image whose pixels are named: the composited one, or the untouched footage. Empty: it is not there yet.
@@ -155,17 +152,13 @@ class ViewportView {
   ProblemBanner banner_;
 
   bool hovered_ = false;
-  // The key that shows the footage alone is held.
-  bool footage_alone_ = false;
+  bool footage_alone_ = false;  // the key that shows the footage alone is held
   // What the mouse is at is the untouched footage.
   bool over_footage_ = false;
   Grip grip_ = Grip::nothing;
-  // While one is asked for.
-  std::optional<LitBox> lit_box_;
-  // Where the mouse was pressed, on the screen.
-  glm::dvec2 grip_mouse_{0, 0};
-  // Under the mouse; none: beside the image.
-  std::optional<cv::Point> pixel_;
+  std::optional<LitBox> lit_box_;   // while one is asked for
+  glm::dvec2 grip_mouse_{0, 0};     // where the mouse was pressed, on the screen
+  std::optional<cv::Point> pixel_;  // under the mouse; none: beside the image
   // What the menu was opened on: a waypoint, an intruder by its index in the project, and the pixel of the image.
   std::optional<WaypointMark> menu_waypoint_;
   std::optional<int> menu_intruder_;

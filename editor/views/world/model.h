@@ -64,8 +64,7 @@ struct WorldModel {
   std::uint64_t revision = 0;
   std::vector<WorldCurve> curves;
   ImageBorder border;
-  // Of the camera over the scene's range, by frame.
-  CurveSamples camera_path;
+  CurveSamples camera_path;  // of the camera over the scene's range, by frame
   // Distance of the farthest intruder from the camera, over the range; 0: there is none.
   double farthest_m = 0;
 };

@@ -25,10 +25,8 @@ enum class WorldViewPreset { orbit, top, side, camera };
 struct WorldViewState {
   OrbitCamera eye;
   WorldViewPreset preset = WorldViewPreset::orbit;
-  // Drags go in round steps; holding Ctrl turns it round.
-  bool snap = false;
-  // The volumes of well clear are drawn around the camera.
-  bool volumes = false;
+  bool snap = false;     // drags go in round steps; holding Ctrl turns it round
+  bool volumes = false;  // the volumes of well clear are drawn around the camera
   // The user has moved the camera since the project was opened: it is not framed anew by itself.
   bool touched = false;
 };
@@ -38,8 +36,7 @@ struct WorldViewTargets {
   // What is to be in sight, in the world.
   std::span<const glm::dvec3> points_m;
   CameraPose world_from_camera;
-  // How far the camera's field of view is drawn.
-  double view_depth_m = 200;
+  double view_depth_m = 200;  // how far the camera's field of view is drawn
 };
 
 // From behind, above or the right-hand side with all points in sight; or from behind the camera, looking as it does.
@@ -193,8 +190,7 @@ class WorldView {
   WorldTools tools_;
   // Number of the first revision of the project that is looked at; 0: none.
   std::uint64_t opened_revision_ = 0;
-  // It has been framed with all its trajectories known.
-  bool framed_with_scene_ = false;
+  bool framed_with_scene_ = false;  // it has been framed with all its trajectories known
   // Where the project's camera was in the update before, in the world.
   std::optional<glm::dvec3> camera_m_;
 };
