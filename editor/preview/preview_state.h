@@ -241,5 +241,8 @@ class Previewer {
 // ahead. Opening goes on by itself, so that other footage can be wanted meanwhile, and may outlive this call: it cannot
 // be broken off.
 void run_decoder(const std::shared_ptr<PreviewState>& preview_state);
+// That of the rendering thread, at kPreviewNiceness. Where it has nothing to do, it still looks at the project's files
+// once a second.
+void run_renderer(PreviewState& preview_state);
 
 }  // namespace sigs::editor

@@ -60,6 +60,11 @@ std::optional<int> scene_intruder(const ViewContext& context, int in_project) {
   return numbers[index];
 }
 
+std::shared_ptr<const Survey> survey_of(const ViewContext& context, int intruder) {
+  const auto index = static_cast<std::size_t>(intruder);
+  return intruder >= 0 && index < context.shown.surveys.size() ? context.shown.surveys[index] : nullptr;
+}
+
 std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder) {
   return waypoint_frames(plan_of(context, intruder).waypoints, context.document.first_frame(),
                          context.document.last_frame());

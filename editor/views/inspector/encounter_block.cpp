@@ -83,8 +83,7 @@ void draw_losses(const ViewContext& context, FieldRows& rows, const VolumeLosses
 void draw_volumes_lost(const ViewContext& context, FieldRows& rows, int intruder) {
   ImGui::Spacing();
   note("Well clear lost");
-  const auto index = static_cast<std::size_t>(intruder);
-  const Survey* const survey = index < context.shown.surveys.size() ? context.shown.surveys[index].get() : nullptr;
+  const std::shared_ptr<const Survey> survey = survey_of(context, intruder);
   if (survey == nullptr || !survey->encounter) {
     note("Not known yet.");
     return;

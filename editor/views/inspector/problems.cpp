@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "editor/document/field_edits.h"
 #include "editor/views/inspector/inspector_view.h"
+#include "editor/views/waypoint_actions.h"
 #include "export/export_project.h"
 #include "scene/opened_project.h"
 
@@ -216,8 +217,7 @@ std::optional<std::string> LossOfView::found(const ViewContext& context) {
   const std::vector<IntruderSettings>& intruders = opened->project->intruders;
   std::map<std::string, Visibility> now;
   for (std::size_t i = 0; i < intruders.size(); ++i) {
-    const Survey* const survey = i < context.shown.surveys.size() ? context.shown.surveys[i].get() : nullptr;
-    const std::optional<Visibility> visibility = whole_visibility(*opened, survey);
+    const std::optional<Visibility> visibility = whole_visibility(*opened, survey_of(context, int(i)).get());
     if (visibility)
       now.emplace(intruders[i].name, *visibility);
     else if (!intruders[i].trajectory.waypoints.empty())

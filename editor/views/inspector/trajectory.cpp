@@ -301,14 +301,13 @@ void FlightSummary::measure(const std::shared_ptr<const Survey>& survey) {
 }
 
 void FlightSummary::draw(const ViewContext& context, FieldRows& rows, int intruder) {
-  const auto index = static_cast<std::size_t>(intruder);
-  const std::vector<std::shared_ptr<const Survey>>& surveys = context.shown.surveys;
-  if (index >= surveys.size() || !surveys[index] || surveys[index]->flight.empty()) {
+  const std::shared_ptr<const Survey> shown = survey_of(context, intruder);
+  if (!shown || shown->flight.empty()) {
     note("The flight has not been looked at yet.");
     return;
   }
-  const Survey& survey = *surveys[index];
-  measure(surveys[index]);
+  const Survey& survey = *shown;
+  measure(shown);
   note_row(rows, "Speed", fmt::format("{} to {} m/s", tenths(speed_mps_.minimum), tenths(speed_mps_.maximum)),
            "Minimum and maximum");
   note_row(rows, "Load factor", fmt::format("{} to {} g", tenths(load_.minimum, 0.01), tenths(load_.maximum, 0.01)),

@@ -30,12 +30,6 @@ struct KeyMarks {
   bool current = false;  // the intruder that is worked on
 };
 
-// What is known of an intruder's flight; null: nothing yet.
-const Survey* survey_of(const ViewContext& context, int intruder) {
-  const auto index = static_cast<std::size_t>(intruder);
-  return index < context.shown.surveys.size() ? context.shown.surveys[index].get() : nullptr;
-}
-
 const TrajectoryPlan& plan_of(const KeyMarks& marks) {
   return marks.context.project().intruders[static_cast<std::size_t>(marks.intruder)].trajectory;
 }
@@ -66,7 +60,7 @@ void draw_key(ImDrawList& list, const KeyMarks& marks, std::size_t waypoint) {
 }
 
 void draw_flags(ImDrawList& list, const KeyMarks& marks) {
-  const Survey* survey = survey_of(marks.context, marks.intruder);
+  const std::shared_ptr<const Survey> survey = survey_of(marks.context, marks.intruder);
   if (survey == nullptr) return;
   const float bottom_y = marks.top_y + marks.height - 1;
   for (const FlightFlag& flag : survey->flags) {
@@ -104,7 +98,7 @@ std::string key_text(const KeyMarks& marks, std::size_t waypoint) {
 }
 
 std::string flags_text(const KeyMarks& marks, double frame) {
-  const Survey* survey = survey_of(marks.context, marks.intruder);
+  const std::shared_ptr<const Survey> survey = survey_of(marks.context, marks.intruder);
   std::string text;
   if (survey == nullptr) return text;
   for (const FlightFlag& flag : survey->flags)

@@ -93,7 +93,7 @@ void draw_curve(ImDrawList& list, const LaneMarks& marks) {
 
 void draw_flags(ImDrawList& list, const LaneMarks& marks) {
   for (const FlightFlag& flag : marks.survey->flags) {
-    if (!belongs_to(flag.fault, marks.style.lane)) continue;
+    if (marks.style.fault != flag.fault) continue;
     const float low = std::max(marks.strip.left(), marks.strip.moment_x(flag.first_frame));
     const float high = std::min(marks.strip.right(), std::max(low + scaled(2), marks.strip.moment_x(flag.last_frame)));
     if (high <= low) continue;
@@ -123,8 +123,8 @@ void draw_closest(ImDrawList& list, const LaneMarks& marks) {
 void list_values(const Survey& survey, std::size_t i) {
   ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit);
   for (const LaneStyle& style : lane_styles()) {
-    if (is_of_camera(style.lane) && survey.camera.empty()) continue;
-    if (is_of_encounter(style.lane) && !survey.encounter) continue;
+    if (style.is_of_camera() && survey.camera.empty()) continue;
+    if (style.is_of_encounter() && !survey.encounter) continue;
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", style.title);
     ImGui::TableNextColumn();
@@ -137,7 +137,7 @@ void list_values(const Survey& survey, std::size_t i) {
 std::string flags_at(const LaneMarks& marks, int frame) {
   std::string text;
   for (const FlightFlag& flag : marks.survey->flags) {
-    const bool is_reported_here = marks.style.kind == LaneKind::strip || belongs_to(flag.fault, marks.style.lane);
+    const bool is_reported_here = marks.style.is_strip() || marks.style.fault == flag.fault;
     if (is_reported_here && frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
       text.append(text.empty() ? "" : "\n").append(flag.text());
   }
@@ -181,16 +181,16 @@ void draw_encounter(ImDrawList& list, const LaneMarks& marks) {
 }  // namespace
 
 void draw_lane_marks(ImDrawList& list, const LaneMarks& marks) {
-  if (marks.survey == nullptr || (is_of_encounter(marks.style.lane) && !marks.survey->encounter)) {
+  if (marks.survey == nullptr || (marks.style.is_of_encounter() && !marks.survey->encounter)) {
     draw_label(list, marks, marks.strip.left(), marks.top_y + marks.height / 2, color::kQuiet, "not known yet");
     return;
   }
-  if (marks.style.kind == LaneKind::strip) {
+  if (marks.style.is_strip()) {
     draw_strip(list, marks);
     return;
   }
   draw_flags(list, marks);
-  if (is_of_encounter(marks.style.lane)) draw_encounter(list, marks);
+  if (marks.style.is_of_encounter()) draw_encounter(list, marks);
   draw_curve(list, marks);
   if (marks.style.lane == Lane::distance) draw_closest(list, marks);
 }
@@ -228,7 +228,7 @@ void tooltip_for_lanes(const ViewContext& context, const LaneMarks& marks, int f
   const auto index = index_of(marks, frame, marks.survey == nullptr ? 0 : marks.survey->estimates.size());
   if (!index || !item_wants_tooltip()) return;
   const std::string flags = flags_at(marks, frame);
-  const bool is_strip = marks.style.kind == LaneKind::strip;
+  const bool is_strip = marks.style.is_strip();
   // Over a curve its value stands beside the mouse already.
   if (!is_strip && flags.empty()) return;
   ImGui::BeginTooltip();

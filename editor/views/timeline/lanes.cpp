@@ -49,8 +49,8 @@ float strip_height() {
   return std::ceil(font(Font::small)->FontSize + scaled(5));
 }
 
-LaneGroup group_of(Lane lane) {
-  return is_of_camera(lane) ? LaneGroup::camera : LaneGroup::intruder;
+LaneGroup group_of(const LaneStyle& style) {
+  return style.is_of_camera() ? LaneGroup::camera : LaneGroup::intruder;
 }
 
 // "timeline/mark/entry": the first one of each kind.
@@ -144,7 +144,7 @@ void LaneRows::draw_chooser(const ViewContext& context) {
   };
   if (ErrorLane::has_any(context)) draw_choice(ErrorLane::kTitle, shows_errors_);
   for (LaneState& lane : lanes_)
-    if (camera_turns_ || !is_of_camera(lane.style.lane)) {
+    if (camera_turns_ || !lane.style.is_of_camera()) {
       bool shown = is_shown(lane);
       draw_choice(lane.style.title, shown);
       if (shown != is_shown(lane)) lane.is_chosen = shown;
@@ -158,8 +158,8 @@ bool LaneRows::is_shown(const LaneState& lane) const {
 }
 
 bool LaneRows::is_drawn(const LaneState& lane) const {
-  if (!camera_turns_) return is_shown(lane) && !is_of_camera(lane.style.lane);
-  return is_shown(lane) && !groups_.is_folded(group_of(lane.style.lane));
+  if (!camera_turns_) return is_shown(lane) && !lane.style.is_of_camera();
+  return is_shown(lane) && !groups_.is_folded(group_of(lane.style));
 }
 
 float LaneRows::curve_height(float room_px, bool with_errors) const {
@@ -167,7 +167,7 @@ float LaneRows::curve_height(float room_px, bool with_errors) const {
   float for_curves = room_px - (camera_turns_ ? kLaneGroups * LaneGroups::height() : 0);
   for (const LaneState& lane : lanes_) {
     if (!is_drawn(lane)) continue;
-    if (lane.style.kind == LaneKind::strip)
+    if (lane.style.is_strip())
       for_curves -= strip_height();
     else
       shares += 1;
@@ -203,8 +203,8 @@ void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& r
   ImGui::SetCursorScreenPos(low);
   ImGui::InvisibleButton("lane", {std::max(1.0F, high.x - low.x), row.height});
   context.ui_probe.note_item(fmt::format("timeline/lane/{}", style.title));
-  const bool is_taken = is_of_camera(style.lane) ? offset_.update_on_item(context, row.strip)
-                                                 : style.lane == Lane::clear && jumps_to_mark(context, row.strip);
+  const bool is_taken = style.is_of_camera() ? offset_.update_on_item(context, row.strip)
+                                             : style.lane == Lane::clear && jumps_to_mark(context, row.strip);
   if (!is_taken) ruler.scrub_on_item(context, row.strip);
   const bool hovered = ImGui::IsItemHovered() && !ImGui::IsItemActive();
 
@@ -227,7 +227,7 @@ void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& r
     draw_hover(list, marks, frame);
     tooltip_for_lanes(context, marks, frame);
   }
-  if (is_of_camera(style.lane) && offset_.is_active()) draw_offset(list, context, marks);
+  if (style.is_of_camera() && offset_.is_active()) draw_offset(list, context, marks);
   list.PopClipRect();
   draw_row_line(list, row.strip, high.y - 1);
 }
@@ -235,8 +235,7 @@ void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& r
 float LaneRows::height_of(LaneGroup group, float curve, bool with_errors) const {
   float height = with_errors && group == LaneGroup::intruder ? std::floor(curve * kErrorsShare) : 0;
   for (const LaneState& lane : lanes_)
-    if (is_drawn(lane) && group_of(lane.style.lane) == group)
-      height += lane.style.kind == LaneKind::strip ? strip_height() : curve;
+    if (is_drawn(lane) && group_of(lane.style) == group) height += lane.style.is_strip() ? strip_height() : curve;
   return height;
 }
 
@@ -248,8 +247,8 @@ void LaneRows::draw_group(const ViewContext& context, const TimelineStrip& strip
     y += height;
   }
   for (const LaneState& lane : lanes_) {
-    if (!is_drawn(lane) || group_of(lane.style.lane) != group) continue;
-    const float height = lane.style.kind == LaneKind::strip ? strip_height() : curve;
+    if (!is_drawn(lane) || group_of(lane.style) != group) continue;
+    const float height = lane.style.is_strip() ? strip_height() : curve;
     ImGui::PushID(lane.style.title);
     draw_lane(context, {.strip = strip, .lane = lane, .top_y = y, .height = height}, ruler);
     ImGui::PopID();
@@ -263,11 +262,8 @@ void LaneRows::draw(const ViewContext& context, const TimelineStrip& strip, floa
   camera_turns_ = turns || offset_.is_active();
   names_volumes_ = !context.project().output.encounter.empty();
   if (current_intruder(context))
-    for (const LaneState& lane : lanes_) context.needs.encounters |= is_of_encounter(lane.style.lane) && is_drawn(lane);
-  const std::optional<int> intruder = current_intruder(context);
-  const auto index = static_cast<std::size_t>(intruder.value_or(0));
-  const bool known = intruder && index < context.shown.surveys.size();
-  refresh(known ? context.shown.surveys[index] : nullptr);
+    for (const LaneState& lane : lanes_) context.needs.encounters |= lane.style.is_of_encounter() && is_drawn(lane);
+  refresh(survey_of(context, current_intruder(context).value_or(-1)));
   const ImVec2 start = ImGui::GetCursorScreenPos();
   const bool with_errors = shows_errors(context);
   const float curve = curve_height(room_px, with_errors);

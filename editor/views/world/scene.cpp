@@ -137,12 +137,6 @@ void draw_ticks(WorldCanvas& canvas, const WorldCurve& curve, ImU32 color) {
   }
 }
 
-const Survey* survey_of(const ViewContext& context, int intruder) {
-  const auto& surveys = context.shown.surveys;
-  const auto index = static_cast<std::size_t>(intruder);
-  return index < surveys.size() ? surveys[index].get() : nullptr;
-}
-
 // Wider than the curve, to be seen beside one of any colour.
 void draw_flagged(WorldCanvas& canvas, const WorldCurve& curve, const Survey* survey) {
   if (survey == nullptr) return;
@@ -238,7 +232,7 @@ void draw_trajectories(WorldCanvas& canvas, const WorldContext& world) {
     const bool current = is_current(world.context, curve.intruder);
     const ImU32 color = faded(intruder_color(curve.intruder), current ? 1 : 0.6);
     draw_control_lines(canvas, project.intruders[index].trajectory, color);
-    draw_flagged(canvas, curve, survey_of(world.context, curve.intruder));
+    draw_flagged(canvas, curve, survey_of(world.context, curve.intruder).get());
     canvas.polyline(stretch(curve.samples, -1e300, curve.range_first), faded(color, 0.3), 1.2);
     canvas.polyline(stretch(curve.samples, curve.range_last, 1e300), faded(color, 0.3), 1.2);
     canvas.polyline(stretch(curve.samples, curve.range_first, curve.range_last), color, current ? 2.2 : 1.6);
@@ -280,7 +274,7 @@ void draw_waypoints(WorldCanvas& canvas, const WorldContext& world, const Select
 
 void draw_closest_approaches(WorldCanvas& canvas, const WorldContext& world) {
   for (const WorldCurve& curve : world.model.curves) {
-    const Survey* survey = survey_of(world.context, curve.intruder);
+    const std::shared_ptr<const Survey> survey = survey_of(world.context, curve.intruder);
     if (survey == nullptr || !(survey->closest.distance_m > 0)) continue;
     const ClosestApproach& closest = survey->closest;
     const glm::dvec3 camera_m = camera_pose_at(world.context, closest.time_s).translation_m;
