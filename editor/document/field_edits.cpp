@@ -69,10 +69,6 @@ std::string limit_text(double limit) {
   return text;
 }
 
-bool is_finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 double in_range(const Field& field, double number) {
   return std::clamp(number, field.minimum, field.maximum);
 }
@@ -235,28 +231,31 @@ PlainValue value_of(const Field& field) {
       field.value);
 }
 
+bool is_finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool is_finite(const PlainValue& value) {
+  if (const auto* const number = std::get_if<double>(&value)) return std::isfinite(*number);
+  if (const auto* const number = std::get_if<std::optional<double>>(&value)) return std::isfinite(number->value_or(0));
+  const auto* const vector = std::get_if<glm::dvec3>(&value);
+  return vector == nullptr || is_finite(*vector);
+}
+
 bool put_value(const Field& field, const PlainValue& value) {
   return std::visit(Put{field}, field.value, value);
 }
 
 bool put_value(Project& project, std::string_view key, const PlainValue& value) {
-  if (key.find(".waypoints[") != std::string_view::npos) {
-    const std::vector<Field> fields = fields_of(project);
+  const auto put_there = [&](const std::vector<Field>& fields) {
     const Field* field = find_in(fields, key);
     return field != nullptr && put_value(*field, value);
-  }
+  };
+  if (key.find(".waypoints[") != std::string_view::npos) return put_there(fields_of(project));
   std::vector<ModelSettings> before;
   for (const IntruderSettings& intruder : project.intruders) before.push_back(intruder.model);
-  std::vector<std::vector<WaypointSettings>> aside;
-  for (IntruderSettings& intruder : project.intruders)
-    aside.push_back(std::exchange(intruder.trajectory.waypoints, {}));
-  const std::vector<Field> fields = fields_of(project);
-  const Field* field = find_in(fields, key);
-  const bool put = field != nullptr && put_value(*field, value);
-  for (std::size_t i = 0; i < aside.size(); ++i) {
-    project.intruders[i].trajectory.waypoints = std::move(aside[i]);
-    keep_axes_apart(project.intruders[i].model, before[i]);
-  }
+  const bool put = with_waypoints_aside(project, put_there);
+  for (std::size_t i = 0; i < before.size(); ++i) keep_axes_apart(project.intruders[i].model, before[i]);
   return put;
 }
 
