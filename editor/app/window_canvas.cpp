@@ -106,8 +106,8 @@ void make_few(std::vector<ImVec4>& regions) {
 // To a region near by, where there is one.
 void add_region(std::vector<ImVec4>& regions, const ImVec4& rect) {
   if (empty(rect)) return;
-  const auto near = std::find_if(regions.begin(), regions.end(),
-                                 [&](const ImVec4& region) { return waste(region, rect) <= kSlack_px2; });
+  const auto near =
+      std::ranges::find_if(regions, [&](const ImVec4& region) { return waste(region, rect) <= kSlack_px2; });
   if (near != regions.end())
     *near = around(*near, rect);
   else
@@ -116,8 +116,8 @@ void add_region(std::vector<ImVec4>& regions, const ImVec4& rect) {
 }
 
 bool touch(const std::vector<ImVec4>& some, const std::vector<ImVec4>& others) {
-  return std::any_of(some.begin(), some.end(), [&](const ImVec4& one) {
-    return std::any_of(others.begin(), others.end(), [&](const ImVec4& other) { return overlap(one, other); });
+  return std::ranges::any_of(some, [&](const ImVec4& one) {
+    return std::ranges::any_of(others, [&](const ImVec4& other) { return overlap(one, other); });
   });
 }
 
@@ -222,8 +222,8 @@ std::vector<ImVec4> ChangedRegions::changed(const Panel& before, const Panel& af
 }
 
 bool ChangedRegions::lies_at(const Panel& panel, const ImVec2& place) {
-  return std::any_of(panel.pieces.begin(), panel.pieces.end(), [&](const Piece& piece) {
-    return std::any_of(piece.triangles.begin(), piece.triangles.end(), [&](const Triangle& triangle) {
+  return std::ranges::any_of(panel.pieces, [&](const Piece& piece) {
+    return std::ranges::any_of(piece.triangles, [&](const Triangle& triangle) {
       const ImVec4& bounds = triangle.bounds;
       return place.x >= bounds.x && place.x < bounds.z && place.y >= bounds.y && place.y < bounds.w;
     });

@@ -29,7 +29,7 @@ bool finite(Project& project) {
     for (const WaypointSettings& waypoint : intruder.trajectory.waypoints)
       if (!finite(waypoint)) return false;
   return with_waypoints_aside(project, [](const std::vector<Field>& fields) {
-    return std::all_of(fields.begin(), fields.end(), [](const Field& field) { return is_finite(value_of(field)); });
+    return std::ranges::all_of(fields, [](const Field& field) { return is_finite(value_of(field)); });
   });
 }
 

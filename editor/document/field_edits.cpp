@@ -18,7 +18,7 @@ namespace {
 
 std::string with_spaces(std::string_view name) {
   std::string text(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
+  std::ranges::replace(text, '_', ' ');
   return text;
 }
 
@@ -67,6 +67,10 @@ std::string limit_text(double limit) {
   char text[64];
   std::snprintf(text, sizeof text, "%g", limit);
   return text;
+}
+
+bool is_finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 double in_range(const Field& field, double number) {
@@ -121,7 +125,7 @@ struct Put {
 };
 
 const Field* find_in(const std::vector<Field>& fields, std::string_view key) {
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.key == key; });
+  const auto found = std::ranges::find(fields, key, &Field::key);
   return found == fields.end() ? nullptr : &*found;
 }
 
@@ -174,7 +178,7 @@ std::string range_text(const Field& field) {
 std::string word_for_zero(std::string_view key) {
   constexpr std::array<std::string_view, 4> kAsTheClipAsks{"own_body.paper.canny_low", "own_body.paper.canny_high",
                                                            "own_body.paper.dilation_px", "own_body.paper.closing_px"};
-  if (std::find(kAsTheClipAsks.begin(), kAsTheClipAsks.end(), key) != kAsTheClipAsks.end()) return "auto";
+  if (std::ranges::find(kAsTheClipAsks, key) != kAsTheClipAsks.end()) return "auto";
   return key == "own_body.settled_percent" ? "never" : "";
 }
 
@@ -229,10 +233,6 @@ PlainValue value_of(const Field& field) {
           return *place;
       },
       field.value);
-}
-
-bool is_finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 bool is_finite(const PlainValue& value) {

@@ -25,7 +25,6 @@ using PlainValue = std::variant<double, int, std::optional<double>, std::optiona
 [[nodiscard]] PlainValue value_of(const Field& field);
 // False for numbers and vectors with a part that is not finite.
 [[nodiscard]] bool is_finite(const PlainValue& value);
-[[nodiscard]] bool is_finite(const glm::dvec3& v);
 
 // Numbers are brought into the field's range. A value of another type, one that is not finite and a name that a choice
 // does not have leave the field alone; false then.

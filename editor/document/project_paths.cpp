@@ -44,7 +44,7 @@ std::vector<Move> moves_of(const fs::path& from, const fs::path& to) {
     b = b.parent_path();
     moves.push_back({a, b});
   }
-  std::reverse(moves.begin(), moves.end());
+  std::ranges::reverse(moves);
   return moves;
 }
 
@@ -121,8 +121,7 @@ DroppedKind kind_by_extension(const std::string& extension) {
                                      Known{".yml", DroppedKind::calibration}, Known{".png", DroppedKind::mask},
                                      Known{".pgm", DroppedKind::mask},        Known{".json", DroppedKind::project},
                                      Known{".txt", DroppedKind::results},     Known{".csv", DroppedKind::results}};
-  const auto found =
-      std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& known) { return known.extension == extension; });
+  const auto found = std::ranges::find(kKnown, extension, &Known::extension);
   return found == kKnown.end() ? DroppedKind::nothing : found->kind;
 }
 
@@ -172,8 +171,7 @@ std::vector<Relinked> suggested_places(const std::vector<MissingFile>& missing, 
 
 void relink(Project& project, const std::vector<Relinked>& places) {
   for (const Field& field : fields_of(project)) {
-    const auto place = std::find_if(places.begin(), places.end(),
-                                    [&](const Relinked& relinked) { return relinked.field == field.key; });
+    const auto place = std::ranges::find(places, field.key, &Relinked::field);
     if (place != places.end() && field.is_path)
       *std::get<std::string*>(field.value) = path_in_project(project, place->place);
   }
@@ -202,7 +200,7 @@ std::string path_in_project(const Project& project, const fs::path& file) {
   const fs::path target = normal(file);
   if (project.file.empty()) return target.generic_string();
   const fs::path relative = target.lexically_relative(normal(project.file).parent_path());
-  const auto steps_up = std::count(relative.begin(), relative.end(), fs::path(".."));
+  const auto steps_up = std::ranges::count(relative, fs::path(".."));
   constexpr int kMaxStepsUp = 4;
   return (relative.empty() || steps_up > kMaxStepsUp ? target : relative).generic_string();
 }

@@ -25,8 +25,8 @@ WaypointSettings new_waypoint(const TrajectoryPlan& plan, double frame, const gl
                               const std::optional<LocalFrame>& earth) {
   WaypointSettings waypoint{.frame = frame};
   const bool among_places =
-      !plan.waypoints.empty() && std::all_of(plan.waypoints.begin(), plan.waypoints.end(),
-                                             [](const WaypointSettings& other) { return other.place.has_value(); });
+      !plan.waypoints.empty() &&
+      std::ranges::all_of(plan.waypoints, [](const WaypointSettings& other) { return other.place.has_value(); });
   if (among_places) waypoint.place.emplace();
   put_at(waypoint, position_m, earth);
   return waypoint;
@@ -46,8 +46,8 @@ void put_at(WaypointSettings& waypoint, const glm::dvec3& position_m, const std:
 int put_waypoint(TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
                  const std::vector<double>& frames_now, const std::optional<LocalFrame>& earth) {
   fix_frames(plan, frames_now);
-  const auto after = std::find_if(plan.waypoints.begin(), plan.waypoints.end(),
-                                  [&](const WaypointSettings& w) { return *w.frame > frame - kMinGap_frames; });
+  const auto after = std::ranges::find_if(plan.waypoints,
+                                          [&](const WaypointSettings& w) { return *w.frame > frame - kMinGap_frames; });
   const auto number = static_cast<int>(after - plan.waypoints.begin());
   if (after != plan.waypoints.end() && *after->frame < frame + kMinGap_frames)
     put_at(*after, position_m, earth);

@@ -233,7 +233,7 @@ std::optional<HorizonGrip> grip_of(std::span<const PixelLine> horizon, const glm
     share = (along[i - 1] + glm::distance(points[i - 1], nearest)) / std::max(along.back(), 1e-9);
   }
   const auto point_at = [&](double part) {
-    const auto there = std::lower_bound(along.begin(), along.end(), part * along.back()) - along.begin();
+    const auto there = std::ranges::lower_bound(along, part * along.back()) - along.begin();
     return points[static_cast<std::size_t>(there)];
   };
   grip.middle_px = point_at(0.5);

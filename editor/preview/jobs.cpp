@@ -38,8 +38,7 @@ Result<EstimatedMotion> estimated_motion(const EgoMotionRequest& request, const 
   if (const Result<void> written = write_text(request.file, track_csv_text(found->track), false); !written)
     return fail(written.error());
   const EgoMotion& motion = found->motion;
-  const auto lost =
-      std::count_if(motion.frames.begin(), motion.frames.end(), [](const EgoFrame& f) { return f.is_lost; });
+  const auto lost = std::ranges::count_if(motion.frames, &EgoFrame::is_lost);
   return EstimatedMotion{.file = request.file,
                          .frames = static_cast<int>(motion.frames.size()),
                          .lost_frames = static_cast<int>(lost),
@@ -60,10 +59,7 @@ Result<SeenHorizons> HorizonWatch::found(const Request& request, const JobContro
 
 void HorizonWatch::follow(const std::shared_ptr<const OpenedScene>& shown) {
   const bool can_be_looked_at = shown && shown->footage && shown->footage->video && shown->draft.problems.empty();
-  if (!can_be_looked_at) {
-    seen_.reset();
-    return;
-  }
+  if (!can_be_looked_at) return seen_.reset();
   const FootageSettings& wanted = shown->project->footage;
   if (asked_ != wanted || !shown->draft.scene.horizon_is_known) seen_.reset();
   if (!shown->draft.scene.horizon_is_known) return;

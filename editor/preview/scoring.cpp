@@ -39,8 +39,7 @@ Result<Results> read_safely(const std::filesystem::path& path, const FootageTrut
 }
 
 const TargetTruth* target_in(const ClipTruth& clip, int id) {
-  const auto found =
-      std::find_if(clip.targets.begin(), clip.targets.end(), [id](const TargetTruth& t) { return t.id == id; });
+  const auto found = std::ranges::find(clip.targets, id, &TargetTruth::id);
   return found == clip.targets.end() ? nullptr : &*found;
 }
 
@@ -141,8 +140,7 @@ void TruthBuilder::build(const Scene& scene) {
       put({.scene = scene, .problem = problem});
       return {};
     }
-    const auto known = std::find_if(made_.begin(), made_.end(),
-                                    [&](const CachedTruth& made) { return made.content == scene->content; });
+    const auto known = std::ranges::find(made_, scene->content, &CachedTruth::content);
     if (known != made_.end()) {
       const int frames = known->clip->frames();
       put({.scene = scene, .clip = known->clip, .done = frames, .total = frames});
@@ -159,7 +157,7 @@ namespace fs = std::filesystem;
 int ResultFiles::free_color() const {
   int color = 0;
   const auto is_taken = [&](const ResultFile& file) { return file.color == color; };
-  while (std::any_of(files_.begin(), files_.end(), is_taken)) ++color;
+  while (std::ranges::any_of(files_, is_taken)) ++color;
   return color;
 }
 
@@ -167,8 +165,7 @@ void ResultFiles::add(const fs::path& path) {
   std::error_code code;
   const fs::path absolute = fs::absolute(path, code);
   const fs::path place = (code ? path : absolute).lexically_normal();
-  const auto same =
-      std::find_if(files_.begin(), files_.end(), [&](const ResultFile& file) { return file.path == place; });
+  const auto same = std::ranges::find(files_, place, &ResultFile::path);
   if (same != files_.end())
     same->is_shown = true;
   else
@@ -278,8 +275,7 @@ void Scoring::step(const ScoringRequest& wanted) {
     scored->truth_problem = truth.problem;
   }
   std::erase_if(trackers_, [&](const auto& known) {
-    return std::none_of(wanted.files.begin(), wanted.files.end(),
-                        [&](const ResultFile& file) { return file.id == known.first; });
+    return std::ranges::none_of(wanted.files, [&](const ResultFile& file) { return file.id == known.first; });
   });
   for (const ResultFile& file : wanted.files) {
     Tracker& tracker = trackers_[file.id];

@@ -86,7 +86,7 @@ int LossStretch::exit_frame() const {
 
 bool EncounterSurvey::is_lost(std::size_t volume, double frame) const {
   const std::vector<LossStretch>& losses = volumes[volume].losses;
-  return std::any_of(losses.begin(), losses.end(), [&](const LossStretch& loss) {
+  return std::ranges::any_of(losses, [&](const LossStretch& loss) {
     return frame >= loss.first_frame - kFrameRounding && frame <= loss.last_frame + kFrameRounding;
   });
 }
@@ -136,7 +136,7 @@ std::shared_ptr<const ClipTruth> outline_truth(const OpenedScene& scene,
       target.frames.push_back(target_frame_of(estimate, image));
     clip.targets.push_back(std::move(target));
   }
-  std::sort(clip.targets.begin(), clip.targets.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  std::ranges::sort(clip.targets, {}, &TargetTruth::id);
   return std::make_shared<const ClipTruth>(std::move(clip));
 }
 

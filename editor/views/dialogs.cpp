@@ -247,8 +247,8 @@ void RelinkDialog::draw(const ViewContext& context) {
     draw_rows(context);
     ImGui::EndTable();
   }
-  const bool has_suggestions = std::any_of(suggested_.begin(), suggested_.end(),
-                                           [this](const auto& item) { return !places_.contains(item.first); });
+  const bool has_suggestions =
+      std::ranges::any_of(suggested_, [this](const auto& item) { return !places_.contains(item.first); });
   const char* const labels[] = {"Use suggestions", "Cancel", "Use these"};
   align_buttons_right(labels, 3);
   if (context.ui_probe.noted(dialog_button("Use suggestions", false, has_suggestions), "relink/suggestions"))
@@ -268,9 +268,8 @@ void Toasts::show(const ShowMessage& shown_message, double now_s) {
   const ShowMessage message{shortened(shown_message.text), shown_message.is_error};
   const double min_duration_s = message.is_error ? kMinError_s : kMin_s;
   const double until_s = now_s + min_duration_s + kReading_s * static_cast<double>(message.text.size());
-  const auto same = std::find_if(toasts_.begin(), toasts_.end(), [&](const Toast& toast) {
-    return toast.text == message.text && toast.is_error == message.is_error;
-  });
+  const auto same = std::ranges::find_if(
+      toasts_, [&](const Toast& toast) { return toast.text == message.text && toast.is_error == message.is_error; });
   if (same != toasts_.end()) {
     same->until_s = until_s;
     ++same->times;
@@ -279,7 +278,7 @@ void Toasts::show(const ShowMessage& shown_message, double now_s) {
   toasts_.push_back({message.text, message.is_error, until_s});
   if (toasts_.size() <= kMax) return;
   // Passing ones make room first.
-  const auto passing = std::find_if(toasts_.begin(), toasts_.end(), [](const Toast& toast) { return !toast.is_error; });
+  const auto passing = std::ranges::find_if(toasts_, [](const Toast& toast) { return !toast.is_error; });
   toasts_.erase(passing != toasts_.end() ? passing : toasts_.begin());
 }
 

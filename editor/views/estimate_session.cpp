@@ -54,10 +54,9 @@ EgoMotionSession::EgoMotionSession(Edits& edits, std::function<void()> wake, Wor
 
 void EgoMotionSession::start(const Document& document) {
   const Project& project = document.project();
-  if (project.footage.video.empty() || project.footage.calibration.empty()) {
-    edits().ask(ShowMessage{"The camera's motion is estimated from footage and calibration: choose both first.", true});
-    return;
-  }
+  if (project.footage.video.empty() || project.footage.calibration.empty())
+    return edits().ask(
+        ShowMessage{"The camera's motion is estimated from footage and calibration: choose both first.", true});
   begin(document, {project, new_attitude_file(project)});
 }
 
@@ -69,8 +68,8 @@ void EgoMotionSession::use(const Document&, const std::shared_ptr<const Estimate
 
 std::string summary_of(const Appearance& appearance) {
   const std::vector<AppearanceQuantity> quantities = quantities_of(appearance);
-  const auto found = std::count_if(quantities.begin(), quantities.end(),
-                                   [](const AppearanceQuantity& quantity) { return quantity.estimate.is_known; });
+  const auto found =
+      std::ranges::count_if(quantities, [](const AppearanceQuantity& quantity) { return quantity.estimate.is_known; });
   return fmt::format("{} of {} quantities found in {} frames", found, quantities.size(), appearance.frames_used);
 }
 
@@ -78,10 +77,8 @@ LightSession::LightSession(Edits& edits, std::function<void()> wake, Work work)
     : EstimateSession(edits, std::move(wake), std::move(work), "The light could not be found") {}
 
 void LightSession::start(const Document& document, const LightLike& wanted) {
-  if (document.project().intruders.empty()) {
-    edits().ask(ShowMessage{"There is no intruder to be lit: add one first.", true});
-    return;
-  }
+  if (document.project().intruders.empty())
+    return edits().ask(ShowMessage{"There is no intruder to be lit: add one first.", true});
   begin(document, {document.project(), wanted.frame, wanted.box});
 }
 
@@ -95,10 +92,8 @@ AppearanceSession::AppearanceSession(Edits& edits, std::function<void()> wake, W
     : EstimateSession(edits, std::move(wake), std::move(work), "The footage could not be matched") {}
 
 void AppearanceSession::start(const Document& document) {
-  if (document.project().footage.video.empty()) {
-    edits().ask(ShowMessage{"There is no footage to match: choose a video first.", true});
-    return;
-  }
+  if (document.project().footage.video.empty())
+    return edits().ask(ShowMessage{"There is no footage to match: choose a video first.", true});
   begin(document, {document.project()});
 }
 

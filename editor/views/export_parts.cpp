@@ -98,7 +98,7 @@ void draw_written(const ViewContext& context, const ExportState& state) {
 }
 
 bool is_chosen(const ExportSettings& output, std::string_view format) {
-  return std::find(output.labels.begin(), output.labels.end(), format) != output.labels.end();
+  return std::ranges::find(output.labels, format) != output.labels.end();
 }
 
 // The formats stay in one order, however they are chosen.
@@ -117,7 +117,7 @@ void draw_label_format(const ViewContext& context, const LabelFormat& format) {
 }
 
 bool has_thresholds(const ExportSettings& output) {
-  return std::any_of(output.labels.begin(), output.labels.end(), [](const std::string& label) {
+  return std::ranges::any_of(output.labels, [](const std::string& label) {
     const LabelFormat* const format = label_format(label);
     return format != nullptr && format->has_thresholds;
   });
@@ -244,10 +244,8 @@ void draw_result(const ViewContext& context, const ExportState& state) {
     ImGui::TextDisabled("Nothing was written.");
     return;
   }
-  if (state.phase == JobPhase::cancelled) {
-    note_line(Icon::info, color::kQuiet, "Cancelled. Nothing was written.");
-    return;
-  }
+  if (state.phase == JobPhase::cancelled)
+    return note_line(Icon::info, color::kQuiet, "Cancelled. Nothing was written.");
   const double wall_s = state.value->times.wall_s;
   const int frames = state.value->frames;
   note_line(Icon::check, color::kGood,

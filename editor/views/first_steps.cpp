@@ -38,8 +38,8 @@ constexpr std::size_t kFiles = 3;
 
 // The first that has no model; else as many as there are: one more is wanted.
 std::size_t intruder_without_model(const Project& project) {
-  const auto found = std::find_if(project.intruders.begin(), project.intruders.end(),
-                                  [](const IntruderSettings& intruder) { return intruder.model.file.empty(); });
+  const auto found = std::ranges::find_if(project.intruders,
+                                          [](const IntruderSettings& intruder) { return intruder.model.file.empty(); });
   return static_cast<std::size_t>(found - project.intruders.begin());
 }
 
@@ -190,7 +190,7 @@ void draw_other_ways(const ViewContext& context) {
 
 void FirstSteps::draw(const ViewContext& context, const ScreenRect& room) {
   const Steps steps = steps_of(context);
-  const auto next = std::find_if(steps.begin(), steps.end(), [](const FirstStep& step) { return !step.is_done(); });
+  const auto next = std::ranges::find_if(steps, [](const FirstStep& step) { return !step.is_done(); });
   const std::uint64_t document = context.document.first_number();
   if (std::any_of(steps.begin(), steps.begin() + kFiles, [](const FirstStep& step) { return step.file.empty(); }))
     begun_ = document;

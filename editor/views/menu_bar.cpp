@@ -127,8 +127,8 @@ class RightSide {
 
   void show_problems(const std::vector<Problem>& problems) {
     if (problems.empty()) return;
-    const bool is_missing = std::any_of(problems.begin(), problems.end(),
-                                        [](const Problem& problem) { return problem.kind == ErrorKind::cannot_read; });
+    const bool is_missing =
+        std::ranges::any_of(problems, [](const Problem& problem) { return problem.kind == ErrorKind::cannot_read; });
     const std::string text = count_text(std::ssize(problems), "problem");
     const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(24);
     if (!take(width)) return;

@@ -91,10 +91,7 @@ void add_waypoint(const ViewContext& context, int intruder, double frame, const 
 
 void add_waypoint_here(const ViewContext& context, std::optional<glm::dvec3> position_m) {
   const std::optional<int> intruder = current_intruder(context);
-  if (!intruder) {
-    context.edits.ask(ShowMessage{"Add an intruder first: it carries the waypoints.", true});
-    return;
-  }
+  if (!intruder) return context.edits.ask(ShowMessage{"Add an intruder first: it carries the waypoints.", true});
   const int frame = context.document.playhead();
   if (!position_m) position_m = position_of(context, *intruder, frame);
   if (!position_m) position_m = ahead_of_camera(context, frame, 300, 0);

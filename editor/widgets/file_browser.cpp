@@ -136,10 +136,7 @@ void FileBrowser::answer_with(const fs::path& path) {
 void FileBrowser::answer_by_name() {
   fs::path path = folder_ / name_;
   if (name_.empty() || !path.has_filename()) return;
-  if (is_folder(path)) {
-    enter(path.lexically_normal());
-    return;
-  }
+  if (is_folder(path)) return enter(path.lexically_normal());
   if (!path.has_extension() && !question_.extensions.empty()) path += question_.extensions.front();
   if (!is_folder(path.parent_path())) {
     problem_ = "there is no folder " + path.parent_path().string();

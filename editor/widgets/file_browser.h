@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,8 +65,7 @@ class FolderReader {
   [[nodiscard]] const FolderListing& listing() const { return listing_; }
 
  private:
-  struct Pending;
-  std::shared_ptr<Pending> pending_;
+  std::future<FolderListing> coming_;  // from the thread, which may outlive the reader
   FolderListing listing_;
 };
 

@@ -81,8 +81,8 @@ void TextureOrder::use(TextureKey key, std::size_t bytes) {
 std::vector<TextureKey> TextureOrder::end_update(std::size_t max_bytes) {
   std::vector<TextureKey> gone;
   while (!uses_.empty()) {
-    const auto oldest = std::min_element(
-        uses_.begin(), uses_.end(), [](const auto& a, const auto& b) { return a.second.update < b.second.update; });
+    const auto oldest =
+        std::ranges::min_element(uses_, [](const auto& a, const auto& b) { return a.second.update < b.second.update; });
     const long unused_updates = update_ - oldest->second.update;
     if (unused_updates == 0 || (unused_updates < kUpdatesKept && bytes_ <= max_bytes)) break;
     bytes_ -= oldest->second.bytes;

@@ -268,10 +268,7 @@ void draw_pixel_values(const ImageCanvas& canvas, const PatchedImage& image, con
 void draw_pixel_mark(const ImageCanvas& canvas, const cv::Point& pixel) {
   const glm::dvec2 low = canvas.view.screen_of(glm::dvec2(pixel.x, pixel.y) - 0.5);
   const ScreenRect square{low, low + canvas.view.zoom};
-  if (canvas.view.zoom >= 4) {
-    draw_outline(canvas, square, color::kAccent, false);
-    return;
-  }
+  if (canvas.view.zoom >= 4) return draw_outline(canvas, square, color::kAccent, false);
   const glm::dvec2 middle = glm::floor((square.low + square.high) / 2.0);
   const double gap = scaled(4);
   const double arm = scaled(7);

@@ -84,10 +84,7 @@ void draw_volumes_lost(const ViewContext& context, FieldRows& rows, int intruder
   ImGui::Spacing();
   note("Well clear lost");
   const std::shared_ptr<const Survey> survey = survey_of(context, intruder);
-  if (survey == nullptr || !survey->encounter) {
-    note("Not known yet.");
-    return;
-  }
+  if (survey == nullptr || !survey->encounter) return note("Not known yet.");
   for (const VolumeLosses& volume : survey->encounter->volumes) draw_losses(context, rows, volume);
 }
 
@@ -199,16 +196,10 @@ void EncounterBlock::change(const ViewContext& context, int intruder, const Plan
 
 void EncounterBlock::draw(const ViewContext& context, FieldRows& rows) {
   const std::optional<int> intruder = current_intruder(context);
-  if (!intruder) {
-    note("No intruder yet. Add one above.");
-    return;
-  }
+  if (!intruder) return note("No intruder yet. Add one above.");
   context.needs.encounters = true;
   const PresentApproach* const present = memory_.of(context, *intruder);
-  if (present == nullptr) {
-    note("The flight is not known yet.");
-    return;
-  }
+  if (present == nullptr) return note("The flight is not known yet.");
   settle(context, *intruder);
   note("Closest approach");
   const bool was_held = is_held_;

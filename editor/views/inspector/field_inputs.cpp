@@ -102,7 +102,7 @@ std::optional<Edited> typed_text_input(const std::string& value, const Field& fi
 
 std::string in_words(std::string_view name) {
   std::string text(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
+  std::ranges::replace(text, '_', ' ');
   return text;
 }
 
@@ -118,7 +118,7 @@ std::optional<int> combo(const Names& names, int chosen, const std::string& show
 }
 
 std::optional<Edited> named_text_input(const std::string& value, const RowOptions& look, float width) {
-  const auto found = std::find(look.names.begin(), look.names.end(), value);
+  const auto found = std::ranges::find(look.names, value);
   const std::optional<int> taken = combo(look.names, static_cast<int>(found - look.names.begin()), value, width);
   if (!taken) return std::nullopt;
   return Edited{look.names[static_cast<std::size_t>(*taken)], true};
@@ -139,10 +139,10 @@ bool color_input(glm::dvec3& value, float width) {
 std::optional<Edited> list_input(const std::vector<std::string>& values, const RowOptions& look) {
   std::vector<std::string> names = look.names;
   for (const std::string& value : values)
-    if (std::find(names.begin(), names.end(), value) == names.end()) names.push_back(value);
+    if (std::ranges::find(names, value) == names.end()) names.push_back(value);
   std::optional<Edited> edited;
   for (const std::string& name : names) {
-    const auto found = std::find(values.begin(), values.end(), name);
+    const auto found = std::ranges::find(values, name);
     bool is_chosen = found != values.end();
     if (!ImGui::Checkbox(shortened(name, 200).c_str(), &is_chosen)) continue;
     std::vector<std::string> changed = values;

@@ -134,8 +134,7 @@ std::vector<Problem> lines_of(const ProblemsByField& problems) {
 // How much hangs on a guess: all distances on the lens, all places on the camera, the look of one aircraft on the rest.
 int weight_of(std::string_view field) {
   constexpr std::array<std::string_view, 4> kFirst{"footage.", "camera.", "intruders", "light."};
-  const auto found =
-      std::find_if(kFirst.begin(), kFirst.end(), [&](std::string_view begin) { return field.starts_with(begin); });
+  const auto found = std::ranges::find_if(kFirst, [&](std::string_view begin) { return field.starts_with(begin); });
   return static_cast<int>(found - kFirst.begin());
 }
 
@@ -172,10 +171,7 @@ std::string place_of(const Project& project, std::string_view key) {
 
 void ProblemList::find_warnings() {
   warnings_.clear();
-  if (!scene_) {
-    never_visible_.clear();
-    return;
-  }
+  if (!scene_) return never_visible_.clear();
   const auto add = [&](const Problem& warning) { warnings_.emplace(warning.field, warning); };
   for (const Problem& warning : warnings_of_files(*scene_)) add(warning);
   if (horizons_)
@@ -245,7 +241,7 @@ std::optional<std::string> ProblemList::draw(const ViewContext& context) const {
   const std::optional<std::string> warning = draw_list(context, lines_of(warnings_), "warning", color::kPartly);
   std::vector<Problem> guesses;
   if (context.guesses != nullptr) guesses = *context.guesses;
-  std::stable_sort(guesses.begin(), guesses.end(), [](const Problem& a, const Problem& b) {
+  std::ranges::stable_sort(guesses, [](const Problem& a, const Problem& b) {
     return std::pair(weight_of(a.field), a.field) < std::pair(weight_of(b.field), b.field);
   });
   const std::optional<std::string> guess = draw_list(context, guesses, "guessed setting", color::kAccent, true);

@@ -194,10 +194,11 @@ void ModelBlock::draw_preview(const ViewContext& context, int intruder) {
   const ModelImage* const model = context.shown.model.get();
   const std::string& file = context.project().intruders[static_cast<std::size_t>(intruder)].model.file;
   const bool is_of_this = model != nullptr && is_same_file(model->file, resolved(context.project(), file));
-  if (!is_of_this || model->rgba.empty()) {
-    draw_centred(low, size, file.empty() ? "no model" : is_of_this && !model->problem.empty() ? "no image" : "...");
-    return;
-  }
+  if (!is_of_this || model->rgba.empty())
+    return draw_centred(low, size,
+                        file.empty()                            ? "no model"
+                        : is_of_this && !model->problem.empty() ? "no image"
+                                                                : "...");
   list.AddImage(context.textures.of(model->rgba, Filter::smooth), low, high);
   context.ui_probe.note_item("inspector/model image");
   draw_axis(list, low, size, {1, 0, 0}, turn_rad_, color::kAccent, "nose");

@@ -255,10 +255,7 @@ void WaypointTable::draw(const ViewContext& context, const ProblemsByField& prob
 
 void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   const std::optional<int> intruder = current_intruder(context);
-  if (!intruder) {
-    note("No intruder yet. Add one above.");
-    return;
-  }
+  if (!intruder) return note("No intruder yet. Add one above.");
   const std::string key = fmt::format("intruders[{}].trajectory.", *intruder);
   const bool is_level =
       context.project().intruders[static_cast<std::size_t>(*intruder)].trajectory.bank == BankChoice::level;
@@ -302,10 +299,7 @@ void FlightSummary::measure(const std::shared_ptr<const Survey>& survey) {
 
 void FlightSummary::draw(const ViewContext& context, FieldRows& rows, int intruder) {
   const std::shared_ptr<const Survey> shown = survey_of(context, intruder);
-  if (!shown || shown->flight.empty()) {
-    note("The flight has not been looked at yet.");
-    return;
-  }
+  if (!shown || shown->flight.empty()) return note("The flight has not been looked at yet.");
   const Survey& survey = *shown;
   measure(shown);
   note_row(rows, "Speed", fmt::format("{} to {} m/s", tenths(speed_mps_.minimum), tenths(speed_mps_.maximum)),

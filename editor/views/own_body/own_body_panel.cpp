@@ -92,10 +92,7 @@ void OwnBodyPanel::draw_running(const ViewContext& context, OwnBodySession& sess
 
 void OwnBodyPanel::draw_detection(const ViewContext& context, OwnBodySession& session) const {
   const DetectionState& state = session.detection();
-  if (state.is_running()) {
-    draw_running(context, session);
-    return;
-  }
+  if (state.is_running()) return draw_running(context, session);
   if (has_footage(context)) note(frames_text(context));
   if (context.ui_probe.noted(wide_button("Detect", true, has_footage(context)), "own body/detect"))
     session.start(context.document);
@@ -113,10 +110,7 @@ void OwnBodyPanel::draw_detection(const ViewContext& context, OwnBodySession& se
 
 void OwnBodyPanel::draw_found(const ViewContext& context, const DetectionState& state) const {
   const OwnBody& found = *state.value;
-  if (state.phase != JobPhase::done) {
-    note("Before: " + result_text(found));
-    return;
-  }
+  if (state.phase != JobPhase::done) return note("Before: " + result_text(found));
   const std::vector<std::string> cautions = cautions_about(found, seconds_of(context, found.frames_passed));
   const bool has_cautions = !cautions.empty();
   note_line(has_cautions ? Icon::warning : Icon::check, has_cautions ? color::kPartly : color::kGood,
@@ -191,10 +185,7 @@ void OwnBodyPanel::draw_file(const ViewContext& context, OwnBodySession& session
   if (session.is_used(project)) context.ui_probe.note_item("own body/used");
   if (!session.painting().empty()) note(share_text(session.share()));
   asks_to_replace_ = asks_to_replace_ && session.could_replace(project);
-  if (asks_to_replace_) {
-    draw_replacing(context, session);
-    return;
-  }
+  if (asks_to_replace_) return draw_replacing(context, session);
   if (context.ui_probe.noted(
           wide_button("Use in project", true,
                       session.fits() && !session.is_used(project) && (is_unsaved || !session.file().empty())),

@@ -152,10 +152,7 @@ void OwnBodySession::take_project_mask(const Project& project, const cv::Mat& ow
   const bool was_worked_on = painting_.can_undo() || painting_.can_redo();
   const bool is_another = own_body.empty() || file_ != project_mask_file(project);
   if (painting_.has_unsaved_changes() || (was_worked_on && !file_.empty() && is_another)) return;
-  if (was_worked_on) {
-    start_from_project(project);
-    return;
-  }
+  if (was_worked_on) return start_from_project(project);
   const fs::path file = own_body.empty() ? fs::path() : project_mask_file(project);
   begin(own_body.empty() ? cv::Mat::zeros(footage_px_, CV_8UC1) : bytes_of(own_body),
         file.empty() ? std::string() : "from " + file.filename().string());

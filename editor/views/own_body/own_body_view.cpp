@@ -61,10 +61,7 @@ void OwnBodyCanvas::handle_mouse(const ViewContext& context, OwnBodySession& ses
     else
       painting.begin_stroke(brush(context), place);
   }
-  if (!ImGui::IsItemActive()) {
-    painting.end_stroke();
-    return;
-  }
+  if (!ImGui::IsItemActive()) return painting.end_stroke();
   const auto button = ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? ImGuiMouseButton_Middle : ImGuiMouseButton_Left;
   if (pans_) look_.pan(dv(ImGui::GetMouseDragDelta(button, 0)));
   if (pressed(Key::escape)) painting.take_back_stroke();
@@ -109,11 +106,9 @@ void OwnBodyCanvas::draw_layers(const ViewContext& context, const OwnBodySession
 void OwnBodyCanvas::draw_confidence(const ViewContext& context, const OwnBodySession& session,
                                     const ImageCanvas& canvas) {
   const std::shared_ptr<const OwnBody>& found = session.detection().value;
-  if (!found || found->confidence.size() != canvas.image_px) {
-    draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
-               "Nothing is detected yet. Detect first.", color::kPartly);
-    return;
-  }
+  if (!found || found->confidence.size() != canvas.image_px)
+    return draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
+                      "Nothing is detected yet. Detect first.", color::kPartly);
   if (shown_confidence_of_ != found) confidence_ = confidence_image(found->confidence);
   shown_confidence_of_ = found;
   draw_image(canvas.draw, context.textures, confidence_, canvas.view, canvas.rect);

@@ -67,8 +67,8 @@ std::string truth_text(const Scored& scored) {
 }
 
 std::string shown_name(const Scored& scored, const ScoredTracker& tracker) {
-  const auto same = std::count_if(scored.trackers.begin(), scored.trackers.end(),
-                                  [&](const ScoredTracker& other) { return other.name == tracker.name; });
+  const auto same =
+      std::ranges::count_if(scored.trackers, [&](const ScoredTracker& other) { return other.name == tracker.name; });
   return same > 1 ? tracker.file.path.parent_path().filename().string() + "/" + tracker.name : tracker.name;
 }
 

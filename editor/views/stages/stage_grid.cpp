@@ -47,8 +47,7 @@ constexpr std::array kWords{
 };
 
 StageTile tile_of(const std::string& stage, const cv::Mat& image) {
-  const auto words =
-      std::find_if(kWords.begin(), kWords.end(), [&](const Words& known) { return stage == known.stage; });
+  const auto words = std::ranges::find_if(kWords, [&](const Words& known) { return stage == known.stage; });
   if (words == kWords.end()) return {stage, "", image};
   return {words->label, words->tooltip, image};
 }
@@ -97,7 +96,7 @@ cv::Mat difference(const cv::Mat& a, const cv::Mat& b, double gain) {
 }
 
 cv::Mat Differences::of(const cv::Mat& a, const cv::Mat& b, double gain) {
-  const auto known = std::find_if(made_.begin(), made_.end(), [&](const CachedDifference& made) {
+  const auto known = std::ranges::find_if(made_, [&](const CachedDifference& made) {
     return made.a.data == a.data && made.b.data == b.data && made.gain == gain;
   });
   if (known != made_.end()) return known->image;
@@ -133,8 +132,7 @@ bool StageGrid::handle_escape() {
 
 void StageGrid::draw(std::span<const StageTile> tiles, const cv::Size& frame_px, const ScreenRect& rect,
                      Textures& textures) {
-  const auto large =
-      std::find_if(tiles.begin(), tiles.end(), [&](const StageTile& tile) { return tile.label == large_; });
+  const auto large = std::ranges::find(tiles, large_, &StageTile::label);
   if (large != tiles.end()) tiles = tiles.subspan(static_cast<std::size_t>(large - tiles.begin()), 1);
   const glm::dvec2 size(frame_px.width, frame_px.height);
   const GridShape shape = grid_shape(static_cast<int>(tiles.size()), size, rect.size(), head_px() + gap_px());

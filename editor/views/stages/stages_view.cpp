@@ -102,9 +102,7 @@ std::vector<int> StagesView::choices(const ViewContext& context) const {
 
 std::optional<int> StagesView::intruder(const ViewContext& context) const {
   const std::vector<int> all = choices(context);
-  const auto there = [&](std::optional<int> number) {
-    return number && std::find(all.begin(), all.end(), *number) != all.end();
-  };
+  const auto there = [&](std::optional<int> number) { return number && std::ranges::find(all, *number) != all.end(); };
   if (there(intruder_)) return intruder_;
   const std::optional<int> current = current_intruder(context);
   const std::optional<int> worked_on = current ? scene_intruder(context, *current) : std::nullopt;

@@ -130,10 +130,8 @@ void draw_key_marks(ImDrawList& list, const KeyMarks& marks) {
 
 // What there is to say of the place below the mouse.
 void tooltip_for_keys(const KeyMarks& marks, double mouse_frame) {
-  if (marks.hot >= 0 && marks.hot < static_cast<int>(marks.frames.size())) {
-    tooltip_for_item(key_text(marks, static_cast<std::size_t>(marks.hot)).c_str());
-    return;
-  }
+  if (marks.hot >= 0 && marks.hot < static_cast<int>(marks.frames.size()))
+    return tooltip_for_item(key_text(marks, static_cast<std::size_t>(marks.hot)).c_str());
   const std::string flags = flags_text(marks, mouse_frame);
   tooltip_for_item(flags.empty() ? "double click: add a waypoint on the curve here" : flags.c_str());
 }

@@ -181,14 +181,9 @@ void draw_encounter(ImDrawList& list, const LaneMarks& marks) {
 }  // namespace
 
 void draw_lane_marks(ImDrawList& list, const LaneMarks& marks) {
-  if (marks.survey == nullptr || (marks.style.is_of_encounter() && !marks.survey->encounter)) {
-    draw_label(list, marks, marks.strip.left(), marks.top_y + marks.height / 2, color::kQuiet, "not known yet");
-    return;
-  }
-  if (marks.style.is_strip()) {
-    draw_strip(list, marks);
-    return;
-  }
+  if (marks.survey == nullptr || (marks.style.is_of_encounter() && !marks.survey->encounter))
+    return draw_label(list, marks, marks.strip.left(), marks.top_y + marks.height / 2, color::kQuiet, "not known yet");
+  if (marks.style.is_strip()) return draw_strip(list, marks);
   draw_flags(list, marks);
   if (marks.style.is_of_encounter()) draw_encounter(list, marks);
   draw_curve(list, marks);

@@ -259,7 +259,7 @@ std::vector<Polyline> curve_of(std::span<const double> values, int first_frame, 
   for (std::size_t i = static_cast<std::size_t>(from) / stride * stride; i < static_cast<std::size_t>(to);
        i += stride) {
     const auto column = values.subspan(i, std::min(stride, values.size() - i));
-    if (!std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); })) {
+    if (!std::ranges::all_of(column, [](double v) { return std::isfinite(v); })) {
       lines.gap();
       continue;
     }
@@ -277,8 +277,7 @@ std::span<const LaneStyle> lane_styles() {
 }
 
 const LaneStyle& style_of(Lane lane) {
-  const auto* const style = std::find_if(kLaneStyles.begin(), kLaneStyles.end(),
-                                         [&](const LaneStyle& candidate) { return candidate.lane == lane; });
+  const auto* const style = std::ranges::find(kLaneStyles, lane, &LaneStyle::lane);
   ENSURE(style != kLaneStyles.end());
   return *style;
 }
@@ -291,8 +290,7 @@ LaneValues values_of(const Survey& survey, Lane lane) {
     result.values.push_back(value_in(survey, style, i));
     result.deviations.push_back(deviation_in(survey, style, i));
   }
-  if (std::none_of(result.deviations.begin(), result.deviations.end(), [](double sd) { return std::isfinite(sd); }))
-    result.deviations.clear();
+  if (std::ranges::none_of(result.deviations, [](double sd) { return std::isfinite(sd); })) result.deviations.clear();
   result.scale = scale_for(result.values, style.min_span, style.scaling);
   bool is_first = true;
   for (const double value : result.values) {

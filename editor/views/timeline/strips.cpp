@@ -77,7 +77,7 @@ std::vector<EncounterMark> encounter_marks(const EncounterSurvey& survey) {
                    fmt::format("closest approach at {:.3f} s: {:.1f} m beside, {:.1f} m {}", survey.nearest.time_s,
                                survey.nearest.horizontal_m, std::abs(survey.nearest.vertical_m),
                                survey.nearest.vertical_m < 0 ? "below" : "above")});
-  std::stable_sort(marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
+  std::ranges::stable_sort(marks, {}, &EncounterMark::frame);
   return marks;
 }
 

@@ -49,7 +49,7 @@ std::optional<double> time_in(std::string_view text) {
 }
 
 double nearest_in_time(double time_s, std::span<const double> times_s) {
-  const auto after = std::lower_bound(times_s.begin(), times_s.end(), time_s);
+  const auto after = std::ranges::lower_bound(times_s, time_s);
   const auto number = static_cast<double>(after - times_s.begin());
   if (after == times_s.begin()) return 0;
   return after == times_s.end() || time_s - *(after - 1) <= *after - time_s ? number - 1 : number;
@@ -74,7 +74,7 @@ void draw_those_that_fit(const ViewContext& context, const Bar& bar) {
   float room = ImGui::GetContentRegionAvail().x;
   std::vector<std::size_t> order(bar.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return bar[a].rank < bar[b].rank; });
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return bar[a].rank < bar[b].rank; });
   int full_from = 1000;  // of one rank all or none
   for (const std::size_t i : order) {
     room -= bar[i].gap + bar[i].width;

@@ -229,10 +229,7 @@ bool HorizonTool::press(const ToolContext& tool) {
 
 void HorizonTool::drag(const ToolContext& tool) {
   Taken& taken = *taken_;
-  if (taken.gesture.is_lost(tool.context) || taken.gesture.cancelled_by_key(tool.context)) {
-    taken_.reset();
-    return;
-  }
+  if (taken.gesture.is_lost(tool.context) || taken.gesture.cancelled_by_key(tool.context)) return taken_.reset();
   taken.gesture.is_moving = taken.gesture.is_moving || taken.gesture.has_left_press(tool.mouse);
   if (!taken.gesture.is_moving) return;
   const glm::dvec2 pixel = tool.canvas.view.image_of(tool.mouse) + taken.offset_px;

@@ -31,10 +31,7 @@ void add_pixel(std::vector<Part>& parts, const ViewContext& context, const Viewp
   const cv::Point at = *readout.pixel;
   parts.push_back({fmt::format("x {:4}  y {:4}", at.x, at.y), "x 00000  y 00000", 0, color::kText});
   parts.push_back({pixel_text(image, at), "000 000 000", 0, color::kText, image.bgr_at(at)});
-  if (readout.of_footage) {
-    parts.push_back({"footage", "covered 100.0%", 1});
-    return;
-  }
+  if (readout.of_footage) return parts.push_back({"footage", "covered 100.0%", 1});
   const cv::Mat& mask = context.shown.image->mask;
   const bool masked = mask.type() == CV_8UC1 && cv::Rect({0, 0}, mask.size()).contains(at);
   const double covered = masked ? mask.at<uchar>(at) / 2.55 : 0;
@@ -146,8 +143,7 @@ std::vector<std::string> problems_of(const ViewContext& context, const PreviewIm
   std::vector<std::string> problems;
   const auto add = [&](const std::string& problem) {
     std::string shown = shortened(problem, 400);
-    if (!shown.empty() && std::find(problems.begin(), problems.end(), shown) == problems.end())
-      problems.push_back(std::move(shown));
+    if (!shown.empty() && std::ranges::find(problems, shown) == problems.end()) problems.push_back(std::move(shown));
   };
   if (context.shown.scene) {
     const OpenedScene& scene = *context.shown.scene;

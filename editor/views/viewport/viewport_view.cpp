@@ -171,10 +171,7 @@ void ViewportView::handle_mouse(const ViewContext& context, const ImageCanvas& c
 void ViewportView::drag_lit_box(const ViewContext& context, const ImageCanvas& canvas, bool down) {
   context.needs.own_escape = true;
   if (hovered_) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-  if (pressed(Key::escape)) {
-    lit_box_.reset();
-    return;
-  }
+  if (pressed(Key::escape)) return lit_box_.reset();
   if (grip_ != Grip::lit_box) return;
   lit_box_->to_px = canvas.view.image_of(dv(ImGui::GetMousePos()));
   if (down) return;
@@ -202,10 +199,8 @@ void ViewportView::handle_double_click(const ViewContext& context, const ImageCa
   if (lit_box_ || grip_ == Grip::line || grip_ == Grip::horizon || (tool != nullptr && waypoint_at(*tool) != nullptr))
     return;
   const glm::dvec2 mouse = dv(ImGui::GetMousePos());
-  if (tool == nullptr || !overlays_.waypoints || !current_intruder(context) || !canvas.pixel_at(mouse)) {
-    look_.fit();
-    return;
-  }
+  if (tool == nullptr || !overlays_.waypoints || !current_intruder(context) || !canvas.pixel_at(mouse))
+    return look_.fit();
   tool_.release(context);
   add_waypoint_at(*tool, canvas.view.image_of(mouse));
 }

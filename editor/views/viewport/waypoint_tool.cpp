@@ -184,10 +184,7 @@ bool WaypointTool::begin(const ToolContext& tool) {
 }
 
 void WaypointTool::drag(const ToolContext& tool) {
-  if (!is_still_there(tool.context)) {
-    taken_.reset();
-    return;
-  }
+  if (!is_still_there(tool.context)) return taken_.reset();
   if (taken_->gesture.cancelled_by_key(tool.context)) {
     if (taken_->gesture.is_moving) selected_again_ = taken_->selected_before;
     taken_.reset();

@@ -94,7 +94,7 @@ void draw_faces(WorldCanvas& canvas, const CoarseMesh& mesh, const Drawing& draw
   for (const CoarseMesh::Face& face : mesh.faces)
     if (const std::optional<ScreenFace> on_screen = visible_face(canvas, face, corners, drawing))
       drawn.push_back(*on_screen);
-  std::sort(drawn.begin(), drawn.end(), [](const ScreenFace& a, const ScreenFace& b) { return a.depth_m > b.depth_m; });
+  std::ranges::sort(drawn, [](const ScreenFace& a, const ScreenFace& b) { return a.depth_m > b.depth_m; });
   // Soft edges would let what lies behind shine through between neighbours.
   ImDrawList& list = canvas.list();
   const ImDrawListFlags flags = list.Flags;
@@ -226,7 +226,7 @@ const CoarseMesh& BodyShapes::of(const std::shared_ptr<const Model>& model) {
 
 void BodyShapes::keep_only(const std::vector<WorldBody>& bodies) {
   std::erase_if(shapes_, [&](const auto& entry) {
-    return std::none_of(bodies.begin(), bodies.end(), [&](const WorldBody& body) { return body.model == entry.first; });
+    return std::ranges::none_of(bodies, [&](const WorldBody& body) { return body.model == entry.first; });
   });
 }
 
@@ -235,7 +235,7 @@ void draw_bodies(WorldCanvas& canvas, const WorldContext& world, BodyShapes& sha
   for (const WorldBody& body : world.moment.bodies)
     if (body.model) far_to_near.push_back(&body);
   const glm::dvec3 forward = canvas.eye().forward();
-  std::stable_sort(far_to_near.begin(), far_to_near.end(), [&](const WorldBody* a, const WorldBody* b) {
+  std::ranges::stable_sort(far_to_near, [&](const WorldBody* a, const WorldBody* b) {
     return glm::dot(a->world_from_body.translation_m - b->world_from_body.translation_m, forward) > 0;
   });
   const Selection& selection = world.context.document.selection();

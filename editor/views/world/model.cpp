@@ -35,7 +35,7 @@ std::vector<double> first_parameters(double first, double last, std::span<const 
     at.push_back(std::lerp(first, last, static_cast<double>(i) / static_cast<double>(pieces)));
   for (const double parameter : through.first(std::min(through.size(), maximum / 2)))
     if (parameter > first && parameter < last) at.push_back(parameter);
-  std::sort(at.begin(), at.end());
+  std::ranges::sort(at);
   at.erase(std::unique(at.begin(), at.end()), at.end());
   return at;
 }
@@ -126,15 +126,14 @@ std::optional<glm::dvec3> ray_towards(const Lens& lens, const glm::dvec2& middle
 }
 
 void make_flat_if_ahead(ImageBorder& border) {
-  const bool ahead =
-      std::all_of(border.rays.begin(), border.rays.end(), [](const glm::dvec3& ray) { return ray.x > kFlatImageX; });
+  const bool ahead = std::ranges::all_of(border.rays, [](const glm::dvec3& ray) { return ray.x > kFlatImageX; });
   if (!ahead) return;
   for (glm::dvec3& ray : border.rays) ray /= ray.x;
 }
 
 std::shared_ptr<const Model> shared_model(const Scene& scene, const Model* model) {
-  const auto found = std::find_if(scene.models.begin(), scene.models.end(),
-                                  [&](const std::shared_ptr<const Model>& held) { return held.get() == model; });
+  const auto found =
+      std::ranges::find_if(scene.models, [&](const std::shared_ptr<const Model>& held) { return held.get() == model; });
   return found == scene.models.end() ? nullptr : *found;
 }
 
@@ -178,7 +177,7 @@ CurveSamples sampled_curve(const std::function<glm::dvec3(double)>& curve, doubl
 }
 
 glm::dvec3 CurveSamples::point_at(double parameter) const {
-  const auto after = std::upper_bound(at.begin(), at.end(), parameter);
+  const auto after = std::ranges::upper_bound(at, parameter);
   if (after == at.begin()) return points_m.front();
   if (after == at.end()) return points_m.back();
   const auto next = static_cast<std::size_t>(after - at.begin());
@@ -261,7 +260,7 @@ std::vector<glm::dvec3> points_of_interest(const ViewContext& context, const Wor
     points_m.insert(points_m.end(), flown_m.begin(), flown_m.end());
   }
   // A camera that hangs in the air, alone.
-  if (std::all_of(points_m.begin(), points_m.end(), [&](const glm::dvec3& p) { return p == points_m.front(); }))
+  if (std::ranges::all_of(points_m, [&](const glm::dvec3& p) { return p == points_m.front(); }))
     points_m.push_back(points_m.front() + glm::dvec3(100, 0, 0));
   return points_m;
 }

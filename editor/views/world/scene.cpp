@@ -55,8 +55,7 @@ void draw_edge_on(WorldCanvas& canvas, const GroundGrid& grid, double text_px) {
       canvas.label(*foot + glm::dvec2(0, text_px * 1.3), text_of(line),
                    faded(along_x ? color::kAxisX : color::kAxisY, 0.75), WorldCanvas::Side::centre);
   }
-  const auto across =
-      std::find_if(grid.lines.begin(), grid.lines.end(), [&](const GridLine& line) { return line.is_of_x != along_x; });
+  const auto across = std::ranges::find_if(grid.lines, [&](const GridLine& line) { return line.is_of_x != along_x; });
   if (across != grid.lines.end()) canvas.line(across->ends_m[0], across->ends_m[1], faded(color::kQuiet, 0.6));
 }
 
@@ -156,10 +155,7 @@ void draw_control_lines(WorldCanvas& canvas, const TrajectoryPlan& plan, ImU32 c
 void draw_ground(WorldCanvas& canvas) {
   const GroundGrid grid = ground_grid(canvas.eye(), canvas.rect());
   const double text_px = font(Font::small)->FontSize;
-  if (is_edge_on(canvas.eye())) {
-    draw_edge_on(canvas, grid, text_px);
-    return;
-  }
+  if (is_edge_on(canvas.eye())) return draw_edge_on(canvas, grid, text_px);
   for (const GridLine& line : grid.lines)
     if (const auto ends = canvas.within_rect(line.ends_m[0], line.ends_m[1]))
       canvas.list().AddLine(im((*ends)[0]), im((*ends)[1]), line.bold ? kBoldLine : kLine);
@@ -181,7 +177,7 @@ void draw_axes(WorldCanvas& canvas) {
   const OrbitCamera& eye = canvas.eye();
   std::array<std::size_t, 3> order{0, 1, 2};  // far to near
   const auto depth = [&](std::size_t axis) { return eye.forward()[static_cast<int>(axis)]; };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth(a) > depth(b); });
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return depth(a) > depth(b); });
   ImFont* face = font(Font::small);
   for (const std::size_t axis : order) {
     const auto i = static_cast<int>(axis);
@@ -201,8 +197,7 @@ void draw_axes(WorldCanvas& canvas) {
 
 double view_depth_m(const WorldModel& model) {
   // A curved edge bulges around the camera and would hide what is within.
-  const bool is_curved = std::any_of(model.border.rays.begin(), model.border.rays.end(),
-                                     [](const glm::dvec3& ray) { return ray.x < 0.999; });
+  const bool is_curved = std::ranges::any_of(model.border.rays, [](const glm::dvec3& ray) { return ray.x < 0.999; });
   return model.farthest_m > 0 ? std::clamp(model.farthest_m * (is_curved ? 0.35 : 1.05), 20.0, 5000.0) : 200;
 }
 

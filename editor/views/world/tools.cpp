@@ -175,10 +175,7 @@ void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canva
   moved_to_.reset();
   if (handle_.dragging() && gesture_.is_lost(world.context)) handle_.abandon_drag();
   const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
-  if (!target) {
-    handle_.abandon_drag();
-    return;
-  }
+  if (!target) return handle_.abandon_drag();
   const bool was_dragging = handle_.dragging();
   const GizmoInput input{.camera = canvas.eye(),
                          .rect = canvas.rect(),
