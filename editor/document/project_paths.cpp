@@ -205,6 +205,21 @@ std::string path_in_project(const Project& project, const fs::path& file) {
   return (relative.empty() || steps_up > kMaxStepsUp ? target : relative).generic_string();
 }
 
+fs::path file_beside(const Project& project, const std::string& ending, const std::string& extension) {
+  const fs::path beside = !project.file.empty()            ? project.file
+                          : !project.footage.video.empty() ? resolved(project, project.footage.video)
+                                                           : fs::path(project.name);
+  return fs::absolute(beside.parent_path() / (beside.stem().string() + ending + extension)).lexically_normal();
+}
+
+fs::path new_file_beside(const Project& project, const std::string& ending, const std::string& extension) {
+  std::error_code code;
+  fs::path file = file_beside(project, ending, extension);
+  for (int number = 2; fs::exists(file, code); ++number)
+    file = file_beside(project, ending + "_" + std::to_string(number), extension);
+  return file;
+}
+
 DroppedFile classified_drop(const fs::path& path) {
   std::error_code code;
   const auto nothing = [&](const std::string& why) { return DroppedFile{DroppedKind::nothing, path, why}; };

@@ -47,6 +47,14 @@ struct Relinked {
 // Writes them into the project, as path_in_project names files. Fields that it does not have are passed over.
 void relink(Project& project, const std::vector<Relinked>& places);
 
+// A file that belongs to a project: NAME + ending + extension beside it; beside the footage where the project was never
+// saved.
+[[nodiscard]] std::filesystem::path file_beside(const Project& project, const std::string& ending,
+                                                const std::string& extension);
+// One that is not there yet: the same, else NAME + ending_2 + extension and so on.
+[[nodiscard]] std::filesystem::path new_file_beside(const Project& project, const std::string& ending,
+                                                    const std::string& extension);
+
 enum class DroppedKind { nothing, project, video, calibration, model, mask, results };
 
 // Kind of a file that was dropped onto the window, recognised by its first bytes, else by its extension.

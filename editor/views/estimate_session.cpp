@@ -15,12 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path attitude_file_beside(const Project& project, int number) {
-  const fs::path beside = !project.file.empty() ? project.file : resolved(project, project.footage.video);
-  const std::string ending = number > 1 ? fmt::format(".attitude_{}.csv", number) : ".attitude.csv";
-  return fs::absolute(beside.parent_path() / (beside.stem().string() + ending)).lexically_normal();
-}
-
 void use_motion(Project& project, const EstimatedMotion& motion) {
   FoundAttitudes found = motion.found;
   found.file = path_in_project(project, motion.file);
@@ -30,10 +24,7 @@ void use_motion(Project& project, const EstimatedMotion& motion) {
 }  // namespace
 
 fs::path new_attitude_file(const Project& project) {
-  std::error_code code;
-  int number = 1;
-  while (fs::exists(attitude_file_beside(project, number), code)) ++number;
-  return attitude_file_beside(project, number);
+  return new_file_beside(project, ".attitude", ".csv");
 }
 
 std::string summary_of(const EstimatedMotion& motion) {
@@ -50,7 +41,11 @@ std::string summary_of(const EstimatedMotion& motion) {
 }
 
 EgoMotionSession::EgoMotionSession(Edits& edits, std::function<void()> wake, Work work)
-    : EstimateSession(edits, std::move(wake), std::move(work), "The camera's motion was not found") {}
+    : EstimateSession(edits, std::move(wake), std::move(work), "The camera's motion was not found",
+                      [&edits](const std::shared_ptr<const EstimatedMotion>& found) {
+                        edits.change("use estimated camera motion", [found](Project& p) { use_motion(p, *found); });
+                        edits.ask(ShowMessage{"Camera motion: " + summary_of(*found) + "."});
+                      }) {}
 
 void EgoMotionSession::start(const Document& document) {
   const Project& project = document.project();
@@ -58,12 +53,6 @@ void EgoMotionSession::start(const Document& document) {
     return edits().ask(
         ShowMessage{"The camera's motion is estimated from footage and calibration: choose both first.", true});
   begin(document, {project, new_attitude_file(project)});
-}
-
-void EgoMotionSession::use(const Document&, const std::shared_ptr<const EstimatedMotion>& found) {
-  const std::string text = "Camera motion: " + summary_of(*found) + ".";
-  edits().change("use estimated camera motion", [found](Project& project) { use_motion(project, *found); });
-  edits().ask(ShowMessage{text});
 }
 
 std::string summary_of(const Appearance& appearance) {
@@ -74,7 +63,13 @@ std::string summary_of(const Appearance& appearance) {
 }
 
 LightSession::LightSession(Edits& edits, std::function<void()> wake, Work work)
-    : EstimateSession(edits, std::move(wake), std::move(work), "The light could not be found") {}
+    : EstimateSession(
+          edits, std::move(wake), std::move(work), "The light could not be found",
+          [&edits](const std::shared_ptr<const LitLike>& found) {
+            edits.change("light like this", [found](Project& project) { apply(*found, project); });
+            edits.ask(ShowMessage{fmt::format("As bright as what is in the box: exposure {:.2f} \u00b1 {:.2f}.",
+                                              found->exposure.value, found->exposure.sd)});
+          }) {}
 
 void LightSession::start(const Document& document, const LightLike& wanted) {
   if (document.project().intruders.empty())
@@ -82,24 +77,18 @@ void LightSession::start(const Document& document, const LightLike& wanted) {
   begin(document, {document.project(), wanted.frame, wanted.box});
 }
 
-void LightSession::use(const Document&, const std::shared_ptr<const LitLike>& found) {
-  edits().change("light like this", [found](Project& project) { apply(*found, project); });
-  edits().ask(ShowMessage{fmt::format("As bright as what is in the box: exposure {:.2f} \u00b1 {:.2f}.",
-                                      found->exposure.value, found->exposure.sd)});
-}
-
 AppearanceSession::AppearanceSession(Edits& edits, std::function<void()> wake, Work work)
-    : EstimateSession(edits, std::move(wake), std::move(work), "The footage could not be matched") {}
+    : EstimateSession(edits, std::move(wake), std::move(work), "The footage could not be matched",
+                      [&edits](const std::shared_ptr<const Appearance>& found) {
+                        edits.change("match the footage", [found](Project& project) { apply(*found, project); });
+                        edits.ask(ShowMessage{"Matched the footage: " + summary_of(*found) +
+                                              ". What was not found has its default."});
+                      }) {}
 
 void AppearanceSession::start(const Document& document) {
   if (document.project().footage.video.empty())
     return edits().ask(ShowMessage{"There is no footage to match: choose a video first.", true});
   begin(document, {document.project()});
-}
-
-void AppearanceSession::use(const Document&, const std::shared_ptr<const Appearance>& found) {
-  edits().change("match the footage", [found](Project& project) { apply(*found, project); });
-  edits().ask(ShowMessage{"Matched the footage: " + summary_of(*found) + ". What was not found has its default."});
 }
 
 }  // namespace sigs::editor

@@ -20,10 +20,10 @@ template <class Request, class Value>
 class EstimateSession {
  public:
   using Work = typename BackgroundJob<Request, Value>::Work;
+  using Use = std::function<void(const std::shared_ptr<const Value>& found)>;
 
   EstimateSession(const EstimateSession&) = delete;
   EstimateSession& operator=(const EstimateSession&) = delete;
-  virtual ~EstimateSession() = default;
 
   void stop() { job_.cancel(); }
   // Another project was opened, or none.
@@ -42,7 +42,7 @@ class EstimateSession {
     if (state_.value != nullptr && state_.value != taken_) {
       taken_ = state_.value;
       edits_.end_gesture();
-      use(document, taken_);
+      use_(taken_);
     }
     if (has_ended && state_.phase == JobPhase::failed)
       edits_.ask(ShowMessage{failure_ + ": " + state_.error.text(), true});
@@ -55,8 +55,9 @@ class EstimateSession {
   //   edits    where changes of the project and messages go; must outlive this
   //   wake     called from another thread as the estimate goes on
   //   failure  how the message about an estimate that failed begins
-  EstimateSession(Edits& edits, std::function<void()> wake, Work work, std::string failure)
-      : edits_(edits), failure_(std::move(failure)), job_(std::move(wake), std::move(work)) {}
+  //   use      puts what was found into the project as one undo step, and says so
+  EstimateSession(Edits& edits, std::function<void()> wake, Work work, std::string failure, Use use)
+      : edits_(edits), failure_(std::move(failure)), use_(std::move(use)), job_(std::move(wake), std::move(work)) {}
 
   // Nothing happens while an estimate is running.
   void begin(const Document& document, Request request) {
@@ -64,9 +65,6 @@ class EstimateSession {
     video_ = video_of(document);
     was_running_ = true;  // also where it ends before the next follow()
   }
-
-  // Puts what was found into the project as one undo step, and says so.
-  virtual void use(const Document& document, const std::shared_ptr<const Value>& found) = 0;
 
   [[nodiscard]] Edits& edits() { return edits_; }
 
@@ -77,6 +75,7 @@ class EstimateSession {
 
   Edits& edits_;
   std::string failure_;
+  Use use_;
   BackgroundJob<Request, Value> job_;
   JobState<Request, Value> state_;
   std::filesystem::path video_;         // that is looked at
@@ -94,9 +93,6 @@ class EgoMotionSession : public EstimateSession<EgoMotionRequest, EstimatedMotio
   // Begins an estimate of the project's footage, into a file beside the project that is not there yet. Nothing happens
   // while one is running; without footage it says what is missing.
   void start(const Document& document);
-
- private:
-  void use(const Document& document, const std::shared_ptr<const EstimatedMotion>& found) override;
 };
 
 // One beside the project that is not there yet: NAME.attitude.csv, NAME.attitude_2.csv, ...; beside the footage where
@@ -114,9 +110,6 @@ class AppearanceSession : public EstimateSession<AppearanceRequest, Appearance> 
 
   // Begins an estimate of the project's footage. Nothing happens while one is running; without footage it says so.
   void start(const Document& document);
-
- private:
-  void use(const Document& document, const std::shared_ptr<const Appearance>& found) override;
 };
 
 // "Lit like this": the exposure is found by something real in the footage, and set in the project.
@@ -126,9 +119,6 @@ class LightSession : public EstimateSession<LightRequest, LitLike> {
 
   // Begins to look at the box. Nothing happens while one is looked at; without an intruder it says so.
   void start(const Document& document, const LightLike& wanted);
-
- private:
-  void use(const Document& document, const std::shared_ptr<const LitLike>& found) override;
 };
 
 // "7 of 9 quantities found in 48 frames" for the message.

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kMaskEnding = "_own_body";
+
 cv::Mat bytes_of(const cv::Mat& share) {
   cv::Mat mask;
   share.convertTo(mask, CV_8U, 255);
@@ -40,28 +42,15 @@ cv::Mat with_edge(const cv::Mat& mask, double has_px, double wanted_px) {
   return has_px == wanted_px ? mask : soft_edged(hard(mask), wanted_px);
 }
 
-// 1: without a number.
-fs::path mask_file_beside(const Project& project, int number) {
-  const fs::path beside = !project.file.empty()            ? project.file
-                          : !project.footage.video.empty() ? resolved(project, project.footage.video)
-                                                           : fs::path(project.name);
-  std::string name = beside.stem().string().append("_own_body");
-  if (number > 1) name.append("_").append(std::to_string(number));
-  return fs::absolute(beside.parent_path() / name.append(".png")).lexically_normal();
-}
-
 }  // namespace
 
 fs::path new_mask_file(const Project& project) {
-  std::error_code code;
-  int number = 1;
-  while (fs::exists(mask_file_beside(project, number), code)) ++number;
-  return mask_file_beside(project, number);
+  return new_file_beside(project, kMaskEnding, ".png");
 }
 
 fs::path usual_mask_file(const Project& project) {
   const fs::path named = project_mask_file(project);
-  return is_png(named) ? named : mask_file_beside(project, 1);
+  return is_png(named) ? named : file_beside(project, kMaskEnding, ".png");
 }
 
 OwnBodySession::OwnBodySession(Edits& edits, std::function<void()> wake, OwnBodyJob::Detect detect)
