@@ -52,6 +52,11 @@ class RateMeter {
 // none: not started yet, or forgotten. The last three say how the last run ended.
 enum class JobPhase { none, running, done, cancelled, failed };
 
+// 0..1, for a bar; 0 while the total is not known.
+[[nodiscard]] inline float share_done(int done, int total) {
+  return total > 0 ? static_cast<float>(done) / static_cast<float>(total) : 0;
+}
+
 // A job at one moment, as a copy that the caller may keep. While it runs, the numbers are those of the last progress.
 template <class Request, class Value>
 struct JobState {

@@ -109,7 +109,7 @@ std::optional<int> draw_question(const Question& question, UiProbe& ui_probe) {
 bool draw_help(std::span<const HelpLine> lines, UiProbe& ui_probe) {
   bool closed = false;
   if (!begin_dialog("Keys###help", 860, 560, closed)) return !closed;
-  const float bottom = scaled(28) + scaled(6) + 2 * ImGui::GetStyle().ItemSpacing.y;
+  const float bottom = dialog_buttons_height();
   const bool wide = ImGui::GetContentRegionAvail().x > scaled(560);
   ImGui::BeginChild("lines", {0, ImGui::GetContentRegionAvail().y - bottom});
   if (ImGui::BeginTable("halves", wide ? 2 : 1)) {
@@ -238,7 +238,7 @@ void RelinkDialog::draw(const ViewContext& context) {
   ImGui::TextWrapped("%s", missing_.empty() ? "All files that the project names are there."
                                             : "These files are not where the project says. Show where one of them is; "
                                               "the others are looked for near it.");
-  const float bottom = scaled(28) + scaled(6) + 2 * ImGui::GetStyle().ItemSpacing.y;
+  const float bottom = dialog_buttons_height();
   const float height = std::max(scaled(60), ImGui::GetContentRegionAvail().y - bottom);
   if (ImGui::BeginTable("missing", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg, {0, height})) {
     ImGui::TableSetupColumn("file", ImGuiTableColumnFlags_WidthStretch, 1);

@@ -32,10 +32,6 @@ constexpr double kSetupHeight = 660;
 constexpr double kReportHeight = 340;
 constexpr int kCommandLines = 3;
 
-float button_row_height() {
-  return scaled(28) + scaled(6) + 2 * ImGui::GetStyle().ItemSpacing.y;
-}
-
 // A label, then a plate for the command's lines, with the room between them and after them.
 float command_height() {
   const ImGuiStyle& style = ImGui::GetStyle();
@@ -156,7 +152,7 @@ void ExportView::draw_command(const ViewContext& context) {
     ImGui::SetClipboardText(command.c_str());
     context.edits.ask(ShowMessage{"Copied"});
   }
-  begin_plate("command", button_row_height());
+  begin_plate("command", dialog_buttons_height());
   draw_wrapped(shortened(command), color::kQuiet, Font::mono);
   ImGui::EndChild();
 }
@@ -192,7 +188,7 @@ void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
     ImGui::EndTable();
   }
   if (!overwrite_asked_) there_.clear();
-  begin_plate("notes", command_height() + button_row_height());
+  begin_plate("notes", command_height() + dialog_buttons_height());
   draw_notes(context);
   ImGui::EndChild();
   draw_command(context);
@@ -225,10 +221,9 @@ void ExportView::draw_running(const ViewContext& context, ExportJob& job, const 
       elided(state.request.project.name + " into " + state.request.folder.string(), ImGui::GetContentRegionAvail().x)
           .c_str());
   ImGui::Dummy({0, scaled(2)});
-  const double share = state.total > 0 ? double(state.done) / state.total : 0;
-  ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
+  ImGui::ProgressBar(share_done(state.done, state.total), {-1, scaled(10)}, "");
   ImGui::TextDisabled("%s", progress_text(state).c_str());
-  begin_plate("notes", button_row_height());
+  begin_plate("notes", dialog_buttons_height());
   if (state.warnings.empty()) ImGui::TextDisabled("No warnings so far.");
   draw_warnings(state);
   ImGui::EndChild();
@@ -241,7 +236,7 @@ void ExportView::draw_running(const ViewContext& context, ExportJob& job, const 
 }
 
 void ExportView::draw_done(const ViewContext& context, ExportJob& job, const ExportState& state) {
-  begin_plate("notes", button_row_height());
+  begin_plate("notes", dialog_buttons_height());
   draw_result(context, state);
   draw_warnings(state);
   ImGui::EndChild();

@@ -111,7 +111,7 @@ class RightSide {
 
   void show_export(const ExportState& state) {
     if (!state.is_running()) return;
-    const double share = state.total > 0 ? double(state.done) / state.total : 0;
+    const double share = share_done(state.done, state.total);
     if (show_progress("export progress", short_progress_text(state), share, "Show the export"))
       context_.edits.ask(ShowExport{});
   }
@@ -120,7 +120,7 @@ class RightSide {
   template <class State>
   void show_estimate(const char* id, const std::string& what, const State* state) {
     if (state == nullptr || !state->is_running()) return;
-    const double share = state->total > 0 ? double(state->done) / state->total : 0;
+    const double share = share_done(state->done, state->total);
     const std::string text = state->is_stopping ? what + ", stopping" : fmt::format("{} {:.0f} %", what, 100 * share);
     (void)show_progress(id, text, share, "Goes on in the background; the menu Edit stops it");
   }

@@ -92,13 +92,17 @@ void align_buttons_right(const char* const* labels, int count) {
   if (room > width) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
 }
 
-bool dialog_button(const char* label, bool is_main, bool enabled) {
+float dialog_buttons_height() {
+  return scaled(28) + scaled(6) + 2 * ImGui::GetStyle().ItemSpacing.y;
+}
+
+bool dialog_button(const char* label, bool is_main, bool enabled, float width) {
   ImGui::BeginDisabled(!enabled);
   if (is_main) {
     ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(40, 98, 165, 255));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(52, 118, 194, 255));
   }
-  const bool clicked = ImGui::Button(label, {dialog_button_width(label), scaled(28)});
+  const bool clicked = ImGui::Button(label, {width != 0 ? width : dialog_button_width(label), scaled(28)});
   if (is_main) ImGui::PopStyleColor(2);
   ImGui::EndDisabled();
   return clicked && enabled;

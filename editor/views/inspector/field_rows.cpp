@@ -60,6 +60,12 @@ bool ButtonFlow::button(const char* label, const char* tooltip, bool enabled) {
   return clicked;
 }
 
+void RowMemory::refresh(const ViewContext& context) {
+  if (sheet && sheet_revision == context.document.revision().number) return;
+  sheet.emplace(context.project());
+  sheet_revision = context.document.revision().number;
+}
+
 float FieldRows::begin_row(const std::string& label, bool below) {
   const float room = ImGui::GetContentRegionAvail().x;
   const bool above = below || is_narrow();
@@ -225,9 +231,8 @@ void FieldRows::finish() {
 }
 
 bool draw_job_progress(int done, int total, bool is_stopping) {
-  const float share = total > 0 ? static_cast<float>(done) / static_cast<float>(total) : 0;
   const std::string text = total > 0 ? fmt::format("{} of {} frames", done, total) : "reading";
-  ImGui::ProgressBar(share, {-1, 0}, text.c_str());
+  ImGui::ProgressBar(share_done(done, total), {-1, 0}, text.c_str());
   ImGui::BeginDisabled(is_stopping);
   const bool is_clicked = ImGui::Button("Stop");
   ImGui::EndDisabled();

@@ -62,6 +62,12 @@ struct RowMemory {
   int wanted_updates = 0;  // for how many updates it is still waited for
   // A value is being dragged or typed, so its undo step is not complete.
   bool gesture_is_open = false;
+  // The project's fields, of the revision with this number.
+  std::optional<FieldSheet> sheet;
+  std::uint64_t sheet_revision = 0;
+
+  // Once per update: lists the fields anew for another revision.
+  void refresh(const ViewContext& context);
 };
 
 // Draws fields, each as a row: label, editor with its unit, a way back to the default, and what is wrong with it.
@@ -69,9 +75,10 @@ struct RowMemory {
 class FieldRows {
  public:
   // place  what the names of the fields' places in the UI probe begin with
-  FieldRows(const ViewContext& context, const FieldSheet& sheet, const ProblemsByField& problems, RowMemory& memory,
+  // memory was refreshed in this update
+  FieldRows(const ViewContext& context, const ProblemsByField& problems, RowMemory& memory,
             std::string place = "inspector/")
-      : context_(context), sheet_(sheet), problems_(problems), memory_(memory), place_(std::move(place)) {}
+      : context_(context), sheet_(*memory.sheet), problems_(problems), memory_(memory), place_(std::move(place)) {}
 
   // Rows that most projects do not need (is_common()) are left out from now on, unless they are wrong, guessed or
   // gone to.

@@ -239,9 +239,6 @@ class InspectorView {
              const std::function<void()>& content);
   void draw_depth(const ViewContext& context) const;
 
-  // Of the revision with this number; made anew for another one.
-  std::optional<FieldSheet> sheet_;
-  std::uint64_t sheet_revision_ = 0;
   ProblemList problems_;
   LossOfView loss_of_view_;
   RowMemory memory_;

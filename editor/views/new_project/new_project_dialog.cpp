@@ -305,8 +305,7 @@ void NewProjectDialog::draw_progress(const ViewContext& context, const FirstProj
                                      const std::string& step, NewProjectChoice& choice) {
   ImGui::TextUnformatted(elided("Making " + state.request.out.string(), ImGui::GetContentRegionAvail().x).c_str());
   ImGui::Dummy({0, scaled(2)});
-  const double share = state.total > 0 ? double(state.done) / state.total : 0;
-  ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
+  ImGui::ProgressBar(share_done(state.done, state.total), {-1, scaled(10)}, "");
   const std::string text = state.is_stopping ? "stopping" : step.empty() ? "reading the video" : step;
   ImGui::TextDisabled("%s", elided(capitalised(text) + "...", ImGui::GetContentRegionAvail().x).c_str());
   ImGui::Dummy({0, scaled(6)});

@@ -23,15 +23,7 @@ void panel_heading(const char* text) {
 
 // As wide as the panel.
 bool wide_button(const char* label, bool is_main, bool enabled) {
-  ImGui::BeginDisabled(!enabled);
-  if (is_main) {
-    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(40, 98, 165, 255));
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(52, 118, 194, 255));
-  }
-  const bool clicked = ImGui::Button(label, {-1, scaled(28)});
-  if (is_main) ImGui::PopStyleColor(2);
-  ImGui::EndDisabled();
-  return clicked;
+  return dialog_button(label, is_main, enabled, -1);
 }
 
 bool has_footage(const ViewContext& context) {
@@ -66,15 +58,12 @@ double seconds_of(const ViewContext& context, int frames) {
 }  // namespace
 
 void OwnBodyPanel::draw_settings(const ViewContext& context) {
-  if (!sheet_ || sheet_revision_ != context.document.revision().number) {
-    sheet_.emplace(context.project());
-    sheet_revision_ = context.document.revision().number;
-  }
+  memory_.refresh(context);
   problems_.refresh(context);
-  FieldRows rows(context, *sheet_, problems_.by_field(), memory_, "own body/");
+  FieldRows rows(context, problems_.by_field(), memory_, "own body/");
   const std::string own =
       context.project().own_body.method == OwnBodyMethod::paper ? "own_body.paper." : "own_body.stable.";
-  for (const Field& field : sheet_->fields()) {
+  for (const Field& field : rows.sheet().fields()) {
     const bool is_of_a_method = field.key.starts_with("own_body.paper.") || field.key.starts_with("own_body.stable.");
     if (field.key.starts_with("own_body.") && (!is_of_a_method || field.key.starts_with(own))) rows.row(field.key);
   }
@@ -83,8 +72,7 @@ void OwnBodyPanel::draw_settings(const ViewContext& context) {
 
 void OwnBodyPanel::draw_running(const ViewContext& context, OwnBodySession& session) const {
   const DetectionState& state = session.detection();
-  const double share = state.total > 0 ? double(state.done) / state.total : 0;
-  ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
+  ImGui::ProgressBar(share_done(state.done, state.total), {-1, scaled(10)}, "");
   note(progress_text(state));
   context.ui_probe.note_item("own body/progress");
   if (context.ui_probe.noted(wide_button("Stop", false, !state.is_stopping), "own body/stop")) session.job().cancel();

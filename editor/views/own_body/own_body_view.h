@@ -39,9 +39,6 @@ class OwnBodyPanel {
   // The question whether the project's own file may be replaced.
   void draw_replacing(const ViewContext& context, OwnBodySession& session);
 
-  // Of the revision with this number; made anew for another one.
-  std::optional<FieldSheet> sheet_;
-  std::uint64_t sheet_revision_ = 0;
   ProblemList problems_;
   RowMemory memory_;
   bool asks_to_replace_ = false;  // the question of draw_replacing() is open

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "editor/document/waypoint_edits.h"
+#include "editor/views/timeline/lane_marks.h"
 #include "editor/views/waypoint_actions.h"
 
 namespace sigs::editor {
@@ -64,11 +65,11 @@ void draw_flags(ImDrawList& list, const KeyMarks& marks) {
   if (survey == nullptr) return;
   const float bottom_y = marks.top_y + marks.height - 1;
   for (const FlightFlag& flag : survey->flags) {
-    const float low = std::max(marks.strip.left(), marks.strip.moment_x(flag.first_frame));
-    const float high = std::min(marks.strip.right(), std::max(low + scaled(2), marks.strip.moment_x(flag.last_frame)));
-    if (high <= low) continue;
-    list.AddRectFilled({low, marks.top_y}, {high, bottom_y}, faded(color::kBad, 0.13));
-    list.AddRectFilled({low, bottom_y - scaled(2.5)}, {high, bottom_y}, color::kBad);
+    const auto draw = [&](float top_y, ImU32 shade) {
+      draw_stretch(list, marks.strip, flag.first_frame, flag.last_frame, top_y, bottom_y, shade);
+    };
+    draw(marks.top_y, faded(color::kBad, 0.13));
+    draw(bottom_y - scaled(2.5), color::kBad);
   }
 }
 
@@ -99,12 +100,7 @@ std::string key_text(const KeyMarks& marks, std::size_t waypoint) {
 
 std::string flags_text(const KeyMarks& marks, double frame) {
   const std::shared_ptr<const Survey> survey = survey_of(marks.context, marks.intruder);
-  std::string text;
-  if (survey == nullptr) return text;
-  for (const FlightFlag& flag : survey->flags)
-    if (frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
-      text.append(text.empty() ? "" : "\n").append(flag.text());
-  return text;
+  return survey == nullptr ? "" : flags_text(*survey, frame);
 }
 
 // Keys as diamonds, hollow where the waypoint's time follows from the others; below them stretches that no such

@@ -62,6 +62,20 @@ void list_visibility_colors();
 void draw_deviation_band(ImDrawList& list, const TimelineStrip& strip, const LaneValues& lane, int first_frame,
                          const LaneBox& box, ImU32 shade);
 
+// From one moment to another, both in the middle of frames, cut to the strip and at least 2 px wide.
+void draw_stretch(ImDrawList& list, const TimelineStrip& strip, double first_frame, double last_frame, float top_y,
+                  float bottom_y, ImU32 shade);
+
+// A line of one pixel over the strip's width.
+void draw_level(ImDrawList& list, const TimelineStrip& strip, float y, ImU32 shade);
+
+// A curve as curve_of() has it; and a value of it in one frame.
+void draw_polylines(ImDrawList& list, const std::vector<Polyline>& lines, ImU32 shade);
+void draw_dot(ImDrawList& list, ImVec2 center, ImU32 shade);
+
+// What is wrong with the flight in a frame or beside it, a line each. fault none: all that is.
+[[nodiscard]] std::string flags_text(const Survey& survey, double frame, std::optional<FlightFault> fault = {});
+
 // What is drawn in a lane, and where. y and heights in screen pixels.
 struct LaneMarks {
   const TimelineStrip& strip;

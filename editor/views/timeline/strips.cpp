@@ -29,12 +29,9 @@ VolumeBar bar_of(std::size_t volume, std::size_t count, float top_y, float heigh
   return {top_y + inset + each * static_cast<float>(volume), std::max(1.0F, each - gap)};
 }
 
-// From one moment to another, both in the middle of frames, cut to the strip and at least 2 px wide.
-void draw_stretch(ImDrawList& list, const TimelineStrip& strip, const LossStretch& loss, const VolumeBar& bar,
-                  ImU32 shade) {
-  const float low = std::max(strip.left(), strip.moment_x(loss.first_frame));
-  const float high = std::min(strip.right(), std::max(low + scaled(2), strip.moment_x(loss.last_frame)));
-  if (high > low) list.AddRectFilled({low, bar.top_y}, {high, bar.top_y + bar.height}, shade);
+void draw_loss(ImDrawList& list, const TimelineStrip& strip, const LossStretch& loss, const VolumeBar& bar,
+               ImU32 shade) {
+  draw_stretch(list, strip, loss.first_frame, loss.last_frame, bar.top_y, bar.top_y + bar.height, shade);
 }
 
 // An entry is a bracket that opens to the right, an exit one that opens to the left.
@@ -54,6 +51,23 @@ void draw_diamond(ImDrawList& list, ImVec2 center, float side, ImU32 shade) {
   };
   diamond(side + scaled(1.5), IM_COL32(0, 0, 0, 170));
   diamond(side, shade);
+}
+
+// A line of a tooltip: what is drawn in a square of the font's size, and what it means.
+template <class Draw>
+void list_mark(const std::string& meaning, const Draw& draw) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float side = ImGui::GetFontSize();
+  ImGui::Dummy({side, side});
+  draw(*ImGui::GetWindowDrawList(), at, side);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", meaning.c_str());
+}
+
+void list_color(const std::string& meaning, ImU32 shade) {
+  list_mark(meaning, [shade](ImDrawList& list, ImVec2 at, float side) {
+    list.AddRectFilled({at.x, at.y + side * 0.25F}, {at.x + side * 0.8F, at.y + side * 0.85F}, shade);
+  });
 }
 
 }  // namespace
@@ -101,9 +115,9 @@ void draw_clear_strip(ImDrawList& list, const TimelineStrip& strip, const Encoun
                           .last_frame = survey.first_frame + frames - 1};
   for (std::size_t i = 0; i < count; ++i) {
     const VolumeBar bar = bar_of(i, count, top_y, height);
-    draw_stretch(list, strip, whole, bar, faded(color::kGood, 0.35));
+    draw_loss(list, strip, whole, bar, faded(color::kGood, 0.35));
     const ImU32 shade = color_of_loss(survey.volumes[i].volume);
-    for (const LossStretch& loss : survey.volumes[i].losses) draw_stretch(list, strip, loss, bar, faded(shade, 0.9));
+    for (const LossStretch& loss : survey.volumes[i].losses) draw_loss(list, strip, loss, bar, faded(shade, 0.9));
   }
   for (const EncounterMark& mark : encounter_marks(survey)) {
     if (!strip.shows(mark.frame)) continue;
@@ -129,22 +143,9 @@ std::string clear_lines(const EncounterSurvey& survey, int frame) {
 }
 
 void list_clear_colors() {
-  const auto line = [](const char* text, auto draw) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float side = ImGui::GetFontSize();
-    ImGui::Dummy({side, side});
-    draw(*ImGui::GetWindowDrawList(), at, side);
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s", text);
-  };
-  const auto box = [](ImU32 shade) {
-    return [shade](ImDrawList& list, ImVec2 at, float side) {
-      list.AddRectFilled({at.x, at.y + side * 0.25F}, {at.x + side * 0.8F, at.y + side * 0.85F}, shade);
-    };
-  };
-  line("well clear", box(faded(color::kGood, 0.35)));
-  line("lost; a bracket at entry and exit", box(faded(color::kBad, 0.9)));
-  line("closest approach", [](ImDrawList& list, ImVec2 at, float side) {
+  list_color("well clear", faded(color::kGood, 0.35));
+  list_color("lost; a bracket at entry and exit", faded(color::kBad, 0.9));
+  list_mark("closest approach", [](ImDrawList& list, ImVec2 at, float side) {
     draw_diamond(list, {at.x + side * 0.4F, at.y + side * 0.55F}, scaled(4), color::kPartly);
   });
   ImGui::TextDisabled("A click on a mark goes to its frame.");
@@ -154,7 +155,7 @@ void draw_loss_ground(ImDrawList& list, const TimelineStrip& strip, const Encoun
                       float height) {
   if (survey.volumes.empty()) return;
   for (const LossStretch& loss : survey.volumes.front().losses)
-    draw_stretch(list, strip, loss, {top_y, height}, faded(color::kBad, 0.16));
+    draw_loss(list, strip, loss, {top_y, height}, faded(color::kBad, 0.16));
 }
 
 ImU32 color_of(VisibilityState visibility_state) {
@@ -195,16 +196,10 @@ void draw_visibility_strip(ImDrawList& list, const TimelineStrip& strip, const S
 void list_visibility_colors() {
   for (const VisibilityState visibility_state : {VisibilityState::in_view, VisibilityState::partly_occluded,
                                                  VisibilityState::occluded, VisibilityState::out_of_view}) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float side = ImGui::GetFontSize();
-    ImGui::Dummy({side, side});
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + side * 0.25F}, {at.x + side * 0.8F, at.y + side * 0.85F},
-                                              color_of(visibility_state));
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s",
-                        visibility_state == VisibilityState::in_view || visibility_state == VisibilityState::out_of_view
-                            ? name_of(visibility_state)
-                            : (std::string(name_of(visibility_state)) + " by the own body").c_str());
+    const bool is_hidden =
+        visibility_state == VisibilityState::partly_occluded || visibility_state == VisibilityState::occluded;
+    list_color(name_of(visibility_state) + std::string(is_hidden ? " by the own body" : ""),
+               color_of(visibility_state));
   }
 }
 
