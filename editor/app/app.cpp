@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "editor/app/app.h"
 
-#include <imgui.h>
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "base/resources.h"
-#include "editor/app/shortcuts.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/texts.h"
 #include "project/json.h"
 
 namespace sigs::editor {
@@ -225,10 +220,7 @@ void App::draw(const PreviewOutput& shown) {
 }
 
 void App::ask_scores(const ViewContext& context) {
-  if (results_.files().empty()) {
-    scoring_.want({});
-    return;
-  }
+  if (results_.files().empty()) return scoring_.want({});
   scoring_.want({.scene = context.shown.scene,
                  .surveys = context.shown.surveys,
                  .files = results_.files(),
@@ -238,10 +230,7 @@ void App::ask_scores(const ViewContext& context) {
 // What is wrong with a file is reported once, when it is known what it is measured by: which frame a tracker was
 // started in may hang on that.
 void App::report_result_problems() {
-  if (!scored_) {
-    reported_problems_.clear();
-    return;
-  }
+  if (!scored_) return reported_problems_.clear();
   if (scored_->truth != TruthKind::measured && scored_->truth_problem.empty()) return;
   for (const ScoredTracker& tracker : scored_->trackers) {
     std::string& reported = reported_problems_[tracker.file.id];

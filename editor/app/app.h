@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <span>
 #include <string>
 
 #include "editor/app/app_shell.h"
@@ -18,24 +18,32 @@
 #include "editor/preview/preview_output.h"
 #include "editor/preview/preview_state.h"
 #include "editor/preview/scoring.h"
-#include "editor/views/appearance/appearance_session.h"
-#include "editor/views/ego_motion/ego_motion_session.h"
+#include "editor/views/context.h"
+#include "editor/views/estimate_session.h"
 #include "editor/views/own_body/own_body_session.h"
-#include "editor/widgets/textures.h"
-#include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
 
+// A key and what it does, for the help page: what handle_keys follows, and below that what views take themselves while
+// the mouse is over them.
+struct Shortcut {
+  const char* group;
+  const char* keys;
+  const char* what;
+};
+// In the order of the help page; lines of one group follow each other. The texts are literals.
+[[nodiscard]] std::span<const Shortcut> shortcuts();
+
+// Asks for what the keys pressed in this update mean. Not while text is typed or a dialog is open; while the mouse
+// holds something only those that go and play; without a project those of the program alone.
+void handle_keys(const ViewContext& context, bool has_project);
+
 // What the probe reports beside the document and the preview.
 struct ProbedWindow {
-  // "start" or "project".
-  std::string page;
-  // Of the loop, over the last second.
-  double updates_per_second = 0;
-  // Number of keys released so far, modifiers aside.
-  int released_keys = 0;
-  // There is input that a later update will receive.
-  bool has_input_left = false;
+  std::string page;               // "start" or "project"
+  double updates_per_second = 0;  // of the loop, over the last second
+  int released_keys = 0;          // number of keys released so far, modifiers aside
+  bool has_input_left = false;    // there is input that a later update will receive
 };
 
 // For programs that drive the window from outside: writes what it shows into a JSON file, anew after each update that
@@ -67,8 +75,7 @@ class ProbeWriter {
   std::string last_;
   int update_ = 0;
   nlohmann::json last_input_;
-  // Updates until it is at rest.
-  int turns_to_rest_ = 0;
+  int turns_to_rest_ = 0;  // updates until it is at rest
   // Of the update before; holds no image.
   std::weak_ptr<const PreviewImage> image_;
   int composites_ = 0;
@@ -134,8 +141,7 @@ class App {
   LightSession light_;
   ResultFiles results_;
   Scoring scoring_;
-  // Of this update; null: no results are loaded.
-  std::shared_ptr<const Scored> scored_;
+  std::shared_ptr<const Scored> scored_;  // of this update; null: no results are loaded
   // By the result file's id.
   std::map<int, std::string> reported_problems_;
   AppShell shell_;

@@ -5,15 +5,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <optional>
-#include <utility>
 
 #include "editor/app/layout.h"
-#include "editor/document/dropped_file.h"
-#include "editor/views/menu_bar.h"
-#include "editor/views/viewport/readout.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
+#include "editor/document/project_paths.h"
+#include "editor/views/viewport/viewport_view.h"
 
 namespace sigs::editor {
 
@@ -26,8 +21,7 @@ constexpr std::size_t kMaxTitle = 80;  // bytes
 void add_place(std::vector<BrowserPlace>& places, std::string name, fs::path folder) {
   std::error_code code;
   folder = fs::absolute(folder, code).lexically_normal();
-  const bool is_known =
-      std::any_of(places.begin(), places.end(), [&](const BrowserPlace& place) { return place.folder == folder; });
+  const bool is_known = std::ranges::any_of(places, [&](const BrowserPlace& place) { return place.folder == folder; });
   if (!folder.empty() && !is_known && fs::is_directory(folder, code)) places.push_back({std::move(name), folder});
 }
 

@@ -4,34 +4,93 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "editor/app/new_project_flow.h"
 #include "editor/app/project_session.h"
+#include "editor/document/document.h"
+#include "editor/document/settings.h"
 #include "editor/preview/background_job.h"
+#include "editor/preview/jobs.h"
 #include "editor/views/context.h"
 #include "editor/views/dialogs.h"
 #include "editor/views/export_view.h"
 #include "editor/views/models/change_model.h"
-#include "editor/views/models/model_gallery.h"
+#include "editor/views/new_project/new_project_dialog.h"
 #include "editor/views/start_page.h"
-#include "editor/views/toasts.h"
 #include "editor/widgets/file_browser.h"
 
 namespace sigs::editor {
+
+// The way from the dialog "New project" to a project that is open: asks for unsaved work, makes the project in the
+// background, opens it, and goes to a frame in which the intruder is in view. For the window's thread.
+class NewProjectFlow {
+ public:
+  // Document, settings, session and gallery must outlive it.
+  //   wake  may be called from any thread: something is to be drawn
+  NewProjectFlow(Document& document, Settings& settings, ProjectSession& session, ModelGallery& gallery,
+                 std::function<void()> wake);
+
+  // Shows the dialog. video: to begin with; "": none.
+  void open(const std::filesystem::path& video);
+  [[nodiscard]] bool is_open() const { return dialog_.is_open(); }
+  // A file that was dropped onto the window while the dialog is open.
+  void take_dropped(const std::filesystem::path& file) { dialog_.take_dropped(file); }
+  // Once per update while it is open.
+  void draw(const ViewContext& context);
+
+  // Once per update, after that of the session: carries out what was wanted while drawing, opens a project that is
+  // made, and shows it once its footage is open.
+  void update();
+
+  // Once per update: what is known of the intruder by what is shown.
+  void look(const ViewContext& context);
+
+  // Messages since the last call.
+  [[nodiscard]] std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
+  // What was guessed when the project that is open was made, in this session or earlier, and is unchanged.
+  [[nodiscard]] const std::vector<Problem>& guesses() const { return guesses_.left(); }
+
+ private:
+  void begin_making(const FirstProjectOptions& options);
+  // Opens the project that the job has made, once.
+  void take_made();
+  // From the project that is made to the one that is shown.
+  void follow_made();
+  // The project is open: tells what was guessed.
+  void begin_project();
+  // Its footage is open: goes to the middle, and from there to the intruder unless it is in view. True: there is
+  // nothing left to do.
+  [[nodiscard]] bool goes_to_intruder();
+
+  Document& document_;
+  Settings& settings_;
+  ProjectSession& session_;
+  NewProjectDialog dialog_;
+  FirstProjectJob job_;
+  Guesses guesses_;
+  std::vector<Request> requests_;
+  std::uint64_t guesses_of_ = 0;              // first number of the document whose guesses were read
+  NewProjectChoice choice_;                   // wanted while drawing, done in update()
+  std::shared_ptr<const FirstProject> made_;  // made, and given to the session
+  // The same, until its intruder is shown. Null: nothing is awaited.
+  std::shared_ptr<const FirstProject> awaited_;
+  std::uint64_t document_number_ = 0;     // of the document that holds it; 0: it is not open yet
+  std::optional<int> first_shown_;        // the frame that was gone to first; none: not yet
+  std::shared_ptr<const Survey> survey_;  // of the intruder; null: not there yet
+};
 
 // Draws everything that concerns files and the program itself: menu bar, start page, dialogs, messages, export. The
 // ProjectSession decides; this class shows its questions and passes the answers on.
 class AppShell {
  public:
   struct Setup {
-    // Folder of the sample projects; it need not be there.
-    std::filesystem::path samples;
-    // Folder of the sample models; likewise.
-    std::filesystem::path models;
-    // Where unsaved work is kept for the case of a crash.
-    std::filesystem::path recovery_folder;
+    std::filesystem::path samples;          // folder of the sample projects; it need not be there
+    std::filesystem::path models;           // folder of the sample models; likewise
+    std::filesystem::path recovery_folder;  // where unsaved work is kept for the case of a crash
     // Of the program, for the About dialog.
     std::string version;
     std::vector<HelpLine> help;  // lines of the help page
@@ -91,8 +150,7 @@ class AppShell {
   StartPage start_page_;
   Toasts toasts_;
   FileBrowser browser_;
-  // Waiting for the file browser, oldest first.
-  std::deque<AskForFile> files_wanted_;
+  std::deque<AskForFile> files_wanted_;  // waiting for the file browser, oldest first
   // For what the browser asks at the moment.
   std::function<void(const std::filesystem::path&)> chosen_;
   ExportView export_view_;

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "editor/app/layout.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 

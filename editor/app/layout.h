@@ -2,10 +2,10 @@
 #pragma once
 
 #include "editor/document/settings.h"
-#include "editor/views/first_steps.h"
 #include "editor/views/inspector/inspector_view.h"
 #include "editor/views/own_body/own_body_view.h"
 #include "editor/views/stages/stages_view.h"
+#include "editor/views/start_page.h"
 #include "editor/views/timeline/timeline_view.h"
 #include "editor/views/viewport/viewport_view.h"
 #include "editor/views/world/world_view.h"
@@ -50,8 +50,7 @@ class Layout {
   // A tab that is to come to the front in the next update.
   bool wants_own_body_ = false;
   bool wants_footage_ = false;
-  // The own-body view was in front in the last update.
-  bool shows_own_body_ = false;
+  bool shows_own_body_ = false;  // the own-body view was in front in the last update
 };
 
 }  // namespace sigs::editor

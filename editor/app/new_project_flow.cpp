@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "editor/app/new_project_flow.h"
+#include "editor/app/app_shell.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdlib>
-#include <utility>
 
 #include "base/text.h"
 

@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <utility>
+#include <chrono>
+#include <memory>
 
 #include "base/text.h"
-#include "editor/document/dropped_file.h"
+#include "base/threads.h"
 #include "editor/document/project_paths.h"
 #include "editor/widgets/texts.h"
 
@@ -41,7 +42,6 @@ ProjectSession::ProjectSession(Document& document, Settings& settings, Environme
     : document_(document),
       settings_(settings),
       environment_(std::move(environment)),
-      loader_(environment_.wake),
       recovery_(environment_.recovery_folder),
       abandoned_(abandoned_projects(environment_.recovery_folder)) {}
 
@@ -137,10 +137,7 @@ std::uint64_t ProjectSession::unsaved_mask() const {
 
 void ProjectSession::leave_then(Step next) {
   const std::uint64_t mask = unsaved_mask();
-  if (mask == 0) {
-    leave_document_then(std::move(next));
-    return;
-  }
+  if (mask == 0) return leave_document_then(std::move(next));
   const auto give_up = [this, mask, next] {
     discardable_mask_state_ = mask;
     leave_document_then(next);
@@ -152,10 +149,7 @@ void ProjectSession::leave_then(Step next) {
 }
 
 void ProjectSession::leave_document_then(Step next) {
-  if (!has_project_ || !document_.has_unsaved_changes()) {
-    next();
-    return;
-  }
+  if (!has_project_ || !document_.has_unsaved_changes()) return next();
   const auto give_up = [this, next] {
     discardable_state_ = document_.revision().number;
     next();
@@ -172,10 +166,7 @@ void ProjectSession::quit() {
     done_ = true;
   };
   const auto leave = [this, end] { leave_then(end); };
-  if (!environment_.is_exporting || !environment_.is_exporting()) {
-    leave();
-    return;
-  }
+  if (!environment_.is_exporting || !environment_.is_exporting()) return leave();
   ask({.title = "An export is running",
        .text = "Quitting stops it; nothing of it is kept.",
        .answers = {"Go on exporting", "Stop it and quit", "Cancel"}},
@@ -188,7 +179,15 @@ void ProjectSession::replace_then(std::function<void()> next) {
 }
 
 void ProjectSession::open(const fs::path& path) {
-  loader_.start(path);
+  // The project keeps an absolute path: it means the same file in messages, lists of recent ones and after a crash.
+  loading_ = fs::absolute(path).lexically_normal();
+  const auto promise = std::make_shared<std::promise<LoadedProject>>();
+  loaded_ = promise->get_future();
+  run_in_background([promise, file = loading_, wake = environment_.wake] {
+    FileStamp as_read = stamp_of(file);
+    promise->set_value({std::move(as_read), guarded([&] { return read_project(file); }, file.string())});
+    wake();
+  });
 }
 
 void ProjectSession::show(Project project, std::optional<FileStamp> as_read) {
@@ -207,23 +206,21 @@ void ProjectSession::close() {
 void ProjectSession::take_loaded() {
   const bool is_asking_for_file = environment_.is_asking_for_file && environment_.is_asking_for_file();
   if (question_ || is_asking_for_file) return;
-  std::optional<LoadedProject> loaded = loader_.take();
-  if (!loaded) return;
-  if (!loaded->read) {
-    std::erase(settings_.recent, loaded->path);
-    show_message(loaded->read.error().text(), true);
-    return;
+  if (!loaded_.valid() || loaded_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  LoadedProject loaded = loaded_.get();
+  const fs::path path = std::exchange(loading_, {});
+  if (!loaded.read) {
+    std::erase(settings_.recent, path);
+    return show_message(loaded.read.error().text(), true);
   }
   // Something was done while the file was read.
   const bool was_agreed = discardable_state_ == document_.revision().number;
   const bool mask_was_agreed = unsaved_mask() == 0 || unsaved_mask() == discardable_mask_state_;
-  if (has_project_ && ((document_.has_unsaved_changes() && !was_agreed) || !mask_was_agreed)) {
-    leave_then([this, path = loaded->path] { open(path); });
-    return;
-  }
-  show(std::move(loaded->read->project), std::move(loaded->as_read));
-  remember_project(settings_, loaded->path);
-  for (const Warning& warning : loaded->read->warnings) show_message(warning.text());
+  if (has_project_ && ((document_.has_unsaved_changes() && !was_agreed) || !mask_was_agreed))
+    return leave_then([this, path] { open(path); });
+  show(std::move(loaded.read->project), std::move(loaded.as_read));
+  remember_project(settings_, path);
+  for (const Warning& warning : loaded.read->warnings) show_message(warning.text());
   if (const std::size_t missing = missing_files(document_.project()).size(); missing > 0)
     show_message(fmt::format("{} of this project {} missing; File > Find missing files shows which",
                              count_text(static_cast<std::int64_t>(missing), "file"), missing == 1 ? "is" : "are"),
@@ -232,14 +229,8 @@ void ProjectSession::take_loaded() {
 
 void ProjectSession::save_then(Step next) {
   const fs::path file = document_.project().file;
-  if (file.empty()) {
-    save_as_then({}, std::move(next));
-    return;
-  }
-  if (!document_.file_has_changed()) {
-    write_then(file, next);
-    return;
-  }
+  if (file.empty()) return save_as_then({}, std::move(next));
+  if (!document_.file_has_changed()) return write_then(file, next);
   ask({.title = "Changed on disk",
        .text = file.filename().string() + " was changed by another program since it was read here. Replace it?",
        .answers = {"Save as...", "Replace it", "Cancel"}},
@@ -247,10 +238,7 @@ void ProjectSession::save_then(Step next) {
 }
 
 void ProjectSession::save_as_then(const fs::path& path, Step next) {
-  if (!path.empty()) {
-    write_then(path, next);
-    return;
-  }
+  if (!path.empty()) return write_then(path, next);
   const Project& project = document_.project();
   const fs::path start =
       project.file.empty() ? first_folder(project, settings_) / (project.name + ".json") : project.file;
@@ -329,10 +317,7 @@ void ProjectSession::discard(const AbandonedProject& abandoned) {
 
 void ProjectSession::handle_dropped(const fs::path& path, Edits& edits) {
   const DroppedFile dropped = classified_drop(path);
-  if (dropped.kind == DroppedKind::nothing) {
-    show_message(dropped.problem, true);
-    return;
-  }
+  if (dropped.kind == DroppedKind::nothing) return show_message(dropped.problem, true);
   if (dropped.kind == DroppedKind::project) {
     handle(OpenProject{path});
     return;

@@ -5,15 +5,17 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "editor/app/project_loader.h"
+#include "base/result.h"
 #include "editor/document/document.h"
 #include "editor/document/recovery.h"
 #include "editor/document/settings.h"
+#include "project/json.h"
 
 namespace sigs::editor {
 
@@ -84,11 +86,16 @@ class ProjectSession {
 
   [[nodiscard]] bool has_project() const { return has_project_; }
   // The project file that is being read; "": none.
-  [[nodiscard]] std::filesystem::path loading() const { return loader_.path(); }
+  [[nodiscard]] const std::filesystem::path& loading() const { return loading_; }
   // The person has quit, and nothing unsaved was lost by it.
   [[nodiscard]] bool is_done() const { return done_; }
 
  private:
+  // A project file that was asked for: the project, or why it could not be read.
+  struct LoadedProject {
+    FileStamp as_read;  // from before it was read: what is written meanwhile counts as a change
+    Result<ReadProject> read;
+  };
   // What is done after an answer, or after something was saved. May be empty.
   using Step = std::function<void()>;
 
@@ -111,6 +118,9 @@ class ProjectSession {
   // As UnsavedMask::unsaved; 0 without a project.
   [[nodiscard]] std::uint64_t unsaved_mask() const;
   void quit();
+  // Begins to read a file on a thread of its own, so that the window does not wait for a slow disk. The last file asked
+  // for counts. The thread may outlive the session where a disk does not answer, so `wake` has to stay callable until
+  // the program ends.
   void open(const std::filesystem::path& path);
   // Makes a project the document, without a question. as_read: see Document.
   void show(Project project, std::optional<FileStamp> as_read = {});
@@ -129,13 +139,13 @@ class ProjectSession {
   Document& document_;
   Settings& settings_;
   Environment environment_;
-  ProjectLoader loader_;
+  std::filesystem::path loading_;  // absolute
+  std::future<LoadedProject> loaded_;
   Recovery recovery_;
   std::vector<AbandonedProject> abandoned_;
   std::optional<RecoveredMask> recovered_mask_;
   std::optional<Question> question_;
-  // One for each answer of question_.
-  std::vector<Step> steps_;
+  std::vector<Step> steps_;  // one for each answer of question_
   // What came while a question was open, oldest first.
   std::deque<Step> waiting_;
   std::vector<Request> requests_;

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "editor/app/shortcuts.h"
-
-#include <imgui.h>
+#include "editor/app/app.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/keys.h"
 
 namespace sigs::editor {
 
@@ -92,7 +88,7 @@ void handle_range_keys(const ViewContext& context) {
 void handle_waypoint_keys(const ViewContext& context) {
   if (pressed(Key::up, true)) go_to_waypoint(context, -1);
   if (pressed(Key::down, true)) go_to_waypoint(context, 1);
-  if (pressed(Key::enter) || pressed(Key::keypad_enter) || pressed(Key::insert)) add_waypoint_here(context);
+  if (enter_pressed() || pressed(Key::insert)) add_waypoint_here(context);
   if (pressed(Key::del) || pressed(Key::backspace)) delete_selected(context);
   if (pressed(Key::escape) && !context.needs.own_escape) context.edits.select({});
 }

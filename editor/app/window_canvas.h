@@ -2,11 +2,63 @@
 #pragma once
 
 #include <imgui.h>
-#include <optional>
 
-#include "editor/app/changed_regions.h"
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace sigs::editor {
+
+// Finds the parts of the window that look different from the update before. ImGui issues all draw commands in each
+// update; with OpenGL in software most of the time would be spent on pixels that do not change. Triangles are compared
+// by digests of their vertices, so a texture whose content changes has to be another texture (Textures sees to that).
+class ChangedRegions {
+ public:
+  // Rectangles (left, top, right, bottom, in ImGui's coordinates) that together contain every pixel that may differ
+  // from the data of the call before; none: nothing differs. At most three, which do not overlap.
+  //   first  a place in those coordinates, or none. Changes of the panels that lie elsewhere then wait, unless they
+  //          touch a rectangle that is returned: a later call returns them, at the latest one without a place.
+  [[nodiscard]] std::vector<ImVec4> of(const ImDrawData& data, const std::optional<ImVec2>& first = std::nullopt);
+
+  // The next call returns the whole window.
+  void forget() { panels_.clear(); }
+
+ private:
+  struct Triangle {
+    std::uint64_t fingerprint = 0;  // of its vertices
+    ImVec4 bounds{0, 0, 0, 0};      // of the pixels that it may touch
+  };
+  // One draw command: one texture, one clip rectangle.
+  struct Piece {
+    std::uint64_t surface = 0;      // digest of both
+    std::uint64_t fingerprint = 0;  // of all of it
+    std::vector<Triangle> triangles;
+  };
+  // The draw commands of one ImGui window.
+  struct Panel {
+    // Address of ImGui's draw list; only compared.
+    const void* list = nullptr;
+    std::vector<Piece> pieces;
+  };
+  // What ImGui draws, as far as it is compared.
+  [[nodiscard]] static Piece piece_of(const ImDrawList& list, const ImDrawCmd& command);
+  [[nodiscard]] static Panel panel_of(const ImDrawList& list);
+  // Adds where the triangles lie that only one of both has. All of them, where those of both are in another order.
+  static void add_changes(const Piece& before, const Piece& after, std::vector<ImVec4>& regions);
+  // Where a panel differs; none where it does not.
+  [[nodiscard]] static std::vector<ImVec4> changed(const Panel& before, const Panel& after);
+  [[nodiscard]] static bool lies_at(const Panel& panel, const ImVec2& place);
+  // Those of all panels, as of() returns them. What waits is put back into `panels` as it was drawn last.
+  [[nodiscard]] std::vector<ImVec4> changes(std::vector<Panel>& panels, const std::optional<ImVec2>& first);
+
+  // Of the call before, and the window's size then. Empty: the next call returns the whole window.
+  std::vector<Panel> panels_;
+  ImVec2 size_{0, 0};
+};
+
+// Intersection of two rectangles; where they have none, its right edge lies left of its left one, or its bottom above
+// its top.
+[[nodiscard]] ImVec4 common_part(const ImVec4& a, const ImVec4& b);
 
 // The image of the window, kept in a framebuffer from update to update, upside down as windows have it: so a driver
 // that draws in software copies it by rows, not by drawing it. Changed regions are drawn into it, then it is copied to

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
 #include "project/json.h"
 #include "project/places.h"
@@ -17,69 +17,20 @@ namespace {
 constexpr std::size_t kMaxWaypointsInHistory = 2'000'000;
 constexpr std::size_t kMaxSteps = 1000;
 
-bool finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-bool finite(const std::optional<double>& number) {
-  return std::isfinite(number.value_or(0));
-}
-
 bool finite(const WaypointSettings& waypoint) {
   const PlaceSettings place = waypoint.place.value_or(PlaceSettings());
-  return finite(waypoint.position_m) && finite(waypoint.frame) && std::isfinite(place.latitude_deg) &&
-         std::isfinite(place.longitude_deg) && std::isfinite(place.height_m);
+  return is_finite(waypoint.position_m) && std::isfinite(waypoint.frame.value_or(0)) &&
+         std::isfinite(place.latitude_deg) && std::isfinite(place.longitude_deg) && std::isfinite(place.height_m);
 }
 
-bool finite(const IntruderSettings& intruder) {
-  const TrajectoryPlan& plan = intruder.trajectory;
-  return std::isfinite(intruder.model.scale) && std::isfinite(intruder.model.length_m) &&
-         std::isfinite(plan.bank_limit_deg) &&
-         std::all_of(plan.waypoints.begin(), plan.waypoints.end(),
-                     [](const WaypointSettings& waypoint) { return finite(waypoint); });
-}
-
-bool finite(const OwnBodySettings& own_body) {
-  const PaperOwnBodySettings& paper = own_body.paper;
-  const StableOwnBodySettings& stable = own_body.stable;
-  for (const double number :
-       {own_body.settled_percent, own_body.soft_edge_px, paper.canny_low, paper.canny_high, paper.least_area_percent,
-        stable.vibration_px, stable.least_area_percent, stable.least_moving_percent})
-    if (!std::isfinite(number)) return false;
-  return true;
-}
-
-bool finite(const CameraSettings& camera) {
-  return finite(camera.position_m) && finite(camera.roll_deg) && finite(camera.pitch_deg) &&
-         std::isfinite(camera.yaw_deg) && std::isfinite(camera.speed_mps) && std::isfinite(camera.track.offset_s) &&
-         finite(camera.readout_s) && finite(camera.exposure_s);
-}
-
-bool finite(const LightSettings& light) {
-  return finite(light.position_m) && finite(light.color) && std::isfinite(light.ambient) &&
-         finite(light.sun.azimuth_deg) && finite(light.sun.elevation_deg) && finite(light.sky_color) &&
-         finite(light.ground_color) && std::isfinite(light.exposure);
-}
-
-bool finite(const AppearanceSettings& appearance) {
-  const GrainSettings& grain = appearance.grain;
-  for (const double number : {appearance.point_spread_px, appearance.sharpening, appearance.sharpening_px,
-                              appearance.chroma_spread_px, appearance.black, appearance.saturation, grain.sd_dark,
-                              grain.sd_bright, grain.sd_chroma, grain.spread_px, grain.persistence})
-    if (!std::isfinite(number)) return false;
-  return finite(appearance.haze.visibility_m) && finite(appearance.haze.airlight_color) &&
-         finite(appearance.codec.quantiser);
-}
-
-bool finite(const GeoSettings& geo) {
-  return finite(geo.latitude_deg) && finite(geo.longitude_deg) && finite(geo.height_m) && finite(geo.heading_deg);
-}
-
-bool finite(const Project& project) {
-  return finite(project.own_body) && finite(project.camera) && finite(project.geo) && finite(project.light) &&
-         finite(project.appearance) && finite(project.compositing.blur_px_per_m) &&
-         std::all_of(project.intruders.begin(), project.intruders.end(),
-                     [](const IntruderSettings& intruder) { return finite(intruder); });
+// The waypoints are looked at by themselves: there can be ten thousand.
+bool finite(Project& project) {
+  for (const IntruderSettings& intruder : project.intruders)
+    for (const WaypointSettings& waypoint : intruder.trajectory.waypoints)
+      if (!finite(waypoint)) return false;
+  return with_waypoints_aside(project, [](const std::vector<Field>& fields) {
+    return std::ranges::all_of(fields, [](const Field& field) { return is_finite(value_of(field)); });
+  });
 }
 
 FileStamp stamp_of_file(const Project& project) {
@@ -278,6 +229,32 @@ Result<void> Document::save_as(const std::filesystem::path& path) {
 bool Document::file_has_changed() const {
   const FileStamp present = stamp_of(file_stamp_.path);
   return present.exists && present != file_stamp_;
+}
+
+void Guesses::begin(std::vector<Guess> guesses, const Document& document) {
+  guesses_ = std::move(guesses);
+  for (Guess& guess : guesses_)
+    if (guess.value.empty()) guess.value = setting_text(document.project(), guess.text.field);
+  first_number_ = document.first_number();
+  revision_ = 0;
+  follow(document);
+}
+
+void Guesses::follow(const Document& document) {
+  if (guesses_.empty()) return;
+  if (document.first_number() != first_number_) {
+    guesses_.clear();
+    left_.clear();
+    return;
+  }
+  if (document.revision().number == revision_) return;
+  revision_ = document.revision().number;
+  left_.clear();
+  std::vector<std::string> keys;
+  for (const Guess& guess : guesses_) keys.push_back(guess.text.field);
+  const std::vector<std::string> values = setting_texts(document.project(), keys);
+  for (std::size_t i = 0; i < guesses_.size(); ++i)
+    if (values[i] == guesses_[i].value) left_.push_back(guesses_[i].text);
 }
 
 }  // namespace sigs::editor

@@ -15,6 +15,7 @@
 #include "base/result.h"
 #include "editor/document/content_id.h"
 #include "project/project.h"
+#include "project/validate.h"
 
 namespace sigs::editor {
 
@@ -33,8 +34,7 @@ struct Selection {
 
 // One change of the project.
 struct ChangeProject {
-  // For the menu: "move waypoint" reads "Undo move waypoint".
-  std::string name;
+  std::string name;  // for the menu: "move waypoint" reads "Undo move waypoint"
   // Called once, on a copy of the project; it may throw, and then nothing changes.
   std::function<void(Project&)> change;
   // A change with the same gesture as the one before joins its undo step, so that a drag is one step. "": a step of its
@@ -89,20 +89,16 @@ struct Quit {};
 // called.
 struct AskForFile {
   std::string title;
-  // With their dots: ".json"; empty: all files.
-  std::vector<std::string> extensions;
-  // The file need not be there; one that is there is asked about.
-  bool for_saving = false;
-  // A folder is wanted; extensions do not count.
-  bool of_folder = false;
+  std::vector<std::string> extensions;  // with their dots: ".json"; empty: all files
+  bool for_saving = false;              // the file need not be there; one that is there is asked about
+  bool of_folder = false;               // a folder is wanted; extensions do not count
   // As FileDialogRequest::start.
   std::filesystem::path start;
   std::function<void(const std::filesystem::path&)> chosen;
 };
 // Plays from the playhead on.
 struct Play {
-  // Times the footage's own speed; negative: backwards; 0: stop.
-  double speed = 1;
+  double speed = 1;  // times the footage's own speed; negative: backwards; 0: stop
 };
 struct TogglePlay {};
 struct SetLoop {
@@ -214,12 +210,9 @@ struct Revision {
   Revision(std::uint64_t revision_number, std::shared_ptr<const Project> state)
       : number(revision_number), project(std::move(state)), content(content_id_of(*project)) {}
 
-  // Each state has its own, from 1 on; 0: no state.
-  std::uint64_t number = 0;
-  // Null for number 0 alone.
-  std::shared_ptr<const Project> project;
-  // Digest of the project's settings; states with equal images share it.
-  ContentId content;
+  std::uint64_t number = 0;                // each state has its own, from 1 on; 0: no state
+  std::shared_ptr<const Project> project;  // null for number 0 alone
+  ContentId content;                       // digest of the project's settings; states with equal images share it
 
   // Numbers are never given twice.
   [[nodiscard]] bool operator==(const Revision& other) const { return number == other.number; }
@@ -333,8 +326,7 @@ class Document {
   FileStamp file_stamp_;
   std::vector<Step> past_;
   std::vector<Step> future_;
-  // Of the last step, while it lasts; "": none.
-  std::string gesture_;
+  std::string gesture_;  // of the last step, while it lasts; "": none
   // What could be redone before it, so that CancelGesture can bring it back.
   std::vector<Step> future_of_gesture_;
   Selection selection_;
@@ -342,6 +334,35 @@ class Document {
   int frame_count_ = 0;
   std::optional<int> in_;
   std::optional<int> out_;
+};
+
+// A setting, or a group of settings ("light", "intruders[0].trajectory"), and what was guessed.
+struct Guess {
+  Problem text;
+  std::string value = {};  // setting_text() (project/json.h) as it was guessed
+};
+
+// The settings of a project that were guessed when it was made, and that nobody has changed since: what the user still
+// has to look at. Knows no window.
+class Guesses {
+ public:
+  // The project that the document holds was made with these guesses, today or earlier. A guess without a value was made
+  // with the value that its setting has.
+  void begin(std::vector<Guess> guesses, const Document& document);
+
+  // Once per update: leaves out what has another value than was guessed; an undo brings it back. All are gone once
+  // the document is another one.
+  void follow(const Document& document);
+
+  // As of the last call.
+  [[nodiscard]] const std::vector<Problem>& left() const { return left_; }
+
+ private:
+  std::vector<Guess> guesses_;
+  std::vector<Problem> left_;
+  // Of the document that they belong to, and of its revision that left_ is of.
+  std::uint64_t first_number_ = 0;
+  std::uint64_t revision_ = 0;
 };
 
 }  // namespace sigs::editor

@@ -18,7 +18,7 @@ namespace {
 
 std::string with_spaces(std::string_view name) {
   std::string text(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
+  std::ranges::replace(text, '_', ' ');
   return text;
 }
 
@@ -125,7 +125,7 @@ struct Put {
 };
 
 const Field* find_in(const std::vector<Field>& fields, std::string_view key) {
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.key == key; });
+  const auto found = std::ranges::find(fields, key, &Field::key);
   return found == fields.end() ? nullptr : &*found;
 }
 
@@ -178,7 +178,7 @@ std::string range_text(const Field& field) {
 std::string word_for_zero(std::string_view key) {
   constexpr std::array<std::string_view, 4> kAsTheClipAsks{"own_body.paper.canny_low", "own_body.paper.canny_high",
                                                            "own_body.paper.dilation_px", "own_body.paper.closing_px"};
-  if (std::find(kAsTheClipAsks.begin(), kAsTheClipAsks.end(), key) != kAsTheClipAsks.end()) return "auto";
+  if (std::ranges::find(kAsTheClipAsks, key) != kAsTheClipAsks.end()) return "auto";
   return key == "own_body.settled_percent" ? "never" : "";
 }
 
@@ -235,28 +235,27 @@ PlainValue value_of(const Field& field) {
       field.value);
 }
 
+bool is_finite(const PlainValue& value) {
+  if (const auto* const number = std::get_if<double>(&value)) return std::isfinite(*number);
+  if (const auto* const number = std::get_if<std::optional<double>>(&value)) return std::isfinite(number->value_or(0));
+  const auto* const vector = std::get_if<glm::dvec3>(&value);
+  return vector == nullptr || is_finite(*vector);
+}
+
 bool put_value(const Field& field, const PlainValue& value) {
   return std::visit(Put{field}, field.value, value);
 }
 
 bool put_value(Project& project, std::string_view key, const PlainValue& value) {
-  if (key.find(".waypoints[") != std::string_view::npos) {
-    const std::vector<Field> fields = fields_of(project);
+  const auto put_there = [&](const std::vector<Field>& fields) {
     const Field* field = find_in(fields, key);
     return field != nullptr && put_value(*field, value);
-  }
+  };
+  if (key.find(".waypoints[") != std::string_view::npos) return put_there(fields_of(project));
   std::vector<ModelSettings> before;
   for (const IntruderSettings& intruder : project.intruders) before.push_back(intruder.model);
-  std::vector<std::vector<WaypointSettings>> aside;
-  for (IntruderSettings& intruder : project.intruders)
-    aside.push_back(std::exchange(intruder.trajectory.waypoints, {}));
-  const std::vector<Field> fields = fields_of(project);
-  const Field* field = find_in(fields, key);
-  const bool put = field != nullptr && put_value(*field, value);
-  for (std::size_t i = 0; i < aside.size(); ++i) {
-    project.intruders[i].trajectory.waypoints = std::move(aside[i]);
-    keep_axes_apart(project.intruders[i].model, before[i]);
-  }
+  const bool put = with_waypoints_aside(project, put_there);
+  for (std::size_t i = 0; i < before.size(); ++i) keep_axes_apart(project.intruders[i].model, before[i]);
   return put;
 }
 

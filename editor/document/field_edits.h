@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,6 +23,8 @@ using PlainValue = std::variant<double, int, std::optional<double>, std::optiona
                                 std::vector<std::string>, ChosenName>;
 
 [[nodiscard]] PlainValue value_of(const Field& field);
+// False for numbers and vectors with a part that is not finite.
+[[nodiscard]] bool is_finite(const PlainValue& value);
 
 // Numbers are brought into the field's range. A value of another type, one that is not finite and a name that a choice
 // does not have leave the field alone; false then.
@@ -31,6 +34,18 @@ bool put_value(const Field& field, const PlainValue& value);
 // which gets the old one: on the way from one pair of axes to another no step is invalid. False too where the project
 // has no such field. Quick however many waypoints there are, unless the key is a waypoint's.
 bool put_value(Project& project, std::string_view key, const PlainValue& value);
+
+// What `call` returns for the fields of a project but its waypoints', which are put aside meanwhile: quick however many
+// there are.
+template <class Call>
+auto with_waypoints_aside(Project& project, const Call& call) {
+  std::vector<std::vector<WaypointSettings>> aside;
+  for (IntruderSettings& intruder : project.intruders)
+    aside.push_back(std::exchange(intruder.trajectory.waypoints, {}));
+  const auto result = call(fields_of(project));
+  for (std::size_t i = 0; i < aside.size(); ++i) project.intruders[i].trajectory.waypoints = std::move(aside[i]);
+  return result;
+}
 
 // The fields of one state of a project, to be looked at for as long as that state lasts. Without the waypoints', of
 // which there can be ten thousand.

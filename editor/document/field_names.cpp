@@ -93,7 +93,7 @@ std::string label_of(std::string_view key) {
       break;
     }
   std::string label(last);
-  std::replace(label.begin(), label.end(), '_', ' ');
+  std::ranges::replace(label, '_', ' ');
   if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
   return label;
 }
@@ -148,7 +148,7 @@ bool is_common(std::string_view key) {
       "export.video.codec",
       "export.labels",
   };
-  return key.ends_with("].name") || std::find(kCommon.begin(), kCommon.end(), without_intruder(key)) != kCommon.end();
+  return key.ends_with("].name") || std::ranges::find(kCommon, without_intruder(key)) != kCommon.end();
 }
 
 }  // namespace sigs::editor

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "base/ensure.h"
 #include "base/image_codecs.h"

@@ -2,8 +2,15 @@
 #include "editor/document/project_paths.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string_view>
 #include <utility>
 
+#include "base/input_file.h"
+#include "base/paths.h"
 #include "project/fields.h"
 
 namespace sigs::editor {
@@ -37,7 +44,7 @@ std::vector<Move> moves_of(const fs::path& from, const fs::path& to) {
     b = b.parent_path();
     moves.push_back({a, b});
   }
-  std::reverse(moves.begin(), moves.end());
+  std::ranges::reverse(moves);
   return moves;
 }
 
@@ -48,6 +55,90 @@ fs::path place_after(const std::vector<Move>& moves, const fs::path& old_place) 
   }
   const fs::path beside = moves.back().to / old_place.filename();
   return is_file(beside) ? beside : fs::path();
+}
+
+using namespace std::string_view_literals;
+
+constexpr double kAhead_m = 300;
+
+std::string first_bytes(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(4096, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
+  return bytes;
+}
+
+bool at(std::string_view bytes, std::size_t offset, std::string_view mark) {
+  return bytes.size() >= offset && bytes.substr(offset).starts_with(mark);
+}
+
+bool is_image(std::string_view bytes) {
+  return at(bytes, 0, "\x89PNG"sv) || at(bytes, 0, "\xFF\xD8\xFF"sv) || at(bytes, 0, "BM"sv) ||
+         at(bytes, 0, "II*\0"sv) || at(bytes, 0, "MM\0*"sv) || (at(bytes, 0, "RIFF"sv) && at(bytes, 8, "WEBP"sv));
+}
+
+// ISO media, AVI, Matroska and WebM, MPEG-2 transport streams, MPEG program streams, Ogg.
+bool is_video(std::string_view bytes) {
+  return at(bytes, 4, "ftyp"sv) || at(bytes, 4, "moov"sv) || (at(bytes, 0, "RIFF"sv) && at(bytes, 8, "AVI "sv)) ||
+         at(bytes, 0, "\x1A\x45\xDF\xA3"sv) || (at(bytes, 0, "G"sv) && at(bytes, 188, "G"sv)) ||
+         at(bytes, 0, "\0\0\1\xBA"sv) || at(bytes, 0, "OggS"sv);
+}
+
+// One of them may begin with a byte order mark or empty lines.
+std::string_view without_blanks(std::string_view bytes) {
+  if (bytes.starts_with("\xEF\xBB\xBF"sv)) bytes.remove_prefix(3);
+  const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
+  return begin == std::string_view::npos ? std::string_view() : bytes.substr(begin);
+}
+
+DroppedKind kind_by_content(std::string_view bytes) {
+  if (is_image(bytes)) return DroppedKind::mask;
+  if (is_video(bytes)) return DroppedKind::video;
+  const std::string_view text = without_blanks(bytes);
+  if (text.starts_with("{"))
+    return text.find("\"sigs\"") != std::string_view::npos ? DroppedKind::project : DroppedKind::calibration;
+  // Lists of detections (AOT); no calibration is a list.
+  if (text.starts_with("[")) return DroppedKind::results;
+  if (text.starts_with("%YAML") || text.find("<opencv_storage") != std::string_view::npos)
+    return DroppedKind::calibration;
+  return DroppedKind::nothing;
+}
+
+DroppedKind kind_by_extension(const std::string& extension) {
+  struct Known {
+    std::string_view extension;
+    DroppedKind kind;
+  };
+  static constexpr std::array kKnown{Known{".mp4", DroppedKind::video},       Known{".mov", DroppedKind::video},
+                                     Known{".mkv", DroppedKind::video},       Known{".avi", DroppedKind::video},
+                                     Known{".webm", DroppedKind::video},      Known{".m4v", DroppedKind::video},
+                                     Known{".mts", DroppedKind::video},       Known{".m2ts", DroppedKind::video},
+                                     Known{".ts", DroppedKind::video},        Known{".mpg", DroppedKind::video},
+                                     Known{".mpeg", DroppedKind::video},      Known{".wmv", DroppedKind::video},
+                                     Known{".y4m", DroppedKind::video},       Known{".obj", DroppedKind::model},
+                                     Known{".xml", DroppedKind::calibration}, Known{".yaml", DroppedKind::calibration},
+                                     Known{".yml", DroppedKind::calibration}, Known{".png", DroppedKind::mask},
+                                     Known{".pgm", DroppedKind::mask},        Known{".json", DroppedKind::project},
+                                     Known{".txt", DroppedKind::results},     Known{".csv", DroppedKind::results}};
+  const auto found = std::ranges::find(kKnown, extension, &Known::extension);
+  return found == kKnown.end() ? DroppedKind::nothing : found->kind;
+}
+
+void put_model(Project& project, const fs::path& path, const Selection& selection) {
+  const std::string file = path_in_project(project, path);
+  const bool of_intruder = selection.kind == Selected::intruder || selection.kind == Selected::waypoint;
+  const auto selected = static_cast<std::size_t>(selection.intruder);
+  if (of_intruder && selection.intruder >= 0 && selected < project.intruders.size()) {
+    project.intruders[selected].model.file = file;
+    return;
+  }
+  const double yaw_rad = project.camera.yaw_deg * std::numbers::pi / 180;
+  const glm::dvec3 ahead_m{kAhead_m * std::cos(yaw_rad), kAhead_m * std::sin(yaw_rad), 0};
+  IntruderSettings intruder{.name = path.stem().string()};
+  intruder.model.file = file;
+  intruder.trajectory.waypoints = {{.frame = {}, .position_m = project.camera.position_m + ahead_m}};
+  project.intruders.push_back(std::move(intruder));
 }
 
 }  // namespace
@@ -80,8 +171,7 @@ std::vector<Relinked> suggested_places(const std::vector<MissingFile>& missing, 
 
 void relink(Project& project, const std::vector<Relinked>& places) {
   for (const Field& field : fields_of(project)) {
-    const auto place = std::find_if(places.begin(), places.end(),
-                                    [&](const Relinked& relinked) { return relinked.field == field.key; });
+    const auto place = std::ranges::find(places, field.key, &Relinked::field);
     if (place != places.end() && field.is_path)
       *std::get<std::string*>(field.value) = path_in_project(project, place->place);
   }
@@ -110,9 +200,64 @@ std::string path_in_project(const Project& project, const fs::path& file) {
   const fs::path target = normal(file);
   if (project.file.empty()) return target.generic_string();
   const fs::path relative = target.lexically_relative(normal(project.file).parent_path());
-  const auto steps_up = std::count(relative.begin(), relative.end(), fs::path(".."));
+  const auto steps_up = std::ranges::count(relative, fs::path(".."));
   constexpr int kMaxStepsUp = 4;
   return (relative.empty() || steps_up > kMaxStepsUp ? target : relative).generic_string();
+}
+
+fs::path file_beside(const Project& project, const std::string& ending, const std::string& extension) {
+  const fs::path beside = !project.file.empty()            ? project.file
+                          : !project.footage.video.empty() ? resolved(project, project.footage.video)
+                                                           : fs::path(project.name);
+  return fs::absolute(beside.parent_path() / (beside.stem().string() + ending + extension)).lexically_normal();
+}
+
+fs::path new_file_beside(const Project& project, const std::string& ending, const std::string& extension) {
+  std::error_code code;
+  fs::path file = file_beside(project, ending, extension);
+  for (int number = 2; fs::exists(file, code); ++number)
+    file = file_beside(project, ending + "_" + std::to_string(number), extension);
+  return file;
+}
+
+DroppedFile classified_drop(const fs::path& path) {
+  std::error_code code;
+  const auto nothing = [&](const std::string& why) { return DroppedFile{DroppedKind::nothing, path, why}; };
+  if (fs::is_directory(path, code)) return nothing(path.string() + " is a folder; drop a file");
+  if (!fs::exists(path, code)) return nothing(path.string() + " is not there");
+  if (const Result<void> file = check_input_file(path); !file)
+    return nothing(file.error().where + " " + file.error().what);
+  if (!std::ifstream(path, std::ios::binary)) return nothing(path.string() + " cannot be read");
+  // An OBJ is text without a mark of its own: its name has to say it.
+  const std::string extension = lower_extension(path);
+  const DroppedKind content = extension == ".obj" ? DroppedKind::model : kind_by_content(first_bytes(path));
+  const DroppedKind kind = content != DroppedKind::nothing ? content : kind_by_extension(extension);
+  if (kind == DroppedKind::nothing)
+    return nothing(path.filename().string() +
+                   " is neither project, video, calibration, OBJ model, mask image nor results of a tracker; nothing "
+                   "was changed");
+  return {kind, path, {}};
+}
+
+std::optional<ChangeProject> change_by(const DroppedFile& dropped, const Selection& selection) {
+  const fs::path& path = dropped.path;
+  switch (dropped.kind) {
+    case DroppedKind::video:
+      return ChangeProject{"set footage", [path](Project& p) { p.footage.video = path_in_project(p, path); }, {}};
+    case DroppedKind::calibration:
+      return ChangeProject{
+          "set calibration", [path](Project& p) { p.footage.calibration = path_in_project(p, path); }, {}};
+    case DroppedKind::mask:
+      return ChangeProject{
+          "set own-body mask", [path](Project& p) { p.footage.own_body_mask = path_in_project(p, path); }, {}};
+    case DroppedKind::model:
+      return ChangeProject{"drop model", [path, selection](Project& p) { put_model(p, path, selection); }, {}};
+    case DroppedKind::project:
+    case DroppedKind::results:
+    case DroppedKind::nothing:
+      break;
+  }
+  return std::nullopt;
 }
 
 }  // namespace sigs::editor

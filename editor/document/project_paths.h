@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "editor/document/document.h"
 #include "project/project.h"
 
 namespace sigs::editor {
@@ -44,5 +46,28 @@ struct Relinked {
 
 // Writes them into the project, as path_in_project names files. Fields that it does not have are passed over.
 void relink(Project& project, const std::vector<Relinked>& places);
+
+// A file that belongs to a project: NAME + ending + extension beside it; beside the footage where the project was never
+// saved.
+[[nodiscard]] std::filesystem::path file_beside(const Project& project, const std::string& ending,
+                                                const std::string& extension);
+// One that is not there yet: the same, else NAME + ending_2 + extension and so on.
+[[nodiscard]] std::filesystem::path new_file_beside(const Project& project, const std::string& ending,
+                                                    const std::string& extension);
+
+enum class DroppedKind { nothing, project, video, calibration, model, mask, results };
+
+// Kind of a file that was dropped onto the window, recognised by its first bytes, else by its extension.
+struct DroppedFile {
+  DroppedKind kind = DroppedKind::nothing;
+  std::filesystem::path path;
+  std::string problem;  // where kind is nothing: the message to show
+};
+[[nodiscard]] DroppedFile classified_drop(const std::filesystem::path& path);
+
+// The change that the file makes to the project: footage, calibration or mask are replaced; a model replaces that of
+// the selected intruder, or is a further intruder 300 m ahead of the camera. Nothing for projects, for results of
+// trackers and for what is none of these.
+[[nodiscard]] std::optional<ChangeProject> change_by(const DroppedFile& dropped, const Selection& selection);
 
 }  // namespace sigs::editor

@@ -14,7 +14,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "base/file_lock.h"
 #include "base/staged_outputs.h"
 #include "editor/document/mask_painting.h"
 #include "project/fields.h"
@@ -156,7 +155,7 @@ std::vector<AbandonedProject> abandoned_projects(const fs::path& folder) {
   for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
     if (is_recovery_file(it->path()) && is_abandoned(it->path())) found.push_back(abandoned_at(it->path()));
   }
-  std::sort(found.begin(), found.end(), [](const AbandonedProject& a, const AbandonedProject& b) {
+  std::ranges::sort(found, [](const AbandonedProject& a, const AbandonedProject& b) {
     if (a.problem.empty() != b.problem.empty()) return a.problem.empty();
     return a.written_unix_s != b.written_unix_s ? a.written_unix_s > b.written_unix_s
                                                 : a.recovery_file < b.recovery_file;

@@ -23,10 +23,8 @@ struct AbandonedProject {
   std::string name;
   // When the recovery file was written, in seconds since 1970 (UTC).
   std::int64_t written_unix_s = 0;
-  // An own-body mask that was not saved lies beside it.
-  bool has_mask = false;
-  // "": it can be read, as far as is known; else why not.
-  std::string problem;
+  bool has_mask = false;  // an own-body mask that was not saved lies beside it
+  std::string problem;    // "": it can be read, as far as is known; else why not
 };
 
 // The own-body mask that is being painted, as recovery sees it.
@@ -34,11 +32,9 @@ struct MaskToKeep {
   // 0: nothing of it is unsaved; else another number for every other mask, so that it is written no more often than it
   // changes.
   std::uint64_t state = 0;
-  cv::Mat pixels;  // CV_8UC1
-  // As MaskPainting::has_strokes().
-  bool has_strokes = false;
-  // In the middle of a stroke: it is kept when that is over.
-  bool is_changing = false;
+  cv::Mat pixels;            // CV_8UC1
+  bool has_strokes = false;  // as MaskPainting::has_strokes()
+  bool is_changing = false;  // in the middle of a stroke: it is kept when that is over
 };
 // A mask that recovery gave back.
 struct RecoveredMask {
@@ -52,8 +48,7 @@ struct RecoveredProject {
   // does not tell.
   std::optional<FileStamp> as_read;
   std::optional<RecoveredMask> mask;
-  // Why there is no mask, where there should be one; "": all is there.
-  std::string mask_problem;
+  std::string mask_problem;  // why there is no mask, where there should be one; "": all is there
 };
 
 // $XDG_STATE_HOME/sigs/recovery, else ~/.local/state/sigs/recovery.
@@ -107,10 +102,8 @@ class Recovery {
   void remove_mask_other_than(const std::filesystem::path& kept) noexcept;
 
   std::filesystem::path folder_;
-  // Ours, whether it is there or not.
-  std::filesystem::path file_;
-  // Open while this editor runs and has had something to keep.
-  Descriptor lock_;
+  std::filesystem::path file_;  // ours, whether it is there or not
+  Descriptor lock_;             // open while this editor runs and has had something to keep
   // file_ is there; it holds the revision of this number. 0: a project that was taken over.
   bool written_ = false;
   std::uint64_t kept_revision_ = 0;

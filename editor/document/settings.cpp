@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "base/staged_outputs.h"
 #include "project/fields.h"
@@ -16,31 +17,31 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxRecent = 12;
 
-// A number of the file within its range; what is absent or no number leaves the default.
-template <class Number>
-void take(const Json& json, const char* key, Number& value, Number minimum, Number maximum) {
-  if (const auto found = json.find(key); found != json.end() && found->is_number())
-    value = std::clamp(found->get<Number>(), minimum, maximum);
+// Calls with each setting's key, place and range.
+template <class SettingsOrConst, class Call>
+void for_each_setting(SettingsOrConst& settings, const Call& call) {
+  call("font_px", settings.font_px, kMinFont_px, kMaxFont_px);
+  call("window_width_px", settings.window_width_px, 640, 16384);
+  call("window_height_px", settings.window_height_px, 480, 16384);
+  call("maximised", settings.maximised, false, true);
+  call("inspector_width", settings.inspector_width, 200.0, 2000.0);
+  call("timeline_height", settings.timeline_height, 90.0, 2000.0);
+  call("world_share", settings.world_share, 0.05, 0.95);
+  call("show_world", settings.show_world, false, true);
+  call("show_inspector", settings.show_inspector, false, true);
+  call("all_settings", settings.all_settings, false, true);
+  call("loop", settings.loop, false, true);
+  call("autosave_s", settings.autosave_s, 1.0, 3600.0);
 }
 
-void take(const Json& json, const char* key, bool& value) {
-  if (const auto found = json.find(key); found != json.end() && found->is_boolean()) value = found->get<bool>();
-}
-
+// What is absent or of another type leaves the default.
 Settings settings_of(const Json& json) {
   Settings settings;
-  take(json, "font_px", settings.font_px, kMinFont_px, kMaxFont_px);
-  take(json, "window_width_px", settings.window_width_px, 640, 16384);
-  take(json, "window_height_px", settings.window_height_px, 480, 16384);
-  take(json, "maximised", settings.maximised);
-  take(json, "inspector_width", settings.inspector_width, 200.0, 2000.0);
-  take(json, "timeline_height", settings.timeline_height, 90.0, 2000.0);
-  take(json, "world_share", settings.world_share, 0.05, 0.95);
-  take(json, "show_world", settings.show_world);
-  take(json, "show_inspector", settings.show_inspector);
-  take(json, "all_settings", settings.all_settings);
-  take(json, "loop", settings.loop);
-  take(json, "autosave_s", settings.autosave_s, 1.0, 3600.0);
+  for_each_setting(settings, [&]<class Value>(const char* key, Value& value, Value minimum, Value maximum) {
+    const auto found = json.find(key);
+    const bool fits = found != json.end() && (std::is_same_v<Value, bool> ? found->is_boolean() : found->is_number());
+    if (fits) value = std::clamp(found->get<Value>(), minimum, maximum);
+  });
   if (const auto folder = json.find("last_folder"); folder != json.end() && folder->is_string())
     settings.last_folder = folder->get<std::string>();
   if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
@@ -70,18 +71,7 @@ Result<void> write_settings(const Settings& settings, const fs::path& file) {
   std::error_code code;
   fs::create_directories(file.parent_path(), code);
   Json json;
-  json["font_px"] = settings.font_px;
-  json["window_width_px"] = settings.window_width_px;
-  json["window_height_px"] = settings.window_height_px;
-  json["maximised"] = settings.maximised;
-  json["inspector_width"] = settings.inspector_width;
-  json["timeline_height"] = settings.timeline_height;
-  json["world_share"] = settings.world_share;
-  json["show_world"] = settings.show_world;
-  json["show_inspector"] = settings.show_inspector;
-  json["all_settings"] = settings.all_settings;
-  json["loop"] = settings.loop;
-  json["autosave_s"] = settings.autosave_s;
+  for_each_setting(settings, [&](const char* key, const auto& value, auto, auto) { json[key] = value; });
   json["last_folder"] = settings.last_folder.string();
   json["recent"] = Json::array();
   for (const fs::path& path : settings.recent) json["recent"].push_back(path.string());

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -27,14 +26,10 @@ struct Settings {
   bool show_inspector = true;
   // The inspector shows every setting, not only those that most projects need.
   bool all_settings = false;
-  // Playing starts again at the range's end.
-  bool loop = true;
-  // Seconds from an edit until the recovery file is written.
-  double autosave_s = 20;
-  // Where the file browser was last; "": nowhere yet.
-  std::filesystem::path last_folder;
-  // Project files, absolute, newest first, at most 12.
-  std::vector<std::filesystem::path> recent;
+  bool loop = true;                           // playing starts again at the range's end
+  double autosave_s = 20;                     // seconds from an edit until the recovery file is written
+  std::filesystem::path last_folder;          // where the file browser was last; "": nowhere yet
+  std::vector<std::filesystem::path> recent;  // project files, absolute, newest first, at most 12
 
   [[nodiscard]] bool operator==(const Settings&) const = default;
 };

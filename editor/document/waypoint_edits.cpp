@@ -21,6 +21,17 @@ bool is_waypoint(const TrajectoryPlan& plan, int waypoint) {
   return waypoint >= 0 && static_cast<std::size_t>(waypoint) < plan.waypoints.size();
 }
 
+WaypointSettings new_waypoint(const TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
+                              const std::optional<LocalFrame>& earth) {
+  WaypointSettings waypoint{.frame = frame};
+  const bool among_places =
+      !plan.waypoints.empty() &&
+      std::ranges::all_of(plan.waypoints, [](const WaypointSettings& other) { return other.place.has_value(); });
+  if (among_places) waypoint.place.emplace();
+  put_at(waypoint, position_m, earth);
+  return waypoint;
+}
+
 }  // namespace
 
 void put_at(WaypointSettings& waypoint, const glm::dvec3& position_m, const std::optional<LocalFrame>& earth) {
@@ -32,26 +43,11 @@ void put_at(WaypointSettings& waypoint, const glm::dvec3& position_m, const std:
   waypoint.place = {place.latitude_deg, place.longitude_deg, place.height_m};
 }
 
-namespace {
-
-WaypointSettings new_waypoint(const TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
-                              const std::optional<LocalFrame>& earth) {
-  WaypointSettings waypoint{.frame = frame};
-  const bool among_places =
-      !plan.waypoints.empty() && std::all_of(plan.waypoints.begin(), plan.waypoints.end(),
-                                             [](const WaypointSettings& other) { return other.place.has_value(); });
-  if (among_places) waypoint.place.emplace();
-  put_at(waypoint, position_m, earth);
-  return waypoint;
-}
-
-}  // namespace
-
 int put_waypoint(TrajectoryPlan& plan, double frame, const glm::dvec3& position_m,
                  const std::vector<double>& frames_now, const std::optional<LocalFrame>& earth) {
   fix_frames(plan, frames_now);
-  const auto after = std::find_if(plan.waypoints.begin(), plan.waypoints.end(),
-                                  [&](const WaypointSettings& w) { return *w.frame > frame - kMinGap_frames; });
+  const auto after = std::ranges::find_if(plan.waypoints,
+                                          [&](const WaypointSettings& w) { return *w.frame > frame - kMinGap_frames; });
   const auto number = static_cast<int>(after - plan.waypoints.begin());
   if (after != plan.waypoints.end() && *after->frame < frame + kMinGap_frames)
     put_at(*after, position_m, earth);

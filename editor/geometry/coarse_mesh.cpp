@@ -2,7 +2,6 @@
 #include "editor/geometry/coarse_mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <unordered_map>

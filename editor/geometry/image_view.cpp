@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/ensure.h"
+
 namespace sigs::editor {
+
 namespace {
 
 constexpr double kSnapShare = 0.03;  // how close to a whole zoom counts as meant
@@ -40,6 +43,37 @@ double kept_in_sight(double origin, double length, double low, double high, bool
     maximum = std::floor(maximum);
   }
   return std::clamp(whole ? std::round(origin) : origin, minimum, maximum);
+}
+
+struct Span {
+  int begin = 0;
+  int end = 0;  // the one after the last
+};
+
+// Whole blocks within the span, and what is left over at the image's end.
+Span in_blocks(const Span& span, int image_end, int block) {
+  const int begin = (span.begin + block - 1) / block * block;
+  return {begin, span.end == image_end ? image_end : span.end / block * block};
+}
+
+Span inner(const Span& span, int image_end, int block) {
+  return {span.begin == 0 ? 0 : span.begin + block, span.end == image_end ? image_end : span.end - block};
+}
+
+cv::Rect rect_of(const Span& x, const Span& y) {
+  if (x.end <= x.begin || y.end <= y.begin) return {};
+  return {x.begin, y.begin, x.end - x.begin, y.end - y.begin};
+}
+
+constexpr double kTiePx = 1;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double distance_px(const PickPoint& point, const glm::dvec2& mouse) {
+  return point.at ? glm::distance(*point.at, mouse) : kInfinity;
+}
+
+bool overlap(const ScreenRect& a, const ScreenRect& b) {
+  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
 
 }  // namespace
@@ -96,6 +130,73 @@ ImageView panned(const ImageView& view, const glm::dvec2& by_px, const glm::dvec
   return {view.zoom,
           {kept_in_sight(origin.x, length.x, rect.low.x, rect.high.x, whole),
            kept_in_sight(origin.y, length.y, rect.low.y, rect.high.y, whole)}};
+}
+
+cv::Vec3b PatchedImage::bgr_at(const cv::Point& pixel) const {
+  ENSURE(cv::Rect({0, 0}, size()).contains(pixel));
+  const bool is_patched = patch_rect().contains(pixel);
+  const cv::Mat& image = is_patched ? patch : ground;
+  const cv::Point at = is_patched ? pixel - patch_at : pixel;
+  if (image.channels() == 3) return image.at<cv::Vec3b>(at);
+  const uchar grey = image.at<uchar>(at);
+  return {grey, grey, grey};
+}
+
+cv::Mat PatchedImage::whole() const {
+  if (patch.empty()) return ground;
+  cv::Mat image = ground.clone();
+  patch.copyTo(image(patch_rect()));
+  return image;
+}
+
+DrawnPatch drawn_patch(const PatchedImage& image, int divisor) {
+  ENSURE(divisor >= 1);
+  const cv::Rect rect = image.patch_rect();
+  const Span x = in_blocks({rect.x, rect.x + rect.width}, image.size().width, divisor);
+  const Span y = in_blocks({rect.y, rect.y + rect.height}, image.size().height, divisor);
+  return {rect_of(x, y), rect_of(inner(x, image.size().width, divisor), inner(y, image.size().height, divisor))};
+}
+
+std::optional<std::size_t> nearest_point(std::span<const PickPoint> points, const glm::dvec2& mouse, double reach_px) {
+  double min_px = kInfinity;
+  for (const PickPoint& point : points) min_px = std::min(min_px, distance_px(point, mouse));
+  if (!(min_px <= reach_px)) return std::nullopt;
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool ties = distance_px(points[i], mouse) <= std::min(min_px + kTiePx, reach_px);
+    if (ties && (!best || points[i].depth_m < points[*best].depth_m)) best = i;
+  }
+  return best;
+}
+
+std::optional<PlaceOnLine> nearest_place(std::span<const std::optional<glm::dvec2>> line, const glm::dvec2& mouse,
+                                         double reach_px) {
+  std::optional<PlaceOnLine> best;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    if (!line[i] || !line[i + 1]) continue;
+    const auto [share, at] = nearest_on_segment(mouse, *line[i], *line[i + 1]);
+    const double off_px = glm::distance(at, mouse);
+    if (off_px <= (best ? best->distance_px : reach_px) && !(best && off_px == best->distance_px))
+      best = PlaceOnLine{.segment = i, .share = share, .at = at, .distance_px = off_px};
+  }
+  return best;
+}
+
+std::optional<ScreenRect> LabelPlacer::place(std::span<const ScreenRect> candidates, bool in_any_case) {
+  const auto is_free = [&](const ScreenRect& candidate) {
+    return std::ranges::none_of(taken_, [&](const ScreenRect& other) { return overlap(candidate, other); });
+  };
+  auto chosen = std::ranges::find_if(candidates, is_free);
+  if (chosen == candidates.end() && (!in_any_case || candidates.empty())) return std::nullopt;
+  if (chosen == candidates.end()) chosen = candidates.begin();
+  keep_free({chosen->low - margin_px_, chosen->high + margin_px_});
+  return *chosen;
+}
+
+double share_in_world(double share_on_screen, double first_depth_m, double last_depth_m) {
+  const double near_part = share_on_screen * first_depth_m;
+  const double both = near_part + (1 - share_on_screen) * last_depth_m;
+  return both > 0 ? near_part / both : share_on_screen;
 }
 
 }  // namespace sigs::editor

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "editor/geometry/lens_projection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
-#include <optional>
-#include <vector>
-
-#include "editor/geometry/lens_projection.h"
 
 #include "editor/geometry/image_view.h"
 
@@ -18,43 +15,6 @@ namespace {
 constexpr double kMinDistance_m = 0.1;
 constexpr double kMaxDraggedDistance_m = 1e8;
 constexpr double kDoublingPx = 100;
-
-}  // namespace
-
-std::optional<glm::dvec2> pixel_of(const glm::dvec3& p_in_world, const CameraPose& world_from_camera,
-                                   const Lens& lens) {
-  return lens.pixel(inverse(world_from_camera) * p_in_world);
-}
-
-std::optional<glm::dvec3> point_behind(const glm::dvec2& pixel, double distance_m, const CameraPose& world_from_camera,
-                                       const Lens& lens) {
-  if (!(distance_m > 0) || !std::isfinite(distance_m)) return std::nullopt;
-  const auto ray = lens.ray(pixel);
-  if (!ray) return std::nullopt;
-  return world_from_camera * (*ray * distance_m);
-}
-
-std::optional<glm::dvec3> dragged_across(const glm::dvec3& start_m, const glm::dvec2& from_px, const glm::dvec2& to_px,
-                                         const CameraPose& world_from_camera, const Lens& lens) {
-  const auto start_px = pixel_of(start_m, world_from_camera, lens);
-  if (!start_px) return std::nullopt;
-  if (from_px == to_px) return start_m;
-  const double distance_m = glm::distance(start_m, world_from_camera.translation_m);
-  return point_behind(*start_px + (to_px - from_px), distance_m, world_from_camera, lens);
-}
-
-glm::dvec3 dragged_along(const glm::dvec3& start_m, double up_px, const CameraPose& world_from_camera) {
-  if (std::isnan(up_px) || up_px == 0) return start_m;
-  const glm::dvec3 from_camera = start_m - world_from_camera.translation_m;
-  const double before_m = glm::length(from_camera);
-  // At the camera itself there is no ray; out of the way then means along the optical axis.
-  const glm::dvec3 ray = before_m > 0 ? from_camera / before_m : world_from_camera.rotation * glm::dvec3{1, 0, 0};
-  const double after_m = std::clamp(std::max(before_m, kMinDistance_m) * std::exp2(up_px / kDoublingPx), kMinDistance_m,
-                                    kMaxDraggedDistance_m);
-  return world_from_camera.translation_m + ray * after_m;
-}
-
-namespace {
 
 constexpr double kTolerancePx = 0.25;  // at three places between two corners; so some half a pixel anywhere
 constexpr double kMaxFarPx = 1e5;
@@ -144,7 +104,62 @@ class Tracer {
   std::vector<PixelLine> lines_;
 };
 
+constexpr double kSameRay = 1e-6;  // radians between rays that are too near each other to tell a line by
+constexpr double kEnds = 0.25;     // share of the line at each end
+
+// Down in the camera's axes.
+glm::dvec3 down_of(const HorizonTilt& tilt) {
+  return {-std::sin(tilt.pitch_rad), std::cos(tilt.pitch_rad) * std::sin(tilt.roll_rad),
+          std::cos(tilt.pitch_rad) * std::cos(tilt.roll_rad)};
+}
+
+// The pieces of a line within the image, one after the other.
+std::vector<glm::dvec2> shown_points(std::span<const PixelLine> lines, const glm::dvec2& size) {
+  constexpr int kStepsOfAPiece = 16;  // so that a piece that crosses the image is not lost
+  std::vector<glm::dvec2> points;
+  for (const PixelLine& line : lines)
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      for (int step = 0; step <= kStepsOfAPiece; ++step) {
+        const glm::dvec2 p = glm::mix(line[i], line[i + 1], step / double(kStepsOfAPiece));
+        if (p.x >= -0.5 && p.y >= -0.5 && p.x <= size.x - 0.5 && p.y <= size.y - 0.5) points.push_back(p);
+      }
+  return points;
+}
+
 }  // namespace
+
+std::optional<glm::dvec2> pixel_of(const glm::dvec3& p_in_world, const CameraPose& world_from_camera,
+                                   const Lens& lens) {
+  return lens.pixel(inverse(world_from_camera) * p_in_world);
+}
+
+std::optional<glm::dvec3> point_behind(const glm::dvec2& pixel, double distance_m, const CameraPose& world_from_camera,
+                                       const Lens& lens) {
+  if (!(distance_m > 0) || !std::isfinite(distance_m)) return std::nullopt;
+  const auto ray = lens.ray(pixel);
+  if (!ray) return std::nullopt;
+  return world_from_camera * (*ray * distance_m);
+}
+
+std::optional<glm::dvec3> dragged_across(const glm::dvec3& start_m, const glm::dvec2& from_px, const glm::dvec2& to_px,
+                                         const CameraPose& world_from_camera, const Lens& lens) {
+  const auto start_px = pixel_of(start_m, world_from_camera, lens);
+  if (!start_px) return std::nullopt;
+  if (from_px == to_px) return start_m;
+  const double distance_m = glm::distance(start_m, world_from_camera.translation_m);
+  return point_behind(*start_px + (to_px - from_px), distance_m, world_from_camera, lens);
+}
+
+glm::dvec3 dragged_along(const glm::dvec3& start_m, double up_px, const CameraPose& world_from_camera) {
+  if (std::isnan(up_px) || up_px == 0) return start_m;
+  const glm::dvec3 from_camera = start_m - world_from_camera.translation_m;
+  const double before_m = glm::length(from_camera);
+  // At the camera itself there is no ray; out of the way then means along the optical axis.
+  const glm::dvec3 ray = before_m > 0 ? from_camera / before_m : world_from_camera.rotation * glm::dvec3{1, 0, 0};
+  const double after_m = std::clamp(std::max(before_m, kMinDistance_m) * std::exp2(up_px / kDoublingPx), kMinDistance_m,
+                                    kMaxDraggedDistance_m);
+  return world_from_camera.translation_m + ray * after_m;
+}
 
 std::vector<PixelLine> path_through_lens(const std::function<glm::dvec3(double time_s)>& position_m,
                                          std::span<const double> times_s, const CameraPose& world_from_camera,
@@ -178,32 +193,6 @@ std::vector<PixelLine> horizon_through_lens(const CameraPose& world_from_camera,
   for (int i = 0; i <= 8; ++i) turns.push_back(i * std::numbers::pi / 4);
   return Tracer(in_camera, lens, image_size).traced(turns);
 }
-
-namespace {
-
-constexpr double kSameRay = 1e-6;  // radians between rays that are too near each other to tell a line by
-constexpr double kEnds = 0.25;     // share of the line at each end
-
-// Down in the camera's axes.
-glm::dvec3 down_of(const HorizonTilt& tilt) {
-  return {-std::sin(tilt.pitch_rad), std::cos(tilt.pitch_rad) * std::sin(tilt.roll_rad),
-          std::cos(tilt.pitch_rad) * std::cos(tilt.roll_rad)};
-}
-
-// The pieces of a line within the image, one after the other.
-std::vector<glm::dvec2> shown_points(std::span<const PixelLine> lines, const glm::dvec2& size) {
-  constexpr int kStepsOfAPiece = 16;  // so that a piece that crosses the image is not lost
-  std::vector<glm::dvec2> points;
-  for (const PixelLine& line : lines)
-    for (std::size_t i = 0; i + 1 < line.size(); ++i)
-      for (int step = 0; step <= kStepsOfAPiece; ++step) {
-        const glm::dvec2 p = glm::mix(line[i], line[i + 1], step / double(kStepsOfAPiece));
-        if (p.x >= -0.5 && p.y >= -0.5 && p.x <= size.x - 0.5 && p.y <= size.y - 0.5) points.push_back(p);
-      }
-  return points;
-}
-
-}  // namespace
 
 std::optional<HorizonTilt> lifted_to(const glm::dvec2& pixel, double roll_rad, const Lens& lens) {
   const std::optional<glm::dvec3> ray = lens.ray(pixel);
@@ -244,7 +233,7 @@ std::optional<HorizonGrip> grip_of(std::span<const PixelLine> horizon, const glm
     share = (along[i - 1] + glm::distance(points[i - 1], nearest)) / std::max(along.back(), 1e-9);
   }
   const auto point_at = [&](double part) {
-    const auto there = std::lower_bound(along.begin(), along.end(), part * along.back()) - along.begin();
+    const auto there = std::ranges::lower_bound(along, part * along.back()) - along.begin();
     return points[static_cast<std::size_t>(there)];
   };
   grip.middle_px = point_at(0.5);

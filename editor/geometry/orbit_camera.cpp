@@ -54,25 +54,6 @@ bool is_before_eye(const OrbitCamera& camera, double depth_m) {
   return camera.projection == Projection::parallel || depth_m >= near_m(camera);
 }
 
-// The part of a line of the screen within a box (Liang and Barsky 1984).
-std::optional<std::array<glm::dvec2, 2>> within(const std::array<glm::dvec2, 2>& line, const ScreenRect& box) {
-  const glm::dvec2 along = line[1] - line[0];
-  double first = 0;
-  double last = 1;
-  for (int axis = 0; axis < 2; ++axis) {
-    if (along[axis] == 0) {
-      if (line[0][axis] < box.low[axis] || line[0][axis] > box.high[axis]) return std::nullopt;
-      continue;
-    }
-    const double to_low = (box.low[axis] - line[0][axis]) / along[axis];
-    const double to_high = (box.high[axis] - line[0][axis]) / along[axis];
-    first = std::max(first, std::min(to_low, to_high));
-    last = std::min(last, std::max(to_low, to_high));
-  }
-  if (!(first <= last)) return std::nullopt;
-  return std::array{first > 0 ? line[0] + along * first : line[0], last < 1 ? line[0] + along * last : line[1]};
-}
-
 // Where the middle of the screen, at the target's depth, has to be looked for when a point there is to stay.
 glm::dvec3 offset_at_target(const OrbitCamera& camera, const glm::dvec2& by_px, const ScreenRect& rect) {
   const double metres_per_px = camera.distance_m / focal_px(camera, rect);
@@ -141,7 +122,26 @@ std::optional<std::array<glm::dvec2, 2>> screen_line(const OrbitCamera& camera, 
     hidden.z = near_m(camera);
   }
   const ScreenRect around{rect.low - kFarOutPx, rect.high + kFarOutPx};
-  return within({projected(camera, ends[0], rect), projected(camera, ends[1], rect)}, around);
+  return line_within({projected(camera, ends[0], rect), projected(camera, ends[1], rect)}, around);
+}
+
+// Liang and Barsky 1984.
+std::optional<std::array<glm::dvec2, 2>> line_within(const std::array<glm::dvec2, 2>& line, const ScreenRect& box) {
+  const glm::dvec2 along = line[1] - line[0];
+  double first = 0;
+  double last = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (along[axis] == 0) {
+      if (line[0][axis] < box.low[axis] || line[0][axis] > box.high[axis]) return std::nullopt;
+      continue;
+    }
+    const double to_low = (box.low[axis] - line[0][axis]) / along[axis];
+    const double to_high = (box.high[axis] - line[0][axis]) / along[axis];
+    first = std::max(first, std::min(to_low, to_high));
+    last = std::min(last, std::max(to_low, to_high));
+  }
+  if (!(first <= last)) return std::nullopt;
+  return std::array{first > 0 ? line[0] + along * first : line[0], last < 1 ? line[0] + along * last : line[1]};
 }
 
 OrbitCamera orbited(const OrbitCamera& camera, const glm::dvec2& by_px) {

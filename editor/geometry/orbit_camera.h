@@ -49,6 +49,10 @@ struct OrbitCamera {
 [[nodiscard]] std::optional<std::array<glm::dvec2, 2>> screen_line(const OrbitCamera& camera, const ScreenRect& rect,
                                                                    const glm::dvec3& a_m, const glm::dvec3& b_m);
 
+// The part of a line of the screen within a box.
+[[nodiscard]] std::optional<std::array<glm::dvec2, 2>> line_within(const std::array<glm::dvec2, 2>& line,
+                                                                   const ScreenRect& box);
+
 // Dragging with the mouse, by screen pixels. Elevation stays within -pi/2..pi/2, distance within 0.1 m..1e9 m,
 // the target within 1e9 m of the world's origin in each axis. What is not finite moves nothing.
 [[nodiscard]] OrbitCamera orbited(const OrbitCamera& camera, const glm::dvec2& by_px);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "editor/geometry/rulers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <initializer_list>
-
-#include "editor/geometry/rulers.h"
 
 namespace sigs::editor {
 
@@ -46,6 +43,24 @@ double tick_step(double label_step, double px_per_frame) {
   double step = round_step(std::max(1.0, kMinTickGapPx / px_per_frame));
   while (step < label_step && std::fmod(label_step, step) != 0) step = round_step(step * 1.5);
   return std::min(step, label_step);
+}
+
+constexpr double kMinGapPx = 40;
+constexpr int kStepsEachWay = 49;       // 99 lines each way
+constexpr double kMaxGroundLooks = 20;  // the ground counts as seen up to so many times the eye's distance
+
+glm::dvec3 middle_of_ground(const OrbitCamera& camera) {
+  const glm::dvec3 forward = camera.forward();
+  const double along_m = -camera.target_m.z / forward.z;  // from the target
+  if (std::isfinite(along_m) && std::abs(along_m) < kMaxGroundLooks * camera.distance_m && along_m > -camera.distance_m)
+    return camera.target_m + forward * along_m;
+  return {camera.target_m.x, camera.target_m.y, 0};
+}
+
+// How many steps make a bold one: 10 of 1, 5 of 2, 10 of 5.
+long long steps_a_bold(double step_m) {
+  const double mantissa = step_m / std::pow(10.0, std::floor(std::log10(step_m) + 1e-9));
+  return std::lround(mantissa) == 2 ? 5 : 10;
 }
 
 }  // namespace
@@ -119,28 +134,6 @@ std::string time_text(double time_s) {
   const std::string clock = hours > 0 ? fmt::format("{}:{:02}", hours, minutes % 60) : fmt::format("{}", minutes);
   return fmt::format("{}{}:{:02}.{:02}", sign, clock, seconds % 60, hundredths % 100);
 }
-
-namespace {
-
-constexpr double kMinGapPx = 40;
-constexpr int kStepsEachWay = 49;       // 99 lines each way
-constexpr double kMaxGroundLooks = 20;  // the ground counts as seen up to so many times the eye's distance
-
-glm::dvec3 middle_of_ground(const OrbitCamera& camera) {
-  const glm::dvec3 forward = camera.forward();
-  const double along_m = -camera.target_m.z / forward.z;  // from the target
-  if (std::isfinite(along_m) && std::abs(along_m) < kMaxGroundLooks * camera.distance_m && along_m > -camera.distance_m)
-    return camera.target_m + forward * along_m;
-  return {camera.target_m.x, camera.target_m.y, 0};
-}
-
-// How many steps make a bold one: 10 of 1, 5 of 2, 10 of 5.
-long long steps_a_bold(double step_m) {
-  const double mantissa = step_m / std::pow(10.0, std::floor(std::log10(step_m) + 1e-9));
-  return std::lround(mantissa) == 2 ? 5 : 10;
-}
-
-}  // namespace
 
 GroundGrid ground_grid(const OrbitCamera& camera, const ScreenRect& rect) {
   const glm::dvec3 middle_m = middle_of_ground(camera);

@@ -52,6 +52,11 @@ class RateMeter {
 // none: not started yet, or forgotten. The last three say how the last run ended.
 enum class JobPhase { none, running, done, cancelled, failed };
 
+// 0..1, for a bar; 0 while the total is not known.
+[[nodiscard]] inline float share_done(int done, int total) {
+  return total > 0 ? static_cast<float>(done) / static_cast<float>(total) : 0;
+}
+
 // A job at one moment, as a copy that the caller may keep. While it runs, the numbers are those of the last progress.
 template <class Request, class Value>
 struct JobState {
@@ -64,8 +69,7 @@ struct JobState {
   // Frames a second and seconds until the end, as RateMeter gives them; none where it gives none.
   std::optional<double> rate_hz;
   std::optional<double> left_s;
-  // Of this run, in the order in which they came.
-  std::vector<Warning> warnings;
+  std::vector<Warning> warnings;  // of this run, in the order in which they came
   // Why the last run did not end well. Set where phase is failed, and with the kind interrupted where it is cancelled.
   Error error;
   // What the last run was asked for, whether it is still running or has ended in any way.
@@ -229,8 +233,7 @@ class BackgroundJob {
   State state_;
   RateMeter rate_;
   double last_wake_s_ = 0;
-  // The run that is under way was forgotten: its outcome is dropped.
-  bool forget_ = false;
+  bool forget_ = false;  // the run that is under way was forgotten: its outcome is dropped
   // JobControl::cancel of the run that is under way.
   std::atomic<bool> cancel_{false};
   std::thread thread_;

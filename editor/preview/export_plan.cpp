@@ -25,7 +25,7 @@ bool is_plain(char c) {
 }
 
 std::string quoted(const std::string& word) {
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain) && word.front() != '-') return word;
+  if (!word.empty() && std::ranges::all_of(word, is_plain) && word.front() != '-') return word;
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";

@@ -76,16 +76,16 @@ class CacheOrder {
 // Frames by content and number within a limit of bytes. What find() returned lives on with whoever holds it, though it
 // has left the cache and no longer counts. For one thread at a time: PreviewState holds its lock.
 template <class Value>
-class FrameCache {
+class FrameCache : private CacheOrder {
  public:
-  explicit FrameCache(std::size_t limit_bytes) : order_(limit_bytes) {}
-
-  void set_playhead(FrameKey playhead) { order_.set_playhead(playhead); }
+  using CacheOrder::bytes;
+  using CacheOrder::CacheOrder;
+  using CacheOrder::frames_of;
+  using CacheOrder::set_playhead;
+  using CacheOrder::would_keep;
 
   // What no longer fits goes at once.
-  void set_limit(std::size_t limit_bytes) {
-    for (const FrameKey& gone : order_.set_limit(limit_bytes)) values_.erase(gone);
-  }
+  void set_limit(std::size_t limit_bytes) { drop(CacheOrder::set_limit(limit_bytes)); }
 
   // Null where it is not there.
   [[nodiscard]] std::shared_ptr<const Value> find(FrameKey key) const {
@@ -93,22 +93,18 @@ class FrameCache {
     return found == values_.end() ? nullptr : found->second;
   }
 
-  // As CacheOrder::would_keep().
-  [[nodiscard]] bool would_keep(FrameKey key, std::size_t bytes) const { return order_.would_keep(key, bytes); }
-
   // bytes: what the value counts, as its owner measures it. A value that is worth less than those that are there does
   // not stay; find() is null then.
   void put(FrameKey key, std::shared_ptr<const Value> value, std::size_t bytes) {
     values_[key] = std::move(value);
-    for (const FrameKey& gone : order_.put(key, bytes)) values_.erase(gone);
+    drop(CacheOrder::put(key, bytes));
   }
 
-  // Numbers of the frames that are kept of a content, ascending.
-  [[nodiscard]] std::vector<int> frames_of(const ContentId& content) const { return order_.frames_of(content); }
-  [[nodiscard]] std::size_t bytes() const { return order_.bytes(); }
-
  private:
-  CacheOrder order_;
+  void drop(const std::vector<FrameKey>& gone) {
+    for (const FrameKey& key : gone) values_.erase(key);
+  }
+
   std::map<FrameKey, std::shared_ptr<const Value>> values_;
 };
 

@@ -32,8 +32,8 @@ class PlayedStretch {
   // The last frame that has begun; looked at backwards, the first that has not ended.
   [[nodiscard]] int frame_of(double at_s, bool backwards) const {
     const auto& all = times_.times_s;
-    const auto next = backwards ? std::lower_bound(all.begin(), all.end(), at_s - kTolerance_s)
-                                : std::upper_bound(all.begin(), all.end(), at_s + kTolerance_s);
+    const auto next = backwards ? std::ranges::lower_bound(all, at_s - kTolerance_s)
+                                : std::ranges::upper_bound(all, at_s + kTolerance_s);
     return clamped(static_cast<int>(next - all.begin()) - 1);
   }
 

@@ -16,8 +16,7 @@ struct PlayRange {
 struct PlayTimes {
   // Not decreasing, at least one. Must outlive the call alone.
   std::span<const double> times_s;
-  // How long the last frame is shown.
-  double interval_s = 0.04;
+  double interval_s = 0.04;  // how long the last frame is shown
 };
 
 // The frame to show; over: the range is played to its end and does not loop.

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/preview_decoder.h"
+#include "editor/preview/preview_state.h"
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <thread>
 #include <utility>
 
 #include "base/threads.h"

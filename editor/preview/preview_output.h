@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -11,16 +10,64 @@
 #include <vector>
 
 #include "editor/document/document.h"
-#include "editor/geometry/patched_image.h"
-#include "editor/preview/encounter_survey.h"
+#include "editor/geometry/image_view.h"
+#include "encounter/encounter.h"
 #include "frame/compose_frame.h"
+#include "project/project.h"
 #include "scene/draft.h"
 #include "scene/flight.h"
+#include "scene/scene.h"
 #include "scene/visibility.h"
 #include "truth/annotation.h"
 #include "video/frame_source.h"
 
 namespace sigs::editor {
+
+// What the timeline and the inspector show of an intruder's encounter with the camera, known without rendering.
+
+// The volumes that the editor shows: those of export.encounter that there are, in its order; `small-uas` where it names
+// none.
+[[nodiscard]] std::vector<WellClearVolume> shown_volumes(const Project& project);
+
+// From one moment to another, in frames of the footage with fractions, and in seconds.
+struct LossStretch {
+  double first_frame = 0;
+  double last_frame = 0;
+  TimeInterval time_s;
+  // False: it is lost in the first frame, or in the last one, already; what comes before or after is not known.
+  bool has_entry = true;
+  bool has_exit = true;
+
+  // The first and the last whole frame within; the nearest one where there is none.
+  [[nodiscard]] int entry_frame() const;
+  [[nodiscard]] int exit_frame() const;
+};
+
+struct VolumeLosses {
+  WellClearVolume volume;
+  std::vector<LossStretch> losses;  // by time
+};
+
+struct EncounterSurvey {
+  NearestMoment nearest;  // by horizontal distance
+  double nearest_frame = 0;
+  std::vector<VolumeLosses> volumes;  // those of shown_volumes()
+  // One a frame each, from first_frame on. tau_mod is that of the first volume; infinite where the distance does not
+  // fall.
+  int first_frame = 0;
+  std::vector<double> horizontal_range_m;
+  std::vector<double> tau_mod_s;
+
+  // Whether the frame lies within a loss of the volume with this index.
+  [[nodiscard]] bool is_lost(std::size_t volume, double frame) const;
+};
+
+// Over the scene's frames.
+//   intruder  index in Scene::intruders
+//   volumes   one at least
+// Places that are not finite: no losses, and no values.
+[[nodiscard]] EncounterSurvey encounter_survey(const Scene& scene, int intruder,
+                                               const std::vector<WellClearVolume>& volumes);
 
 // The footage of a project: a video that was opened, or grey frames that replace it. Immutable and shared between
 // threads.
@@ -35,22 +82,19 @@ struct Footage {
 // A revision of the project with all that it names opened, as far as it can be. Made by the rendering thread, then
 // immutable and shared with the window.
 struct OpenedScene {
-  // Revision::number.
-  std::uint64_t revision = 0;
+  std::uint64_t revision = 0;  // Revision::number
   // combined_id() of the project's settings and its files: images with this id show this scene.
   ContentId content;
   std::shared_ptr<const Project> project;
   std::shared_ptr<const Footage> footage;
-  // The scene, with placeholders for what cannot be read, and its problems.
-  DraftScene draft;
+  DraftScene draft;  // the scene, with placeholders for what cannot be read, and its problems
 };
 
 // One composited frame, ready to be shown. It belongs to all revisions with the same content; `revision` is the number
 // of the first of them.
 struct PreviewImage {
   std::uint64_t revision = 0;
-  // Of the footage, from 0.
-  int frame = 0;
+  int frame = 0;  // of the footage, from 0
   // Set where it was composited by another method than the project's own, for comparing.
   std::optional<MethodChoice> method;
   // CV_8UC3 of the footage's size: what `sigs frame` writes, in one piece where it was made with stages or by another
@@ -59,8 +103,7 @@ struct PreviewImage {
   // Opacity of the intruders: CV_8UC1 or empty, as ComposedFrame::mask.
   cv::Mat mask;
   FrameTruth truth;
-  // Intermediate images; empty unless they were asked for.
-  std::vector<Stage> stages;
+  std::vector<Stage> stages;  // intermediate images; empty unless they were asked for
   // Why bgr is the untouched footage, another frame or grey; "" where it is the frame itself.
   std::string problem;
   FrameTimes times;
@@ -75,8 +118,7 @@ struct CameraTurn {
 // What the lanes of the timeline show of one intruder, frame by frame, known without rendering. Index 0 is first_frame.
 struct Survey {
   std::uint64_t revision = 0;
-  // The scene's first frame, as a frame of the footage.
-  int first_frame = 0;
+  int first_frame = 0;  // the scene's first frame, as a frame of the footage
   // One a frame each; fewer while the survey is being made. Both are empty for an intruder without waypoints.
   std::vector<VisibilityEstimate> estimates;
   std::vector<FlightState> flight;
@@ -92,13 +134,11 @@ struct Survey {
 // A small image of an intruder's model by itself, as turntable_image() draws it.
 struct ModelImage {
   std::filesystem::path file;
-  // About the model's vertical axis, positive to the right, as yaw.
-  double turn_rad = 0;
+  double turn_rad = 0;  // about the model's vertical axis, positive to the right, as yaw
   // CV_8UC4, straight alpha; empty where it could not be drawn.
   cv::Mat rgba;
   glm::dvec3 size_m{0, 0, 0};  // extents along body X, Y, Z
-  // Why it is a cross or empty; "" where it is the model.
-  std::string problem;
+  std::string problem;         // why it is a cross or empty; "" where it is the model
 };
 
 // What the window wants to show. It is sent in each update; work that is no longer wanted is dropped. All frames are
@@ -106,19 +146,14 @@ struct ModelImage {
 struct PreviewRequest {
   Revision revision;
   int frame = 0;
-  // +1 or -1: towards later or earlier frames, which are then composited ahead.
-  int direction = 1;
+  int direction = 1;  // +1 or -1: towards later or earlier frames, which are then composited ahead
   // Frames outside of the range, both ends included, are not composited ahead.
   int range_first = 0;
   int range_last = 0;
-  // Whether the frames ahead go on at the range's other end.
-  bool playing = false;
-  // The untouched frame is wanted too (for the wipe).
-  bool footage = false;
-  // Images of all stages of the frame are wanted too.
-  bool stages = false;
-  // The same frame by another method is wanted too.
-  std::optional<MethodChoice> compare_with;
+  bool playing = false;                      // whether the frames ahead go on at the range's other end
+  bool footage = false;                      // the untouched frame is wanted too (for the wipe)
+  bool stages = false;                       // images of all stages of the frame are wanted too
+  std::optional<MethodChoice> compare_with;  // the same frame by another method is wanted too
   // An image of the model of one of the project's intruders, by index, of that size.
   struct Turntable {
     int intruder = 0;
@@ -128,8 +163,7 @@ struct PreviewRequest {
     [[nodiscard]] bool operator==(const Turntable&) const = default;
   };
   std::optional<Turntable> turntable;
-  // Survey::encounter is wanted too.
-  bool encounters = false;
+  bool encounters = false;  // Survey::encounter is wanted too
 
   [[nodiscard]] bool operator==(const PreviewRequest&) const = default;
 };
@@ -137,16 +171,12 @@ struct PreviewRequest {
 // Bytes of images that are kept to be shown (again), by where they are kept. Files that were read, working memory and
 // the steps of undo do not count.
 struct MemoryUse {
-  // Composited frames in the cache.
-  std::size_t images = 0;
-  // Frames of the footage in the cache.
-  std::size_t decoded = 0;
-  // What the view shows or asks for at this moment, where no cache holds it.
-  std::size_t shown = 0;
+  std::size_t images = 0;   // composited frames in the cache
+  std::size_t decoded = 0;  // frames of the footage in the cache
+  std::size_t shown = 0;    // what the view shows or asks for at this moment, where no cache holds it
   // On the graphics card with the images they are made of, as the window says.
   std::size_t textures = 0;
-  // PreviewLimits::cache_bytes: for all of them together.
-  std::size_t limit = 0;
+  std::size_t limit = 0;  // PreviewLimits::cache_bytes: for all of them together
 
   [[nodiscard]] std::size_t sum() const { return images + decoded + shown + textures; }
 };
@@ -154,8 +184,7 @@ struct MemoryUse {
 // What there is to show at this moment. What the pointers point to never changes; each of them may be null at first.
 // One output may hold results of different revisions, as their numbers or content say.
 struct PreviewOutput {
-  // The newest revision that is open.
-  std::shared_ptr<const OpenedScene> scene;
+  std::shared_ptr<const OpenedScene> scene;  // the newest revision that is open
   // Of the wanted frame and content where image_is_current, else the last that could be shown.
   std::shared_ptr<const PreviewImage> image;
   bool image_is_current = false;  // exactly what was wanted
@@ -171,8 +200,7 @@ struct PreviewOutput {
   std::vector<bool> cached;
   // The wanted footage is still being opened; the scene is the one before, or null.
   bool opening = false;
-  // Time that composing the newest wanted image took.
-  double compose_ms = 0;
+  double compose_ms = 0;  // time that composing the newest wanted image took
   // Something that is wanted is still being made, or frames are being made ahead.
   bool busy = false;
   MemoryUse memory;
@@ -181,8 +209,7 @@ struct PreviewOutput {
 struct PreviewLimits {
   // Limit for all of MemoryUse. Caches give way to what is shown; only that may exceed the limit.
   std::size_t cache_bytes = std::size_t(3) << 29;
-  // How many frames are composited ahead of the playhead at most.
-  int ahead = 48;
+  int ahead = 48;  // how many frames are composited ahead of the playhead at most
 
   // Limit for textures that are not on the screen.
   [[nodiscard]] std::size_t texture_bytes() const { return cache_bytes / 16; }

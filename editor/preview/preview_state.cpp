@@ -4,10 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "editor/preview/opened_footage.h"
-#include "editor/preview/preview_decoder.h"
-#include "editor/preview/preview_renderer.h"
-
 namespace sigs::editor {
 
 namespace {
@@ -379,7 +375,7 @@ Previewer::Previewer(PreviewLimits limits, std::function<void()> wake)
     : state_(std::make_shared<PreviewState>(limits, std::move(wake))),
       decoder_([shared = state_] { run_decoder(shared); }) {
   try {
-    renderer_ = std::thread([shared = state_] { PreviewRenderer(*shared).run(); });
+    renderer_ = std::thread([shared = state_] { run_renderer(*shared); });
   } catch (...) {
     end();
     throw;

@@ -29,10 +29,8 @@ struct FootageId {
 // What the rendering thread works by: a copy of the state at one moment. It may be out of date at any time after; what
 // is rendered by it is kept under its own key and therefore never shown as something else.
 struct PreviewSnapshot {
-  // Number of this state, for wait_for_changes().
-  std::uint64_t version = 0;
-  // None: nothing was asked for yet.
-  std::optional<PreviewRequest> wanted;
+  std::uint64_t version = 0;             // number of this state, for wait_for_changes()
+  std::optional<PreviewRequest> wanted;  // none: nothing was asked for yet
   // The footage that is open, and what is known of it; null: none yet.
   FootageId footage;
   std::shared_ptr<const Footage> opened_footage;
@@ -163,8 +161,7 @@ class PreviewState {
   std::uint64_t version_ = 1;  // counts what the threads should look at
 
   std::optional<PreviewRequest> wanted_;
-  // When another revision was wanted than before.
-  Clock::time_point revised_{};
+  Clock::time_point revised_{};  // when another revision was wanted than before
   // The files of the wanted revision as they were looked at last (set_input_files).
   ContentId input_files_;
 
@@ -183,10 +180,8 @@ class PreviewState {
 
   std::shared_ptr<const OpenedScene> scene_;
   FrameCache<PreviewImage> images_;
-  // Of one image, likewise.
-  std::size_t image_bytes_ = 0;
-  // Held by the window, as it says.
-  std::size_t texture_bytes_ = 0;
+  std::size_t image_bytes_ = 0;    // of one image, likewise
+  std::size_t texture_bytes_ = 0;  // held by the window, as it says
   // What the window shows: the wanted frame, or the last that was wanted before it. The other three are its extra
   // images.
   Slot<PreviewImage> newest_;
@@ -241,5 +236,13 @@ class Previewer {
   std::thread decoder_;
   std::thread renderer_;
 };
+
+// The decoding thread's work, until the preview state says stop: opens footage, decodes what is wanted and what lies
+// ahead. Opening goes on by itself, so that other footage can be wanted meanwhile, and may outlive this call: it cannot
+// be broken off.
+void run_decoder(const std::shared_ptr<PreviewState>& preview_state);
+// That of the rendering thread, at kPreviewNiceness. Where it has nothing to do, it still looks at the project's files
+// once a second.
+void run_renderer(PreviewState& preview_state);
 
 }  // namespace sigs::editor

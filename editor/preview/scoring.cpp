@@ -2,48 +2,30 @@
 #include "editor/preview/scoring.h"
 
 #include <algorithm>
-#include <chrono>
 #include <system_error>
 #include <utility>
 
 #include "base/threads.h"
 #include "editor/preview/surveys.h"
-#include "editor/preview/worker_thread.h"
-#include "evaluation/metrics/track_score.h"
 
 namespace sigs::editor {
 
-namespace fs = std::filesystem;
-
-int ResultFiles::free_color() const {
-  int color = 0;
-  const auto is_taken = [&](const ResultFile& file) { return file.color == color; };
-  while (std::any_of(files_.begin(), files_.end(), is_taken)) ++color;
-  return color;
-}
-
-void ResultFiles::add(const fs::path& path) {
-  std::error_code code;
-  const fs::path absolute = fs::absolute(path, code);
-  const fs::path place = (code ? path : absolute).lexically_normal();
-  const auto same =
-      std::find_if(files_.begin(), files_.end(), [&](const ResultFile& file) { return file.path == place; });
-  if (same != files_.end())
-    same->is_shown = true;
-  else
-    files_.push_back({.id = ++last_id_, .path = place, .color = free_color()});
-}
-
-void ResultFiles::remove(int id) {
-  std::erase_if(files_, [id](const ResultFile& file) { return file.id == id; });
-}
-
-void ResultFiles::set_shown(int id, bool shown) {
-  for (ResultFile& file : files_)
-    if (file.id == id) file.is_shown = shown;
-}
-
 namespace {
+
+constexpr std::size_t kMaxKept = 16;
+constexpr int kFramesAWord = 8;  // to the window
+
+std::string why_not(const OpenedScene& scene) {
+  if (scene.footage && !scene.footage->problem.empty()) return scene.footage->problem;
+  if (!scene.draft.problems.empty()) return "the project has problems";
+  return {};
+}
+
+// Composing may run out of OpenGL or memory.
+Result<void> streamed(const TruthBuilder::StreamFrames& show, const Project& project,
+                      const TruthBuilder::OnFrame& on_frame) {
+  return guarded([&] { return show(project, 1, on_frame); }, "composing");
+}
 
 constexpr double kMinSide_px = 0;  // of the first box that a tracker is started with
 
@@ -57,8 +39,7 @@ Result<Results> read_safely(const std::filesystem::path& path, const FootageTrut
 }
 
 const TargetTruth* target_in(const ClipTruth& clip, int id) {
-  const auto found =
-      std::find_if(clip.targets.begin(), clip.targets.end(), [id](const TargetTruth& t) { return t.id == id; });
+  const auto found = std::ranges::find(clip.targets, id, &TargetTruth::id);
   return found == clip.targets.end() ? nullptr : &*found;
 }
 
@@ -76,6 +57,129 @@ std::optional<TrackPolicy> policy_for(const ClipTruth* clip, int target) {
 }
 
 }  // namespace
+
+Result<void> stream_frames(const Project& project, int jobs, const TruthBuilder::OnFrame& on_frame) {
+  Result<FrameStream> stream = FrameStream::open(project);
+  if (!stream) return fail(stream.error());
+  const Result<int> damaged = stream->show(jobs, on_frame);
+  if (!damaged) return fail(damaged.error());
+  return {};
+}
+
+TruthBuilder::TruthBuilder(std::function<void()> wake, StreamFrames show, std::chrono::milliseconds idle_time)
+    : wake_(std::move(wake)),
+      stream_(std::move(show)),
+      idle_time_(idle_time),
+      worker_({.work = [this](const Scene& scene) { build(scene); }, .niceness = kBackgroundNiceness}) {}
+
+TruthBuilder::~TruthBuilder() = default;
+
+void TruthBuilder::want(std::shared_ptr<const OpenedScene> scene) {
+  const std::lock_guard lock(mutex_);
+  if (!scene) state_ = {};
+  worker_.want(std::move(scene));
+}
+
+TruthState TruthBuilder::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+void TruthBuilder::put(TruthState state) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!worker_.latest().value_or(nullptr)) return;
+    state_ = std::move(state);
+  }
+  wake_();
+}
+
+// Where the images of what is wanted by now are the same, what was begun is theirs as well.
+bool TruthBuilder::is_still_wanted(const Scene& begun) {
+  const Scene wanted = worker_.latest().value_or(nullptr);
+  if (!wanted) return false;
+  if (wanted->content != begun->content) return false;
+  looked_at_ = wanted;
+  return true;
+}
+
+void TruthBuilder::compose_all(const Scene& scene) {
+  ClipTruth clip{.footage = footage_truth_of(*scene)};
+  const int total = clip.footage.last_frame - clip.footage.first_frame + 1;
+  bool given_up = false;
+  looked_at_ = scene;
+  const Result<void> made = streamed(stream_, *scene->project, [&](const StreamFrame& frame) -> Result<void> {
+    given_up = !is_still_wanted(scene);
+    if (given_up) return fail("", "given up", ErrorKind::interrupted);
+    const Result<void> added = add_frame(clip, frame.truth);
+    if (added && clip.frames() % kFramesAWord == 0) put({.scene = looked_at_, .done = clip.frames(), .total = total});
+    return added;
+  });
+  const Scene belongs_to = std::exchange(looked_at_, nullptr);
+  if (given_up) {
+    // Or it would not be begun anew should it be wanted again.
+    const std::lock_guard lock(mutex_);
+    state_ = {};
+    return;
+  }
+  CachedTruth kept{.content = scene->content};
+  if (made)
+    kept.clip = std::make_shared<const ClipTruth>(std::move(clip));
+  else
+    kept.problem = made.error().text();
+  put({.scene = belongs_to, .clip = kept.clip, .done = total, .total = total, .problem = kept.problem});
+  // What failed may do better another time.
+  if (kept.clip) made_.push_front(std::move(kept));
+  if (made_.size() > kMaxKept) made_.pop_back();
+}
+
+void TruthBuilder::build(const Scene& scene) {
+  if (!scene || state().scene == scene) return;
+  const Result<void> done = guarded([&]() -> Result<void> {
+    if (const std::string problem = why_not(*scene); !problem.empty()) {
+      put({.scene = scene, .problem = problem});
+      return {};
+    }
+    const auto known = std::ranges::find(made_, scene->content, &CachedTruth::content);
+    if (known != made_.end()) {
+      const int frames = known->clip->frames();
+      put({.scene = scene, .clip = known->clip, .done = frames, .total = frames});
+    } else if (worker_.stays_latest(scene, idle_time_)) {
+      compose_all(scene);
+    }
+    return {};
+  });
+  if (!done) put({.scene = scene, .problem = done.error().text()});
+}
+
+namespace fs = std::filesystem;
+
+int ResultFiles::free_color() const {
+  int color = 0;
+  const auto is_taken = [&](const ResultFile& file) { return file.color == color; };
+  while (std::ranges::any_of(files_, is_taken)) ++color;
+  return color;
+}
+
+void ResultFiles::add(const fs::path& path) {
+  std::error_code code;
+  const fs::path absolute = fs::absolute(path, code);
+  const fs::path place = (code ? path : absolute).lexically_normal();
+  const auto same = std::ranges::find(files_, place, &ResultFile::path);
+  if (same != files_.end())
+    same->is_shown = true;
+  else
+    files_.push_back({.id = ++last_id_, .path = place, .color = free_color()});
+}
+
+void ResultFiles::remove(int id) {
+  std::erase_if(files_, [id](const ResultFile& file) { return file.id == id; });
+}
+
+void ResultFiles::set_shown(int id, bool shown) {
+  for (ResultFile& file : files_)
+    if (file.id == id) file.is_shown = shown;
+}
 
 Scoring::Scoring(std::function<void()> wake, TruthBuilder::StreamFrames show)
     : wake_(std::move(wake)),
@@ -171,8 +275,7 @@ void Scoring::step(const ScoringRequest& wanted) {
     scored->truth_problem = truth.problem;
   }
   std::erase_if(trackers_, [&](const auto& known) {
-    return std::none_of(wanted.files.begin(), wanted.files.end(),
-                        [&](const ResultFile& file) { return file.id == known.first; });
+    return std::ranges::none_of(wanted.files, [&](const ResultFile& file) { return file.id == known.first; });
   });
   for (const ResultFile& file : wanted.files) {
     Tracker& tracker = trackers_[file.id];

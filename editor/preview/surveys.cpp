@@ -9,6 +9,7 @@
 
 #include "export/frame_stream.h"
 #include "project/project.h"
+#include "scene/encounter_tracks.h"
 #include "scene/opened_project.h"
 #include "scene/scene.h"
 #include "scene/scene_at.h"
@@ -16,6 +17,23 @@
 namespace sigs::editor {
 
 namespace {
+
+constexpr double kFrameRounding = 1e-6;  // a loss that begins this little after a frame begins in it
+
+int whole_frame(double frame) {
+  return static_cast<int>(std::clamp(frame, -1e9, 1e9));
+}
+
+VolumeLosses losses_of(const VolumeOutcome& outcome, const EncounterSummary& summary, const FootageShape& footage) {
+  VolumeLosses result{.volume = outcome.volume};
+  for (const TimeInterval& loss : outcome.losses)
+    result.losses.push_back({.first_frame = frame_at_time(footage, loss.begin_s),
+                             .last_frame = frame_at_time(footage, loss.end_s),
+                             .time_s = loss,
+                             .has_entry = loss.begin_s > summary.first_s,
+                             .has_exit = loss.end_s < summary.last_s});
+  return result;
+}
 
 TargetFrame target_frame_of(const VisibilityEstimate& estimate, const cv::Rect& image) {
   TargetFrame frame{.amodal_box = estimate.silhouette, .distance_m = estimate.distance_m};
@@ -33,7 +51,64 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kWorthShowing = 64;  // frames; then each time it has grown by half
 
+// Rates of roll, pitch and yaw by those about the body's axes (Stevens, Lewis, Johnson: Aircraft Control and
+// Simulation, 3rd edition, eq. 1.4-3), taken for small turns.
+Attitude deviations_of_angles(const Attitude& at, const glm::dvec3& sd_rad) {
+  const double cos_pitch = std::max(std::abs(std::cos(at.pitch_rad)), 1e-9);
+  const double up = sd_rad.y * std::sin(at.roll_rad);
+  const double side = sd_rad.z * std::cos(at.roll_rad);
+  const double yaw_rad = std::hypot(up, side) / cos_pitch;
+  const double roll_rad = std::hypot(sd_rad.x, yaw_rad * std::sin(at.pitch_rad));
+  const double pitch_rad = std::hypot(sd_rad.y * std::cos(at.roll_rad), sd_rad.z * std::sin(at.roll_rad));
+  const auto limited = [](double angle_rad) { return std::min(angle_rad, std::numbers::pi); };
+  return {.roll_rad = limited(roll_rad), .pitch_rad = limited(pitch_rad), .yaw_rad = limited(yaw_rad)};
+}
+
 }  // namespace
+
+std::vector<WellClearVolume> shown_volumes(const Project& project) {
+  std::vector<WellClearVolume> volumes;
+  for (const std::string& name : project.output.encounter)
+    if (const Result<WellClearVolume> volume = well_clear_volume(name); volume) volumes.push_back(*volume);
+  if (volumes.empty()) volumes.push_back(well_clear_volume("small-uas").value());
+  return volumes;
+}
+
+int LossStretch::entry_frame() const {
+  const double first = std::ceil(first_frame - kFrameRounding);
+  return whole_frame(first <= last_frame ? first : std::round(first_frame));
+}
+
+int LossStretch::exit_frame() const {
+  const double last = std::floor(last_frame + kFrameRounding);
+  return whole_frame(last >= first_frame ? last : std::round(last_frame));
+}
+
+bool EncounterSurvey::is_lost(std::size_t volume, double frame) const {
+  const std::vector<LossStretch>& losses = volumes[volume].losses;
+  return std::ranges::any_of(losses, [&](const LossStretch& loss) {
+    return frame >= loss.first_frame - kFrameRounding && frame <= loss.last_frame + kFrameRounding;
+  });
+}
+
+EncounterSurvey encounter_survey(const Scene& scene, int intruder, const std::vector<WellClearVolume>& volumes) {
+  EncounterSurvey survey{.first_frame = scene.first_frame};
+  const EncounterTrack own = encounter_track_of_camera(scene);
+  const EncounterTrack flight = encounter_track_of_intruder(scene, static_cast<std::size_t>(intruder));
+  const Result<EncounterSummary> summary = encounter_of(own, flight, {.volumes = volumes, .row_times_s = {}});
+  if (!summary) return survey;
+  survey.nearest = summary->nearest_horizontal;
+  survey.nearest_frame = frame_at_time(scene.footage, survey.nearest.time_s);
+  for (const VolumeOutcome& outcome : summary->volumes)
+    survey.volumes.push_back(losses_of(outcome, *summary, scene.footage));
+  for (int frame = scene.first_frame; frame <= scene.last_frame; ++frame) {
+    const double time_s = time_of_frame_s(scene.footage, frame);
+    const RelativeState state = relative_state(own.at(time_s), flight.at(time_s));
+    survey.horizontal_range_m.push_back(std::hypot(state.horizontal_m.x, state.horizontal_m.y));
+    survey.tau_mod_s.push_back(tau_mod_s(state, volumes.front().dmod_m));
+  }
+  return survey;
+}
 
 FootageTruth footage_truth_of(const OpenedScene& scene) {
   const Scene& opened = scene.draft.scene;
@@ -61,7 +136,7 @@ std::shared_ptr<const ClipTruth> outline_truth(const OpenedScene& scene,
       target.frames.push_back(target_frame_of(estimate, image));
     clip.targets.push_back(std::move(target));
   }
-  std::sort(clip.targets.begin(), clip.targets.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  std::ranges::sort(clip.targets, {}, &TargetTruth::id);
   return std::make_shared<const ClipTruth>(std::move(clip));
 }
 
@@ -83,23 +158,6 @@ void SurveyBuilder::want_volumes(std::vector<WellClearVolume> volumes) {
   volumes_ = std::move(volumes);
   next_encounter_ = 0;
 }
-
-namespace {
-
-// Rates of roll, pitch and yaw by those about the body's axes (Stevens, Lewis, Johnson: Aircraft Control and
-// Simulation, 3rd edition, eq. 1.4-3), taken for small turns.
-Attitude deviations_of_angles(const Attitude& at, const glm::dvec3& sd_rad) {
-  const double cos_pitch = std::max(std::abs(std::cos(at.pitch_rad)), 1e-9);
-  const double up = sd_rad.y * std::sin(at.roll_rad);
-  const double side = sd_rad.z * std::cos(at.roll_rad);
-  const double yaw_rad = std::hypot(up, side) / cos_pitch;
-  const double roll_rad = std::hypot(sd_rad.x, yaw_rad * std::sin(at.pitch_rad));
-  const double pitch_rad = std::hypot(sd_rad.y * std::cos(at.roll_rad), sd_rad.z * std::sin(at.roll_rad));
-  const auto limited = [](double angle_rad) { return std::min(angle_rad, std::numbers::pi); };
-  return {.roll_rad = limited(roll_rad), .pitch_rad = limited(pitch_rad), .yaw_rad = limited(yaw_rad)};
-}
-
-}  // namespace
 
 CameraTurn camera_turn_at(const CameraMotion& motion, double time_s, const CameraTurn* before) {
   CameraTurn turn{.attitude = attitude_of(camera_at(motion, time_s).rotation)};

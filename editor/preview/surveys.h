@@ -47,8 +47,7 @@ class SurveyBuilder {
   std::size_t next_whole_ = 0;
   std::vector<WellClearVolume> volumes_;
   std::size_t next_encounter_ = 0;
-  // Frames that the last call of surveys() gave out.
-  std::size_t handed_out_ = 0;
+  std::size_t handed_out_ = 0;  // frames that the last call of surveys() gave out
 };
 
 // The camera's turn at a time of the footage; without `before` its yaw is within 180 degrees of 0, else of that turn's.

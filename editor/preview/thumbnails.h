@@ -53,8 +53,7 @@ class Thumbnails {
   // By file; null while it is made, and where it could not be.
   std::map<std::filesystem::path, std::shared_ptr<const cv::Mat>> images_;
   bool stop_ = false;
-  // Started when the first image is asked for.
-  std::thread thread_;
+  std::thread thread_;  // started when the first image is asked for
 };
 
 // A model by itself: seen three-quarters from the front and slightly above, turned by turn_rad about its vertical

@@ -37,8 +37,7 @@ class LatestRequestWorker {
     // Called on the thread once for each request that it finds, and again after wake() or repeat_after. What it throws
     // ends this call alone.
     std::function<void(const Request&)> work;
-    // Of the thread, from its start on.
-    int niceness = kPreviewNiceness;
+    int niceness = kPreviewNiceness;  // of the thread, from its start on
     // After how long work is called again with the same request; none, or an empty function: not by itself. Called with
     // the worker's lock held, so it must not call the worker.
     std::function<std::optional<std::chrono::milliseconds>(const Request&)> repeat_after;

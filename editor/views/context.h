@@ -9,11 +9,13 @@
 
 #include "editor/document/document.h"
 #include "editor/document/settings.h"
-#include "editor/preview/appearance_job.h"
-#include "editor/preview/ego_motion_job.h"
+#include "editor/geometry/lens_projection.h"
+#include "editor/preview/jobs.h"
 #include "editor/preview/preview_output.h"
 #include "editor/preview/scoring.h"
+#include "editor/widgets/icons.h"
 #include "editor/widgets/keys.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/textures.h"
 #include "editor/widgets/theme.h"
 #include "editor/widgets/ui_probe.h"
@@ -23,20 +25,14 @@ namespace sigs::editor {
 // What the views that are drawn in this update need from the preview. Empty at the start of each update; each view sets
 // what it needs while it draws.
 struct ViewNeeds {
-  // The decoded frame without intruders.
-  bool footage = false;
-  // The images of all stages of the frame.
-  bool stages = false;
-  // The frame by this method too.
-  std::optional<MethodChoice> compare_with;
-  // An image of one intruder's model.
-  std::optional<PreviewRequest::Turntable> turntable;
-  // Survey::encounter.
-  bool encounters = false;
+  bool footage = false;                                // the decoded frame without intruders
+  bool stages = false;                                 // the images of all stages of the frame
+  std::optional<MethodChoice> compare_with;            // the frame by this method too
+  std::optional<PreviewRequest::Turntable> turntable;  // an image of one intruder's model
+  bool encounters = false;                             // Survey::encounter
   // The view that is worked in takes undo and redo itself: the program's own keys for them do nothing in this update.
   bool own_undo = false;
-  // A view has taken Escape.
-  bool own_escape = false;
+  bool own_escape = false;  // a view has taken Escape
 };
 
 // The input and output of a view in one update. Input: the document, the newest preview, the settings. Output: changes
@@ -54,16 +50,12 @@ struct ViewContext {
   ViewNeeds& needs;
   UiProbe& ui_probe;
   bool playing = false;
-  // Of playing, times the footage's own; negative: backwards; 0 while it pauses.
-  double speed = 0;
-  // Null: no results of trackers are loaded.
-  const Scored* scored = nullptr;
+  double speed = 0;                // of playing, times the footage's own; negative: backwards; 0 while it pauses
+  const Scored* scored = nullptr;  // Null: no results of trackers are loaded
   // Of the camera's motion that is estimated in the background. Null: this window has no such job.
   const EgoMotionState* ego_motion = nullptr;
-  // Of how the footage looks, likewise.
-  const AppearanceState* appearance = nullptr;
-  // Of the light on something in the footage, likewise.
-  const LightState* light = nullptr;
+  const AppearanceState* appearance = nullptr;  // of how the footage looks, likewise
+  const LightState* light = nullptr;            // of the light on something in the footage, likewise
   // The horizon in the shown scene's footage. Null: not known, or not yet.
   std::shared_ptr<const SeenHorizons> horizons = {};
   // What was guessed of this project when it was made, by setting. Null: nothing.
@@ -80,8 +72,7 @@ struct DragGesture {
   std::string name;
   // Number of the document's revision when the mouse was pressed.
   std::uint64_t revision_before = 0;
-  // Where it was pressed, on the screen.
-  glm::dvec2 pressed{0, 0};
+  glm::dvec2 pressed{0, 0};  // where it was pressed, on the screen
   // A change has been made or is about to be. The caller sets it, once has_left_press().
   bool is_moving = false;
 
@@ -123,5 +114,32 @@ struct DragGesture {
                                                  std::string name = {}) {
   return {.name = std::move(name), .revision_before = context.document.revision().number, .pressed = mouse};
 }
+
+// Where the camera is, for all views. What the project alone decides (place at the start, mounting, speed) is the
+// document's, so that it does not lag behind a drag; what files decide (path and attitude of a log, an attitude file)
+// is that of the newest scene that is open.
+
+// The camera by the settings alone: straight on along world X, with what carries it level.
+[[nodiscard]] CameraPose camera_pose_at(const Project& project, double time_s);
+
+// The camera at a time of the footage.
+[[nodiscard]] CameraPose camera_pose_at(const ViewContext& context, double time_s);
+
+// Time of a frame in seconds, by the footage where it is known, else by 25 frames a second.
+[[nodiscard]] double time_of(const ViewContext& context, double frame);
+
+// How far the document's camera.position_m has moved the path of the scene's log since that scene was opened; 0 where
+// no log moves the camera. World, metres.
+[[nodiscard]] glm::dvec3 path_shift_m(const ViewContext& context);
+
+// Whether a file turns the camera: an attitude file, or a log that was read.
+[[nodiscard]] bool is_turned_by_file(const ViewContext& context);
+
+// Along which axes of the world camera.position_m moves the camera: all, unless a log gives its place on the Earth.
+[[nodiscard]] glm::bvec3 movable_axes(const ViewContext& context);
+
+// Why the camera cannot be moved over the ground, in a sentence.
+inline constexpr const char* kWhyCameraIsFixed =
+    "The log says where the camera is: it has geodetic positions, and latitude and longitude of the world are stated.";
 
 }  // namespace sigs::editor

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <deque>
 #include <map>
 #include <optional>
 #include <span>
@@ -10,8 +12,8 @@
 #include "editor/document/document.h"
 #include "editor/document/project_paths.h"
 #include "editor/document/settings.h"
+#include "editor/preview/background_job.h"
 #include "editor/views/context.h"
-#include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
 
@@ -38,8 +40,7 @@ class SettingsDialog {
   [[nodiscard]] bool draw(Settings& settings, UiProbe& ui_probe);
 
  private:
-  // What the slider shows while it is held; 0: it is not.
-  double font_px_ = 0;
+  double font_px_ = 0;  // what the slider shows while it is held; 0: it is not
 };
 
 // Asks where the project's missing files are. One that was found lets the others be found (suggested_places()).
@@ -64,6 +65,47 @@ class RelinkDialog {
   // By the field's key: what the person chose, and what suggested_places() proposes from that.
   std::map<std::string, std::filesystem::path> places_;
   std::map<std::string, std::filesystem::path> suggested_;
+};
+
+// What the menu bar shows beside the menus.
+struct MenuBarContent {
+  bool has_project = false;
+  const ExportState& exporting;
+};
+
+// The bar along the window's upper edge: menus, the project's name with a dot where something is unsaved, the number
+// of its problems, and a running export. Which panels are shown it changes in the settings at once.
+void draw_menu_bar(const ViewContext& context, const MenuBarContent& content, Settings& settings);
+
+// Passing messages, above the timeline. Errors stay longer, and as long as the mouse is over one; a click takes any
+// away.
+class Toasts {
+ public:
+  // A message that is shown already counts up instead of appearing twice. now_s: seconds of a steady clock, in all
+  // calls.
+  void show(const ShowMessage& shown_message, double now_s);
+  // foot: the middle of the lowest one's lower edge; width_px: room from left to right.
+  void draw(UiProbe& ui_probe, double now_s, ImVec2 foot, float width_px);
+  // Another project is open: they would speak of one that is not.
+  void clear() { toasts_.clear(); }
+
+  // Whether one will pass by itself: the window has to be drawn again soon.
+  [[nodiscard]] bool is_passing() const { return !toasts_.empty(); }
+
+  // Of messages that are shown.
+  [[nodiscard]] std::size_t count() const { return toasts_.size(); }
+  // Takes away those whose time is over; draw() does so too.
+  void pass(double now_s);
+
+ private:
+  struct Toast {
+    std::string text;
+    bool is_error = false;
+    // When its time is over.
+    double until_s = 0;
+    int times = 1;  // how often the same message came
+  };
+  std::deque<Toast> toasts_;  // oldest first
 };
 
 }  // namespace sigs::editor

@@ -9,6 +9,7 @@
 
 #include "editor/document/document.h"
 #include "editor/preview/background_job.h"
+#include "editor/preview/jobs.h"
 
 namespace sigs::editor {
 
@@ -19,10 +20,10 @@ template <class Request, class Value>
 class EstimateSession {
  public:
   using Work = typename BackgroundJob<Request, Value>::Work;
+  using Use = std::function<void(const std::shared_ptr<const Value>& found)>;
 
   EstimateSession(const EstimateSession&) = delete;
   EstimateSession& operator=(const EstimateSession&) = delete;
-  virtual ~EstimateSession() = default;
 
   void stop() { job_.cancel(); }
   // Another project was opened, or none.
@@ -41,7 +42,7 @@ class EstimateSession {
     if (state_.value != nullptr && state_.value != taken_) {
       taken_ = state_.value;
       edits_.end_gesture();
-      use(document, taken_);
+      use_(taken_);
     }
     if (has_ended && state_.phase == JobPhase::failed)
       edits_.ask(ShowMessage{failure_ + ": " + state_.error.text(), true});
@@ -54,8 +55,9 @@ class EstimateSession {
   //   edits    where changes of the project and messages go; must outlive this
   //   wake     called from another thread as the estimate goes on
   //   failure  how the message about an estimate that failed begins
-  EstimateSession(Edits& edits, std::function<void()> wake, Work work, std::string failure)
-      : edits_(edits), failure_(std::move(failure)), job_(std::move(wake), std::move(work)) {}
+  //   use      puts what was found into the project as one undo step, and says so
+  EstimateSession(Edits& edits, std::function<void()> wake, Work work, std::string failure, Use use)
+      : edits_(edits), failure_(std::move(failure)), use_(std::move(use)), job_(std::move(wake), std::move(work)) {}
 
   // Nothing happens while an estimate is running.
   void begin(const Document& document, Request request) {
@@ -63,9 +65,6 @@ class EstimateSession {
     video_ = video_of(document);
     was_running_ = true;  // also where it ends before the next follow()
   }
-
-  // Puts what was found into the project as one undo step, and says so.
-  virtual void use(const Document& document, const std::shared_ptr<const Value>& found) = 0;
 
   [[nodiscard]] Edits& edits() { return edits_; }
 
@@ -76,11 +75,53 @@ class EstimateSession {
 
   Edits& edits_;
   std::string failure_;
+  Use use_;
   BackgroundJob<Request, Value> job_;
   JobState<Request, Value> state_;
   std::filesystem::path video_;         // that is looked at
   std::shared_ptr<const Value> taken_;  // used by the project
   bool was_running_ = false;
 };
+
+// The camera's motion is estimated from the footage and put into the project: camera.track names the file,
+// camera.attitude_deg is that of the camera at frame 0, and the file has its whole attitude (follow_attitudes()).
+class EgoMotionSession : public EstimateSession<EgoMotionRequest, EstimatedMotion> {
+ public:
+  // work: tests give one that reads no video.
+  EgoMotionSession(Edits& edits, std::function<void()> wake, Work work = estimated_motion);
+
+  // Begins an estimate of the project's footage, into a file beside the project that is not there yet. Nothing happens
+  // while one is running; without footage it says what is missing.
+  void start(const Document& document);
+};
+
+// One beside the project that is not there yet: NAME.attitude.csv, NAME.attitude_2.csv, ...; beside the footage where
+// the project was never saved.
+[[nodiscard]] std::filesystem::path new_attitude_file(const Project& project);
+
+// "found in 300 frames, 12 of them unknown; ..." for the message and the inspector.
+[[nodiscard]] std::string summary_of(const EstimatedMotion& motion);
+
+// "Match the footage": how the footage looks is estimated and set in the project.
+class AppearanceSession : public EstimateSession<AppearanceRequest, Appearance> {
+ public:
+  // work: tests give one that reads no video.
+  AppearanceSession(Edits& edits, std::function<void()> wake, Work work = estimated_appearance);
+
+  // Begins an estimate of the project's footage. Nothing happens while one is running; without footage it says so.
+  void start(const Document& document);
+};
+
+// "Lit like this": the exposure is found by something real in the footage, and set in the project.
+class LightSession : public EstimateSession<LightRequest, LitLike> {
+ public:
+  LightSession(Edits& edits, std::function<void()> wake, Work work = found_light);
+
+  // Begins to look at the box. Nothing happens while one is looked at; without an intruder it says so.
+  void start(const Document& document, const LightLike& wanted);
+};
+
+// "7 of 9 quantities found in 48 frames" for the message.
+[[nodiscard]] std::string summary_of(const Appearance& appearance);
 
 }  // namespace sigs::editor

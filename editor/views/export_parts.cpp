@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/export_parts.h"
+#include "editor/views/export_view.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,16 +10,12 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <sstream>
-#include <string>
 #include <string_view>
 
 #include "base/text.h"
 #include "editor/document/field_edits.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "labels/labels.h"
 #include "scene/opened_project.h"
 
@@ -79,8 +75,9 @@ bool choose(const ViewContext& context, const char* id, const std::array<const c
             float width) {
   ImGui::SetNextItemWidth(width);
   auto index = static_cast<int>(value);
-  const bool changed = ImGui::Combo((std::string("##") + id).c_str(), &index, names.data(), static_cast<int>(N));
-  context.ui_probe.note_item(fmt::format("export/{}", id));
+  const bool changed =
+      context.ui_probe.noted(ImGui::Combo((std::string("##") + id).c_str(), &index, names.data(), static_cast<int>(N)),
+                             fmt::format("export/{}", id));
   if (changed) value = static_cast<Choice>(index);
   return changed;
 }
@@ -101,7 +98,7 @@ void draw_written(const ViewContext& context, const ExportState& state) {
 }
 
 bool is_chosen(const ExportSettings& output, std::string_view format) {
-  return std::find(output.labels.begin(), output.labels.end(), format) != output.labels.end();
+  return std::ranges::find(output.labels, format) != output.labels.end();
 }
 
 // The formats stay in one order, however they are chosen.
@@ -115,14 +112,12 @@ void choose_label(ExportSettings& output, std::string_view format, bool chosen) 
 void draw_label_format(const ViewContext& context, const LabelFormat& format) {
   const std::string name(format.name);
   bool chosen = is_chosen(context.project().output, name);
-  if (ImGui::Checkbox(name.c_str(), &chosen))
+  if (context.ui_probe.noted(ImGui::Checkbox(name.c_str(), &chosen), "export/labels/" + name, std::string(format.help)))
     context.edits.change("labels", [name, chosen](Project& p) { choose_label(p.output, name, chosen); });
-  context.ui_probe.note_item("export/labels/" + name);
-  tooltip_for_item(std::string(format.help).c_str());
 }
 
 bool has_thresholds(const ExportSettings& output) {
-  return std::any_of(output.labels.begin(), output.labels.end(), [](const std::string& label) {
+  return std::ranges::any_of(output.labels, [](const std::string& label) {
     const LabelFormat* const format = label_format(label);
     return format != nullptr && format->has_thresholds;
   });
@@ -138,9 +133,7 @@ std::string threshold_help(std::string_view left_out) {
 void note_line(Icon icon, ImU32 color, const std::string& text) {
   icon_label(icon, color);
   ImGui::SameLine();
-  ImGui::PushStyleColor(ImGuiCol_Text, color);
-  ImGui::TextWrapped("%s", shortened(text).c_str());
-  ImGui::PopStyleColor();
+  draw_wrapped(shortened(text), color);
 }
 
 void draw_video_choices(const ViewContext& context) {
@@ -176,10 +169,10 @@ void draw_quality(const ViewContext& context) {
         "export crf");
   if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
   ImGui::EndDisabled();
-  context.ui_probe.note_item("export/crf");
-  tooltip_for_item(is_jpeg     ? "1 worst, 100 best"
-                   : worst > 0 ? fmt::format("0 lossless, 18 visually so, {} worst", worst).c_str()
-                               : "Counts for h264, hevc, av1 and jpeg alone");
+  context.ui_probe.note_item("export/crf", is_jpeg ? "1 worst, 100 best"
+                                           : worst > 0
+                                               ? fmt::format("0 lossless, 18 visually so, {} worst", worst).c_str()
+                                               : "Counts for h264, hevc, av1 and jpeg alone");
 }
 
 void draw_thresholds(const ViewContext& context) {
@@ -193,8 +186,7 @@ void draw_thresholds(const ViewContext& context) {
         "least pixels", [px = output.label_least_pixels](Project& p) { p.output.label_least_pixels = px; },
         "export least pixels");
   if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
-  context.ui_probe.note_item("export/least pixels");
-  tooltip_for_item(threshold_help("fewer pixels show the intruder").c_str());
+  context.ui_probe.note_item("export/least pixels", threshold_help("fewer pixels show the intruder"));
   begin_setting(label_of("export.label_least_visible_fraction").c_str());
   ImGui::SetNextItemWidth(scaled(150));
   auto percent = static_cast<float>(100 * output.label_least_visible_fraction);
@@ -204,8 +196,7 @@ void draw_thresholds(const ViewContext& context) {
         [share = std::round(percent) / 100.0](Project& p) { p.output.label_least_visible_fraction = share; },
         "export least visible");
   if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
-  context.ui_probe.note_item("export/least visible");
-  tooltip_for_item(threshold_help("less of the intruder can be seen").c_str());
+  context.ui_probe.note_item("export/least visible", threshold_help("less of the intruder can be seen"));
   ImGui::EndDisabled();
 }
 
@@ -253,10 +244,8 @@ void draw_result(const ViewContext& context, const ExportState& state) {
     ImGui::TextDisabled("Nothing was written.");
     return;
   }
-  if (state.phase == JobPhase::cancelled) {
-    note_line(Icon::info, color::kQuiet, "Cancelled. Nothing was written.");
-    return;
-  }
+  if (state.phase == JobPhase::cancelled)
+    return note_line(Icon::info, color::kQuiet, "Cancelled. Nothing was written.");
   const double wall_s = state.value->times.wall_s;
   const int frames = state.value->frames;
   note_line(Icon::check, color::kGood,
@@ -264,9 +253,9 @@ void draw_result(const ViewContext& context, const ExportState& state) {
                         frames / std::max(wall_s, 1e-3)));
   draw_written(context, state);
   if (!can_open_with_desktop()) return;
-  if (dialog_button("Open folder") && !open_with_desktop(state.request.folder))
+  if (context.ui_probe.noted(dialog_button("Open folder"), "export/open folder") &&
+      !open_with_desktop(state.request.folder))
     context.edits.ask(ShowMessage{state.request.folder.string() + " could not be opened", true});
-  context.ui_probe.note_item("export/open folder");
 }
 
 void draw_warnings(const ExportState& state) {

@@ -2,18 +2,13 @@
 #include "editor/views/export_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <thread>
 #include <utility>
 
 #include "editor/preview/export_plan.h"
-#include "editor/views/export_parts.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "project/json.h"
 
 namespace sigs::editor {
@@ -36,10 +31,6 @@ int usual_jobs() {
 constexpr double kSetupHeight = 660;
 constexpr double kReportHeight = 340;
 constexpr int kCommandLines = 3;
-
-float button_row_height() {
-  return scaled(28) + scaled(6) + 2 * ImGui::GetStyle().ItemSpacing.y;
-}
 
 // A label, then a plate for the command's lines, with the room between them and after them.
 float command_height() {
@@ -96,8 +87,7 @@ void ExportView::draw_folder(const ViewContext& context) {
   begin_setting("Folder");
   const float browse = dialog_button_width("Browse...");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - browse - ImGui::GetStyle().ItemSpacing.x);
-  if (text_input("##folder", folder_)) overwrite_asked_ = false;
-  context.ui_probe.note_item("export/folder");
+  if (context.ui_probe.noted(text_input("##folder", folder_), "export/folder")) overwrite_asked_ = false;
   ImGui::SameLine();
   if (dialog_button("Browse..."))
     context.edits.ask(AskForFile{
@@ -110,8 +100,8 @@ void ExportView::draw_range(const ViewContext& context) {
   const Document& document = context.document;
   begin_setting("Frames");
   const std::string whole = fmt::format("whole project ({} to {})", document.first_frame(), document.last_frame());
-  if (ImGui::RadioButton(whole.c_str(), !only_range_ || !marks_range(document))) only_range_ = false;
-  context.ui_probe.note_item("export/whole");
+  if (context.ui_probe.noted(ImGui::RadioButton(whole.c_str(), !only_range_ || !marks_range(document)), "export/whole"))
+    only_range_ = false;
   const std::string part = fmt::format("in to out ({} to {})###range", document.range_first(), document.range_last());
   ImGui::BeginDisabled(!marks_range(document));
   if (ImGui::RadioButton(marks_range(document) ? part.c_str() : "in to out (not marked)###range",
@@ -158,17 +148,12 @@ void ExportView::draw_command(const ViewContext& context) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("The same from the command line:");
   ImGui::SameLine(ImGui::GetContentRegionMax().x - icon_button_width());
-  if (icon_button("copy command", Icon::copy, "Copy")) {
+  if (context.ui_probe.noted(icon_button("copy command", Icon::copy, "Copy"), "export/copy command")) {
     ImGui::SetClipboardText(command.c_str());
     context.edits.ask(ShowMessage{"Copied"});
   }
-  context.ui_probe.note_item("export/copy command");
-  begin_plate("command", button_row_height());
-  ImGui::PushFont(font(Font::mono));
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
-  ImGui::TextWrapped("%s", shortened(command).c_str());
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
+  begin_plate("command", dialog_buttons_height());
+  draw_wrapped(shortened(command), color::kQuiet, Font::mono);
   ImGui::EndChild();
 }
 
@@ -203,7 +188,7 @@ void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
     ImGui::EndTable();
   }
   if (!overwrite_asked_) there_.clear();
-  begin_plate("notes", command_height() + button_row_height());
+  begin_plate("notes", command_height() + dialog_buttons_height());
   draw_notes(context);
   ImGui::EndChild();
   draw_command(context);
@@ -212,11 +197,9 @@ void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
   const char* const go = replace ? "Replace" : "Export";
   const char* const labels[] = {"Close", go};
   align_buttons_right(labels, 2);
-  if (dialog_button("Close")) closed_ = true;
-  context.ui_probe.note_item("export/close");
+  if (context.ui_probe.noted(dialog_button("Close"), "export/close")) closed_ = true;
   ImGui::SameLine();
-  const bool clicked = dialog_button(go, true, !folder_.empty());
-  context.ui_probe.note_item("export/go");
+  const bool clicked = context.ui_probe.noted(dialog_button(go, true, !folder_.empty()), "export/go");
   if (!clicked) return;
   ExportRequest request = request_of(context);
   const bool is_open = context.shown.scene && context.shown.scene->footage->video;
@@ -238,42 +221,37 @@ void ExportView::draw_running(const ViewContext& context, ExportJob& job, const 
       elided(state.request.project.name + " into " + state.request.folder.string(), ImGui::GetContentRegionAvail().x)
           .c_str());
   ImGui::Dummy({0, scaled(2)});
-  const double share = state.total > 0 ? double(state.done) / state.total : 0;
-  ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
+  ImGui::ProgressBar(share_done(state.done, state.total), {-1, scaled(10)}, "");
   ImGui::TextDisabled("%s", progress_text(state).c_str());
-  begin_plate("notes", button_row_height());
+  begin_plate("notes", dialog_buttons_height());
   if (state.warnings.empty()) ImGui::TextDisabled("No warnings so far.");
   draw_warnings(state);
   ImGui::EndChild();
   ImGui::Dummy({0, scaled(6)});
   const char* const labels[] = {"Cancel export", "Go on in the background"};
   align_buttons_right(labels, 2);
-  if (dialog_button("Cancel export", false, !state.is_stopping)) job.cancel();
-  context.ui_probe.note_item("export/cancel");
+  if (context.ui_probe.noted(dialog_button("Cancel export", false, !state.is_stopping), "export/cancel")) job.cancel();
   ImGui::SameLine();
-  if (dialog_button("Go on in the background", true)) closed_ = true;
-  context.ui_probe.note_item("export/hide");
+  if (context.ui_probe.noted(dialog_button("Go on in the background", true), "export/hide")) closed_ = true;
 }
 
 void ExportView::draw_done(const ViewContext& context, ExportJob& job, const ExportState& state) {
-  begin_plate("notes", button_row_height());
+  begin_plate("notes", dialog_buttons_height());
   draw_result(context, state);
   draw_warnings(state);
   ImGui::EndChild();
   ImGui::Dummy({0, scaled(6)});
   const char* const labels[] = {"Export again", "Close"};
   align_buttons_right(labels, 2);
-  if (dialog_button("Export again")) {
+  if (context.ui_probe.noted(dialog_button("Export again"), "export/again")) {
     job.forget();
     overwrite_asked_ = false;
   }
-  context.ui_probe.note_item("export/again");
   ImGui::SameLine();
-  if (dialog_button("Close", true)) {
+  if (context.ui_probe.noted(dialog_button("Close", true), "export/close")) {
     job.forget();
     closed_ = true;
   }
-  context.ui_probe.note_item("export/close");
 }
 
 }  // namespace sigs::editor

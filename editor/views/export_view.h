@@ -12,6 +12,27 @@
 
 namespace sigs::editor {
 
+// The project's own settings of what is written; each change is an edit.
+void draw_video_choices(const ViewContext& context);
+void draw_mask_choice(const ViewContext& context);
+void draw_label_choice(const ViewContext& context);
+// Each as rows of a table of two columns, called as in the inspector (label_of()). They stay where they are whatever is
+// chosen, greyed where they do not count.
+void draw_quality(const ViewContext& context);
+void draw_thresholds(const ViewContext& context);
+
+// "120 of 322 frames, 41.2 frames/s, 0:05 left"
+[[nodiscard]] std::string progress_text(const ExportState& state);
+// "Export 37 %, 0:05 left", for the menu bar.
+[[nodiscard]] std::string short_progress_text(const ExportState& state);
+
+// What was written, with ways to it; or why nothing was.
+void draw_result(const ViewContext& context, const ExportState& state);
+void draw_warnings(const ExportState& state);
+
+// A line that matters, behind an icon, wrapped.
+void note_line(Icon icon, ImU32 color, const std::string& text);
+
 // The window in which an export is set up, followed and found again. What belongs to the project (codec, masks, labels)
 // is changed by edits, as in the inspector; folder, range and threads belong to this export.
 class ExportView {
@@ -42,21 +63,16 @@ class ExportView {
   const std::optional<std::vector<std::string>>& assignments(const Document& document);
 
   bool open_ = false;
-  // The person has closed it in this update.
-  bool closed_ = false;
-  // Where the files go, as typed; "": not chosen yet.
-  std::string folder_;
-  // From in to out rather than the project's whole range.
-  bool only_range_ = false;
-  // Frames composed in parallel; 0: by the number of cores.
-  int jobs_ = 0;
+  bool closed_ = false;      // the person has closed it in this update
+  std::string folder_;       // where the files go, as typed; "": not chosen yet
+  bool only_range_ = false;  // from in to out rather than the project's whole range
+  int jobs_ = 0;             // frames composed in parallel; 0: by the number of cores
   // The question whether the files in there_ may be replaced is shown.
   bool overwrite_asked_ = false;
   // For the revision with this number.
   std::optional<std::vector<std::string>> assignments_;
   std::uint64_t assignments_of_ = 0;
-  // What would be overwritten.
-  std::vector<std::filesystem::path> there_;
+  std::vector<std::filesystem::path> there_;  // what would be overwritten
 };
 
 }  // namespace sigs::editor

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/first_steps.h"
+#include "editor/views/start_page.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <functional>
-#include <string>
 #include <utility>
 
 #include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
-#include "editor/views/shown_camera.h"
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -46,8 +38,8 @@ constexpr std::size_t kFiles = 3;
 
 // The first that has no model; else as many as there are: one more is wanted.
 std::size_t intruder_without_model(const Project& project) {
-  const auto found = std::find_if(project.intruders.begin(), project.intruders.end(),
-                                  [](const IntruderSettings& intruder) { return intruder.model.file.empty(); });
+  const auto found = std::ranges::find_if(project.intruders,
+                                          [](const IntruderSettings& intruder) { return intruder.model.file.empty(); });
   return static_cast<std::size_t>(found - project.intruders.begin());
 }
 
@@ -161,24 +153,21 @@ void draw_step(const ViewContext& context, const FirstStep& step, int number, bo
   const float top = ImGui::GetCursorPosY();
   ImGui::BeginGroup();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, scaled(1)});
-  ImGui::PushFont(font(Font::bold));
-  ImGui::TextUnformatted(elided(step.name, room).c_str());
-  ImGui::PopFont();
+  draw_text(elided(step.name, room), color::kText, Font::bold);
   ImGui::PushFont(font(Font::small));
   const std::string status_text = is_done                ? fs::path(step.file).filename().string()
                                   : step.problem.empty() ? step.what
                                                          : step.problem;
-  ImGui::PushStyleColor(ImGuiCol_Text, step.problem.empty() ? color::kQuiet : color::kBad);
-  ImGui::TextUnformatted(elided(status_text, room).c_str());
-  ImGui::PopStyleColor();
+  draw_text(elided(status_text, room), step.problem.empty() ? color::kQuiet : color::kBad);
   if (!step.problem.empty()) tooltip_for_item(step.problem.c_str());
   ImGui::PopFont();
   ImGui::PopStyleVar();
   ImGui::EndGroup();
   if (!is_done) {
     ImGui::SetCursorPos({left + room + scaled(8), top + scaled(3)});
-    if (dialog_button(button_of(step, is_next), is_next)) ask(context, step, is_next);
-    context.ui_probe.note_item(std::string("first steps/") + step.name);
+    if (context.ui_probe.noted(dialog_button(button_of(step, is_next), is_next),
+                               std::string("first steps/") + step.name))
+      ask(context, step, is_next);
     if (!step.choose && is_next) tooltip_for_item("The line lies on the footage's horizon as it is");
   }
   ImGui::PopID();
@@ -192,16 +181,16 @@ void draw_other_ways(const ViewContext& context) {
   const float room = ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x;
   ImGui::TextDisabled("%s", elided("Drop the files onto this window, or have all made:", room).c_str());
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - button);
-  if (ImGui::Button(kFromVideo, {button, ImGui::GetFrameHeight()})) context.edits.ask(ShowNewProject{});
-  context.ui_probe.note_item("first steps/new");
-  tooltip_for_item("Another project, with lens, light and flight guessed (Ctrl+N)");
+  if (context.ui_probe.noted(ImGui::Button(kFromVideo, {button, ImGui::GetFrameHeight()}), "first steps/new",
+                             "Another project, with lens, light and flight guessed (Ctrl+N)"))
+    context.edits.ask(ShowNewProject{});
 }
 
 }  // namespace
 
 void FirstSteps::draw(const ViewContext& context, const ScreenRect& room) {
   const Steps steps = steps_of(context);
-  const auto next = std::find_if(steps.begin(), steps.end(), [](const FirstStep& step) { return !step.is_done(); });
+  const auto next = std::ranges::find_if(steps, [](const FirstStep& step) { return !step.is_done(); });
   const std::uint64_t document = context.document.first_number();
   if (std::any_of(steps.begin(), steps.begin() + kFiles, [](const FirstStep& step) { return step.file.empty(); }))
     begun_ = document;
@@ -225,12 +214,11 @@ void FirstSteps::draw(const ViewContext& context, const ScreenRect& room) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled(16), scaled(14)});
   ImGui::BeginChild("first steps", size, false, ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
   ImGui::AlignTextToFramePadding();
-  ImGui::PushFont(font(Font::bold));
-  ImGui::TextUnformatted(is_last ? "Last step" : "First steps");
-  ImGui::PopFont();
+  draw_text(is_last ? "Last step" : "First steps", color::kText, Font::bold);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - icon_button_width());
-  if (icon_button("put away", Icon::cross, "Put this away; the inspector has all of it")) put_away_ = document;
-  context.ui_probe.note_item("first steps/close");
+  if (context.ui_probe.noted(icon_button("put away", Icon::cross, "Put this away; the inspector has all of it"),
+                             "first steps/close"))
+    put_away_ = document;
   for (std::size_t i = is_last ? kFiles : 0; i < steps.size(); ++i)
     draw_step(context, steps[i], static_cast<int>(i) + 1, &steps[i] == &*next);
   if (!is_last) draw_other_ways(context);

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/menu_bar.h"
+#include "editor/views/dialogs.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "base/text.h"
-#include "editor/views/export_parts.h"
+#include "editor/views/export_view.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -22,8 +15,8 @@ namespace {
 
 // An item that is known by name to whoever drives the window from outside.
 bool item(const ViewContext& context, const char* label, const char* keys, bool enabled = true, bool checked = false) {
-  const bool chosen = ImGui::MenuItem(label, keys, checked, enabled);
-  context.ui_probe.note_item(std::string("menu/") + label);
+  const bool chosen =
+      context.ui_probe.noted(ImGui::MenuItem(label, keys, checked, enabled), std::string("menu/") + label);
   return chosen;
 }
 
@@ -68,10 +61,10 @@ void draw_edit_menu(const ViewContext& context, bool has_project) {
   const Document& document = context.document;
   const std::string undo = fmt::format("Undo {}###Undo", document.undo_name());
   const std::string redo = fmt::format("Redo {}###Redo", document.redo_name());
-  if (ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo())) context.edits.undo();
-  context.ui_probe.note_item("menu/Undo");
-  if (ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo())) context.edits.redo();
-  context.ui_probe.note_item("menu/Redo");
+  if (context.ui_probe.noted(ImGui::MenuItem(undo.c_str(), "Ctrl+Z", false, document.can_undo()), "menu/Undo"))
+    context.edits.undo();
+  if (context.ui_probe.noted(ImGui::MenuItem(redo.c_str(), "Ctrl+Y", false, document.can_redo()), "menu/Redo"))
+    context.edits.redo();
   ImGui::Separator();
   const bool on_waypoint = document.selection().kind == Selected::waypoint;
   const bool on_intruder = on_waypoint || document.selection().kind == Selected::intruder;
@@ -118,7 +111,7 @@ class RightSide {
 
   void show_export(const ExportState& state) {
     if (!state.is_running()) return;
-    const double share = state.total > 0 ? double(state.done) / state.total : 0;
+    const double share = share_done(state.done, state.total);
     if (show_progress("export progress", short_progress_text(state), share, "Show the export"))
       context_.edits.ask(ShowExport{});
   }
@@ -127,22 +120,22 @@ class RightSide {
   template <class State>
   void show_estimate(const char* id, const std::string& what, const State* state) {
     if (state == nullptr || !state->is_running()) return;
-    const double share = state->total > 0 ? double(state->done) / state->total : 0;
+    const double share = share_done(state->done, state->total);
     const std::string text = state->is_stopping ? what + ", stopping" : fmt::format("{} {:.0f} %", what, 100 * share);
     (void)show_progress(id, text, share, "Goes on in the background; the menu Edit stops it");
   }
 
   void show_problems(const std::vector<Problem>& problems) {
     if (problems.empty()) return;
-    const bool is_missing = std::any_of(problems.begin(), problems.end(),
-                                        [](const Problem& problem) { return problem.kind == ErrorKind::cannot_read; });
+    const bool is_missing =
+        std::ranges::any_of(problems, [](const Problem& problem) { return problem.kind == ErrorKind::cannot_read; });
     const std::string text = count_text(std::ssize(problems), "problem");
     const float width = ImGui::CalcTextSize(text.c_str()).x + scaled(24);
     if (!take(width)) return;
     const ImVec2 place = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
-    if (ImGui::InvisibleButton("problems", {width, height}) && is_missing) context_.edits.ask(ShowMissingFiles{});
-    context_.ui_probe.note_item("menu/problems");
+    if (context_.ui_probe.noted(ImGui::InvisibleButton("problems", {width, height}), "menu/problems") && is_missing)
+      context_.edits.ask(ShowMissingFiles{});
     if (ImGui::IsItemHovered()) show_list(problems);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     draw_icon(list, Icon::warning, {place.x + scaled(9), place.y + height / 2}, scaled(13), color::kPartly);
@@ -175,9 +168,8 @@ class RightSide {
     if (!take(width)) return false;
     const ImVec2 place = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
-    const bool is_clicked = ImGui::InvisibleButton(id, {width, height});
-    context_.ui_probe.note_item(std::string("menu/") + id);
-    tooltip_for_item(tooltip);
+    const bool is_clicked =
+        context_.ui_probe.noted(ImGui::InvisibleButton(id, {width, height}), std::string("menu/") + id, tooltip);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float inset = scaled(3);
     const ImVec2 low{place.x, place.y + inset};

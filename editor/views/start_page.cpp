@@ -2,7 +2,6 @@
 #include "editor/views/start_page.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,11 +9,8 @@
 
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "editor/document/dropped_file.h"
+#include "editor/document/project_paths.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -22,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kImageWidth_px = 480;
-constexpr int kImageHeight_px = 270;
-constexpr float kImageShape = float(kImageHeight_px) / kImageWidth_px;
+constexpr int kCardImageWidth_px = 480;
+constexpr int kCardImageHeight_px = 270;
+constexpr float kCardImageShape = float(kCardImageHeight_px) / kCardImageWidth_px;
 
 std::string time_ago(std::int64_t unix_s) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -43,16 +39,12 @@ std::string text_of(const AbandonedProject& project) {
 
 void heading(const char* text) {
   ImGui::Dummy({0, scaled(10)});
-  ImGui::PushFont(font(Font::bold));
-  ImGui::TextUnformatted(text);
-  ImGui::PopFont();
+  draw_text(text, color::kText, Font::bold);
   ImGui::Dummy({0, scaled(2)});
 }
 
 void quiet_text(const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
+  draw_text(text, color::kQuiet);
 }
 
 }  // namespace
@@ -76,7 +68,8 @@ std::string first_sentence(const std::string& markdown) {
 }
 
 StartPage::StartPage(const fs::path& samples, std::function<void()> wake)
-    : samples_(samples_in(samples)), images_({kImageWidth_px, kImageHeight_px}, std::move(wake), project_thumbnail) {}
+    : samples_(samples_in(samples)),
+      images_({kCardImageWidth_px, kCardImageHeight_px}, std::move(wake), project_thumbnail) {}
 
 std::vector<SampleProject> samples_in(const fs::path& folder) {
   std::vector<SampleProject> samples;
@@ -104,20 +97,16 @@ void StartPage::look_for(const std::vector<fs::path>& recent) {
 }
 
 void StartPage::draw_head(const ViewContext& context, const StartPageContent& content) {
-  ImGui::PushFont(font(Font::title));
-  ImGui::TextUnformatted("SIGS");
-  ImGui::PopFont();
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
-  ImGui::TextWrapped("Puts simulated aircraft into real UAV footage, with exact ground truth.");
-  ImGui::PopStyleColor();
+  draw_text("SIGS", color::kText, Font::title);
+  draw_wrapped("Puts simulated aircraft into real UAV footage, with exact ground truth.", color::kQuiet);
   ImGui::Dummy({0, scaled(6)});
-  if (dialog_button("New project", true)) context.edits.ask(ShowNewProject{});
-  context.ui_probe.note_item("start/new");
-  tooltip_for_item("Make a project of a video (Ctrl+N); or drop the video onto this window");
+  if (context.ui_probe.noted(dialog_button("New project", true), "start/new",
+                             "Make a project of a video (Ctrl+N); or drop the video onto this window"))
+    context.edits.ask(ShowNewProject{});
   ImGui::SameLine();
-  if (dialog_button("Open...")) context.edits.ask(OpenProject{});
-  context.ui_probe.note_item("start/open");
-  tooltip_for_item("Open a project file (Ctrl+O); or drop one onto this window");
+  if (context.ui_probe.noted(dialog_button("Open..."), "start/open",
+                             "Open a project file (Ctrl+O); or drop one onto this window"))
+    context.edits.ask(OpenProject{});
   if (content.loading.empty()) return;
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
@@ -133,18 +122,16 @@ void StartPage::draw_abandoned(const ViewContext& context, const StartPageConten
     const bool is_readable = project.problem.empty();
     ImGui::PushID(static_cast<int>(i));
     if (is_readable) {
-      if (dialog_button("Open##recover", true)) choice.recover = project;
-      context.ui_probe.note_item(fmt::format("start/recover.{}", i));
+      if (context.ui_probe.noted(dialog_button("Open##recover", true), fmt::format("start/recover.{}", i)))
+        choice.recover = project;
       ImGui::SameLine();
     }
-    if (dialog_button("Discard##recover")) choice.discard = project;
-    context.ui_probe.note_item(fmt::format("start/discard.{}", i));
+    if (context.ui_probe.noted(dialog_button("Discard##recover"), fmt::format("start/discard.{}", i)))
+      choice.discard = project;
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     const std::string text = is_readable ? text_of(project) : "Cannot be read: " + project.recovery_file.string();
-    ImGui::PushStyleColor(ImGuiCol_Text, is_readable ? color::kText : color::kPartly);
-    ImGui::TextUnformatted(elided(text, ImGui::GetContentRegionAvail().x).c_str());
-    ImGui::PopStyleColor();
+    draw_text(elided(text, ImGui::GetContentRegionAvail().x), is_readable ? color::kText : color::kPartly);
     tooltip_for_item(is_readable ? text.c_str() : (text + "\n" + project.problem).c_str());
     ImGui::PopID();
   }
@@ -152,9 +139,10 @@ void StartPage::draw_abandoned(const ViewContext& context, const StartPageConten
 
 void StartPage::draw_card(const ViewContext& context, const SampleProject& sample, float width, float height) {
   const ImVec2 place = ImGui::GetCursorScreenPos();
-  const float image_height = width * kImageShape;
-  if (ImGui::InvisibleButton(sample.name.c_str(), {width, height})) context.edits.ask(OpenProject{sample.file});
-  context.ui_probe.note_item("start/sample." + sample.name);
+  const float image_height = width * kCardImageShape;
+  if (context.ui_probe.noted(ImGui::InvisibleButton(sample.name.c_str(), {width, height}),
+                             "start/sample." + sample.name))
+    context.edits.ask(OpenProject{sample.file});
   const bool hovered = ImGui::IsItemHovered();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -193,7 +181,7 @@ void StartPage::draw_samples(const ViewContext& context, float width) {
   for (const SampleProject& sample : samples_)
     text = std::max(text, font(Font::small)->CalcTextSizeA(small, FLT_MAX, card - scaled(20), sample.text.c_str()).y);
   const float height =
-      card * kImageShape + scaled(26) + ImGui::GetTextLineHeight() + std::min(text, 4 * small + scaled(6));
+      card * kCardImageShape + scaled(26) + ImGui::GetTextLineHeight() + std::min(text, 4 * small + scaled(6));
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (i % static_cast<std::size_t>(columns) != 0)
       ImGui::SameLine(0, gap);
@@ -214,8 +202,8 @@ void StartPage::draw_recent(const ViewContext& context, float width) {
     if (ImGui::Selectable("##recent", false, is_there ? 0 : ImGuiSelectableFlags_Disabled, {width, height}))
       context.edits.ask(OpenProject{file});
     ImGui::PopID();
-    context.ui_probe.note_item(fmt::format("start/recent.{}", i));
-    tooltip_for_item(is_there ? file.c_str() : (file.string() + " is not there").c_str());
+    context.ui_probe.note_item(fmt::format("start/recent.{}", i),
+                               is_there ? file.c_str() : (file.string() + " is not there").c_str());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 main = is_there ? color::kText : faded(color::kQuiet, 0.6);
     const float y = place.y + scaled(5);

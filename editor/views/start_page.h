@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "editor/document/recovery.h"
+#include "editor/geometry/image_view.h"
 #include "editor/preview/thumbnails.h"
 #include "editor/views/context.h"
 
@@ -16,8 +18,7 @@ namespace sigs::editor {
 // What the page shows beside samples and recent projects; valid for the call.
 struct StartPageContent {
   const std::vector<AbandonedProject>& abandoned;
-  // A project file that is being read; "": none.
-  std::filesystem::path loading;
+  std::filesystem::path loading;  // a project file that is being read; "": none
 };
 
 // What the person wants with an abandoned project, in the update in which it is chosen; everything else goes through
@@ -31,8 +32,7 @@ struct StartPageChoice {
 struct SampleProject {
   std::filesystem::path file;
   std::string name;
-  // The first sentence of the README beside it; "": it has none.
-  std::string text;
+  std::string text;  // the first sentence of the README beside it; "": it has none
 };
 
 // The projects NAME/NAME.json below a folder, by name; other files of that name (recipes of datasets) are none. Empty
@@ -73,5 +73,19 @@ class StartPage {
 // The text's first sentence below its headings, without line breaks and backquotes. A semicolon or colon before a space
 // ends it too, and becomes a full stop.
 [[nodiscard]] std::string first_sentence(const std::string& markdown);
+
+// What a project needs before there is anything to see, in the order in which it is usually chosen: a card over the
+// image, until all of it is there or the person puts the card away. Then where the horizon lies, at the image's
+// lower edge, so that its line can be dragged.
+class FirstSteps {
+ public:
+  // In the middle of `room`, in the current ImGui window.
+  void draw(const ViewContext& context, const ScreenRect& room);
+
+ private:
+  std::uint64_t begun_ = 0;     // the document that had not all of it
+  std::uint64_t shown_ = 0;     // the document whose horizon was shown
+  std::uint64_t put_away_ = 0;  // the document for which it is not wanted
+};
 
 }  // namespace sigs::editor

@@ -8,7 +8,6 @@
 
 #include "base/pose.h"
 #include "editor/document/waypoint_edits.h"
-#include "editor/views/shown_camera.h"
 #include "project/places.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
@@ -61,6 +60,11 @@ std::optional<int> scene_intruder(const ViewContext& context, int in_project) {
   return numbers[index];
 }
 
+std::shared_ptr<const Survey> survey_of(const ViewContext& context, int intruder) {
+  const auto index = static_cast<std::size_t>(intruder);
+  return intruder >= 0 && index < context.shown.surveys.size() ? context.shown.surveys[index] : nullptr;
+}
+
 std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder) {
   return waypoint_frames(plan_of(context, intruder).waypoints, context.document.first_frame(),
                          context.document.last_frame());
@@ -87,10 +91,7 @@ void add_waypoint(const ViewContext& context, int intruder, double frame, const 
 
 void add_waypoint_here(const ViewContext& context, std::optional<glm::dvec3> position_m) {
   const std::optional<int> intruder = current_intruder(context);
-  if (!intruder) {
-    context.edits.ask(ShowMessage{"Add an intruder first: it carries the waypoints.", true});
-    return;
-  }
+  if (!intruder) return context.edits.ask(ShowMessage{"Add an intruder first: it carries the waypoints.", true});
   const int frame = context.document.playhead();
   if (!position_m) position_m = position_of(context, *intruder, frame);
   if (!position_m) position_m = ahead_of_camera(context, frame, 300, 0);

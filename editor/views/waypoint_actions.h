@@ -23,6 +23,8 @@ namespace sigs::editor {
 // The index in the scene of an intruder given by its index in the project; nothing for one without waypoints.
 [[nodiscard]] std::optional<int> scene_intruder(const ViewContext& context, int in_project);
 
+// What is known without rendering of an intruder given by its index in the project; null: nothing yet.
+[[nodiscard]] std::shared_ptr<const Survey> survey_of(const ViewContext& context, int intruder);
 // The moment of each of an intruder's waypoints, in frames of the footage; not whole where frames are spread evenly.
 [[nodiscard]] std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/widgets/dialog.h"
 
-#include <imgui.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -28,6 +27,24 @@ float upper_edge(const char* title, float margin) {
   if (updates < kUpdatesToMeasure) return screen.Pos.y + (screen.Size.y - window->Size.y) / 2;
   return std::max(screen.Pos.y + margin,
                   std::min(window->Pos.y, screen.Pos.y + screen.Size.y - margin - window->Size.y));
+}
+
+SplitterMove splitter(const char* id, ImVec2 size, bool upright) {
+  ImGui::InvisibleButton(id, size);
+  const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  if (hot) {
+    ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    const float inset = scaled(2);
+    const ImVec2 a = upright ? ImVec2(low.x + inset, low.y) : ImVec2(low.x, low.y + inset);
+    const ImVec2 b = upright ? ImVec2(high.x - inset, high.y) : ImVec2(high.x, high.y - inset);
+    ImGui::GetWindowDrawList()->AddRectFilled(a, b, color::kAccentSoft);
+  }
+  SplitterMove move;
+  if (ImGui::IsItemActive()) move.by_px = upright ? ImGui::GetIO().MouseDelta.x : ImGui::GetIO().MouseDelta.y;
+  move.reset = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+  return move;
 }
 
 }  // namespace
@@ -75,13 +92,17 @@ void align_buttons_right(const char* const* labels, int count) {
   if (room > width) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
 }
 
-bool dialog_button(const char* label, bool is_main, bool enabled) {
+float dialog_buttons_height() {
+  return scaled(28) + scaled(6) + 2 * ImGui::GetStyle().ItemSpacing.y;
+}
+
+bool dialog_button(const char* label, bool is_main, bool enabled, float width) {
   ImGui::BeginDisabled(!enabled);
   if (is_main) {
     ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(40, 98, 165, 255));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(52, 118, 194, 255));
   }
-  const bool clicked = ImGui::Button(label, {dialog_button_width(label), scaled(28)});
+  const bool clicked = ImGui::Button(label, {width != 0 ? width : dialog_button_width(label), scaled(28)});
   if (is_main) ImGui::PopStyleColor(2);
   ImGui::EndDisabled();
   return clicked && enabled;
@@ -107,28 +128,6 @@ void close_popup_with_escape() {
   if (uppermost == nullptr || (uppermost->Flags & ImGuiWindowFlags_Modal) != 0) return;
   ImGui::ClosePopupToLevel(open.Size - 1, true);
 }
-
-namespace {
-
-SplitterMove splitter(const char* id, ImVec2 size, bool upright) {
-  ImGui::InvisibleButton(id, size);
-  const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
-  if (hot) {
-    ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
-    const ImVec2 low = ImGui::GetItemRectMin();
-    const ImVec2 high = ImGui::GetItemRectMax();
-    const float inset = scaled(2);
-    const ImVec2 a = upright ? ImVec2(low.x + inset, low.y) : ImVec2(low.x, low.y + inset);
-    const ImVec2 b = upright ? ImVec2(high.x - inset, high.y) : ImVec2(high.x, high.y - inset);
-    ImGui::GetWindowDrawList()->AddRectFilled(a, b, color::kAccentSoft);
-  }
-  SplitterMove move;
-  if (ImGui::IsItemActive()) move.by_px = upright ? ImGui::GetIO().MouseDelta.x : ImGui::GetIO().MouseDelta.y;
-  move.reset = ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-  return move;
-}
-
-}  // namespace
 
 float splitter_thickness() {
   return scaled(6);

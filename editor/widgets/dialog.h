@@ -15,9 +15,11 @@ void end_dialog(bool stays);
 // A row of buttons at the right edge: call it before the row, with the labels of the row.
 void align_buttons_right(const char* const* labels, int count);
 
-// As wide as the widest of a row would like, never smaller than usual.
-[[nodiscard]] bool dialog_button(const char* label, bool is_main = false, bool enabled = true);
+// width: in screen pixels; -1: all that there is, 0: as its label needs, never smaller than usual.
+[[nodiscard]] bool dialog_button(const char* label, bool is_main = false, bool enabled = true, float width = 0);
 [[nodiscard]] float dialog_button_width(const char* label);
+// Of a row of buttons, with the room above it.
+[[nodiscard]] float dialog_buttons_height();
 
 // Begins a row of a table of two columns: a label with its tooltip in the first; the setting comes into the second.
 void begin_setting(const char* label, const char* help = "");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/widgets/file_browser.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -138,10 +136,7 @@ void FileBrowser::answer_with(const fs::path& path) {
 void FileBrowser::answer_by_name() {
   fs::path path = folder_ / name_;
   if (name_.empty() || !path.has_filename()) return;
-  if (is_folder(path)) {
-    enter(path.lexically_normal());
-    return;
-  }
+  if (is_folder(path)) return enter(path.lexically_normal());
   if (!path.has_extension() && !question_.extensions.empty()) path += question_.extensions.front();
   if (!is_folder(path.parent_path())) {
     problem_ = "there is no folder " + path.parent_path().string();
@@ -222,7 +217,7 @@ void FileBrowser::handle_keys() {
   if (pressed(Key::home)) select(0), scroll_to_selected_ = true;
   if (pressed(Key::end)) select(static_cast<int>(shown_.size()) - 1), scroll_to_selected_ = true;
   if (pressed(Key::backspace, true)) go_up();
-  if (pressed(Key::enter) || pressed(Key::keypad_enter)) activate(selected_);
+  if (enter_pressed()) activate(selected_);
   handle_typed();
 }
 

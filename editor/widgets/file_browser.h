@@ -1,15 +1,73 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "editor/widgets/folder_listing.h"
 #include "editor/widgets/ui_probe.h"
 
 namespace sigs::editor {
+
+// A file or folder in a folder. What cannot be asked for (a link that leads nowhere) has neither size nor time.
+struct FolderEntry {
+  std::string name;
+  bool is_folder = false;
+  // 0 for folders.
+  std::uintmax_t bytes = 0;
+  std::filesystem::file_time_type changed;
+};
+
+// What a folder holds.
+struct FolderListing {
+  std::filesystem::path folder;
+  std::vector<FolderEntry> entries;  // in no order, hidden ones too
+  std::string problem;               // not empty: why it cannot be read, or not to its end
+};
+// Asks the file system, which may take long; never fails otherwise than by `problem`.
+[[nodiscard]] FolderListing listing_of(const std::filesystem::path& folder);
+
+enum class SortBy { name, changed, size };
+
+struct ListingOrder {
+  SortBy by = SortBy::name;
+  bool descending = false;
+
+  [[nodiscard]] bool operator==(const ListingOrder&) const = default;
+};
+
+// What a file browser shows: folders first, entries of equal rank by name as people order them ("clip 9" before "clip
+// 10"), hidden ones left out.
+//   extensions  ".json", in any case; empty: all files. Folders are not filtered
+[[nodiscard]] std::vector<FolderEntry> shown_entries(const FolderListing& listing,
+                                                     const std::vector<std::string>& extensions, ListingOrder order);
+
+// -1, 0, 1; runs of digits count as numbers, letters in any case as equal. 0 only for equal texts.
+[[nodiscard]] int natural_order(const std::string& a, const std::string& b);
+
+// "812 B", "1.4 MB": decimal units.
+[[nodiscard]] std::string size_text(std::uintmax_t bytes);
+// "2024-05-17 09:30", local time; "" for the default value.
+[[nodiscard]] std::string time_text(std::filesystem::file_time_type time);
+
+// Reads a folder on a thread of its own; a disk that does not answer holds nobody up. For the window's thread.
+class FolderReader {
+ public:
+  // Begins to read; what is being read for an earlier call is dropped. Waits up to 40 ms, so that the listing of a
+  // quick disk is there at once.
+  void read(const std::filesystem::path& folder);
+  // Also takes over a listing that has arrived: ask it before listing().
+  [[nodiscard]] bool is_reading();
+  // The newest that was read; empty before that.
+  [[nodiscard]] const FolderListing& listing() const { return listing_; }
+
+ private:
+  std::future<FolderListing> coming_;  // from the thread, which may outlive the reader
+  FolderListing listing_;
+};
 
 // What the answer is: a file that is there, a file that need not be there, or a folder.
 enum class FileDialogMode { to_open, to_save, folder };
@@ -94,8 +152,7 @@ class FileBrowser {
   UiProbe* ui_probe_ = nullptr;
   std::vector<BrowserPlace> places_;
   bool open_ = false;
-  // Given in this update, to be returned by draw().
-  std::optional<std::filesystem::path> answer_;
+  std::optional<std::filesystem::path> answer_;  // given in this update, to be returned by draw()
 
   // The folder that is shown, while reading_ still without its entries.
   std::filesystem::path folder_;
@@ -103,8 +160,7 @@ class FileBrowser {
   bool reading_ = false;
   std::vector<FolderEntry> shown_;
   ListingOrder order_;
-  // The filter by extension is switched off.
-  bool all_files_ = false;
+  bool all_files_ = false;  // the filter by extension is switched off
   // Index into shown_; -1: none.
   int selected_ = -1;
   bool scroll_to_selected_ = false;
@@ -114,8 +170,7 @@ class FileBrowser {
   // Of the file to save, as typed.
   std::string name_;
   bool focus_name_ = false;
-  // Why the last try to answer or to make a folder failed; "": it did not.
-  std::string problem_;
+  std::string problem_;  // why the last try to answer or to make a folder failed; "": it did not
 
   // The bar of folders is a text field at the moment, with this text.
   bool editing_path_ = false;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 
@@ -214,9 +213,7 @@ void FileBrowser::draw_list(float height) {
 }
 
 void FileBrowser::draw_bottom() {
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
-  ImGui::TextUnformatted(elided(problem_, ImGui::GetContentRegionAvail().x).c_str());
-  ImGui::PopStyleColor();
+  draw_text(elided(problem_, ImGui::GetContentRegionAvail().x), color::kBad);
   if (bottom_ == Bottom::overwrite)
     draw_overwrite();
   else if (bottom_ == Bottom::new_folder)
@@ -263,22 +260,19 @@ void FileBrowser::draw_answer() {
 
   const char* main = saving ? "Save" : (of_folder ? "Choose" : "Open");
   if (saving || of_folder) {
-    if (dialog_button("New folder")) {
+    if (ui_probe_->noted(dialog_button("New folder"), "browser/new folder")) {
       bottom_ = Bottom::new_folder;
       new_folder_.clear();
       focus_bottom_ = true;
     }
-    ui_probe_->note_item("browser/new folder");
     ImGui::SameLine();
   }
   const char* const labels[] = {"Cancel", main};
   align_buttons_right(labels, 2);
-  if (dialog_button("Cancel")) open_ = false;
-  ui_probe_->note_item("browser/cancel");
+  if (ui_probe_->noted(dialog_button("Cancel"), "browser/cancel")) open_ = false;
   ImGui::SameLine();
   const bool can = saving ? !name_.empty() : of_folder || selected_ >= 0;
-  const bool clicked = dialog_button(main, true, can);
-  ui_probe_->note_item("browser/answer");
+  const bool clicked = ui_probe_->noted(dialog_button(main, true, can), "browser/answer");
   if (clicked || entered) {
     if (saving)
       answer_by_name();
@@ -296,8 +290,7 @@ void FileBrowser::draw_overwrite() {
   align_buttons_right(labels, 2);
   if (dialog_button("Back")) bottom_ = Bottom::answer;
   ImGui::SameLine();
-  const bool clicked = dialog_button("Replace", true);
-  ui_probe_->note_item("browser/replace");
+  const bool clicked = ui_probe_->noted(dialog_button("Replace", true), "browser/replace");
   if (clicked) answer_by_name();
 }
 

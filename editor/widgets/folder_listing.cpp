@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/widgets/folder_listing.h"
+#include "editor/widgets/file_browser.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,8 @@
 #include <array>
 #include <cctype>
 #include <chrono>
-#include <condition_variable>
 #include <ctime>
-#include <mutex>
-#include <optional>
+#include <memory>
 #include <utility>
 
 #include "base/paths.h"
@@ -47,8 +45,7 @@ int sign_of(const Value& a, const Value& b) {
 bool has_extension(const std::string& name, const std::vector<std::string>& extensions) {
   if (extensions.empty()) return true;
   const std::string extension = lower_extension(name);
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const std::string& wanted) { return lower_case(wanted) == extension; });
+  return std::ranges::any_of(extensions, [&](const std::string& wanted) { return lower_case(wanted) == extension; });
 }
 
 int compared(const FolderEntry& a, const FolderEntry& b, SortBy by) {
@@ -101,7 +98,7 @@ std::vector<FolderEntry> shown_entries(const FolderListing& listing, const std::
   for (const FolderEntry& entry : listing.entries)
     if (!entry.name.starts_with(".") && (entry.is_folder || has_extension(entry.name, extensions)))
       shown.push_back(entry);
-  std::sort(shown.begin(), shown.end(), [order](const FolderEntry& a, const FolderEntry& b) {
+  std::ranges::sort(shown, [order](const FolderEntry& a, const FolderEntry& b) {
     if (a.is_folder != b.is_folder) return a.is_folder;
     const int by_key = compared(a, b, order.by) * (order.descending ? -1 : 1);
     return by_key != 0 ? by_key < 0 : natural_order(a.name, b.name) < 0;
@@ -128,34 +125,21 @@ std::string time_text(fs::file_time_type time) {
   return text.data();
 }
 
-// Shared with the reading thread, which may outlive the reader.
-struct FolderReader::Pending {
-  std::mutex mutex;
-  std::condition_variable done;
-  std::optional<FolderListing> listing;
-};
-
 void FolderReader::read(const fs::path& folder) {
-  pending_ = std::make_shared<Pending>();
-  const auto read_it = [pending = pending_, folder] {
+  const auto promise = std::make_shared<std::promise<FolderListing>>();
+  coming_ = promise->get_future();
+  run_in_background([promise, folder] {
     Result<FolderListing> listing = guarded([&]() -> Result<FolderListing> { return listing_of(folder); });
-    const std::lock_guard lock(pending->mutex);
-    pending->listing =
-        listing ? std::move(*listing) : FolderListing{.folder = folder, .problem = listing.error().text()};
-    pending->done.notify_all();
-  };
-  run_in_background(read_it);
-  std::unique_lock lock(pending_->mutex);
-  pending_->done.wait_for(lock, std::chrono::milliseconds(40), [this] { return pending_->listing.has_value(); });
+    promise->set_value(listing ? std::move(*listing)
+                               : FolderListing{.folder = folder, .problem = listing.error().text()});
+  });
+  coming_.wait_for(std::chrono::milliseconds(40));
 }
 
 bool FolderReader::is_reading() {
-  const std::shared_ptr<Pending> pending = pending_;
-  if (!pending) return false;
-  const std::lock_guard lock(pending->mutex);
-  if (!pending->listing) return true;
-  listing_ = std::move(*pending->listing);
-  pending_.reset();
+  if (!coming_.valid()) return false;
+  if (coming_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return true;
+  listing_ = coming_.get();
   return false;
 }
 

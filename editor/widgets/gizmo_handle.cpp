@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "editor/widgets/gizmo_handle.h"
 
-#include <imgui.h>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <utility>
 
 #include "editor/widgets/keys.h"
-#include "editor/widgets/screen_vec.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -20,7 +16,6 @@ namespace {
 constexpr double kArrow_px = 78;  // where the text is 15 px high
 constexpr std::array<GizmoPart, 3> kArrows{GizmoPart::x, GizmoPart::y, GizmoPart::z};
 constexpr std::array<GizmoPart, 3> kPlanes{GizmoPart::xy, GizmoPart::yz, GizmoPart::zx};
-constexpr std::array<ImU32, 3> kArrowColors{color::kAxisX, color::kAxisY, color::kAxisZ};
 constexpr std::array<ImU32, 3> kPlaneColors{color::kAxisZ, color::kAxisX, color::kAxisY};  // of the axis they leave out
 constexpr std::array<const char*, 3> kNames{"X", "Y", "Z"};
 
@@ -50,6 +45,24 @@ void draw_arrow(ImDrawList& list, const glm::dvec2& from, const glm::dvec2& tip,
 void draw_plane(ImDrawList& list, const std::array<glm::dvec2, 4>& quad, ImU32 color, bool hot) {
   list.AddQuadFilled(im(quad[0]), im(quad[1]), im(quad[2]), im(quad[3]), faded(color, hot ? 0.75 : 0.35));
   list.AddQuad(im(quad[0]), im(quad[1]), im(quad[2]), im(quad[3]), faded(color, hot ? 1 : 0.8), 1);
+}
+
+constexpr const char* kId = "point entry";
+constexpr double kMaxCoordinate_m = 1e8;
+
+struct Row {
+  const char* id;
+  const char* name;
+  const char* meaning;
+  ImU32 color;
+};
+constexpr std::array<Row, 3> kRows{{{"##x", "X", "forward", color::kAxisX},
+                                    {"##y", "Y", "right", color::kAxisY},
+                                    {"##z", "Z", "down", color::kAxisZ}}};
+
+// What a person may type that is no place: an overflow, 1e400.
+bool is_a_place(const glm::dvec3& p_m) {
+  return std::isfinite(p_m.x) && std::isfinite(p_m.y) && std::isfinite(p_m.z);
 }
 
 }  // namespace
@@ -99,7 +112,7 @@ void GizmoHandle::draw(ImDrawList& list, const glm::dvec3& at_m, const GizmoInpu
     if (shape->planes[i]) draw_plane(list, *shape->planes[i], kPlaneColors[i], hot(kPlanes[i]));
   for (std::size_t i = 0; i < 3; ++i)
     if (shape->tips[i])
-      draw_arrow(list, shape->center, *shape->tips[i], hot(kArrows[i]) ? color::kWaypoint : kArrowColors[i], kNames[i]);
+      draw_arrow(list, shape->center, *shape->tips[i], hot(kArrows[i]) ? color::kWaypoint : color::kAxes[i], kNames[i]);
   list.AddCircleFilled(im(shape->center), scaled(hot(GizmoPart::screen) ? 7.5 : 6), IM_COL32(0, 0, 0, 130));
   list.AddCircle(im(shape->center), scaled(hot(GizmoPart::screen) ? 7.5 : 6), color::kWaypoint, 0, scaled(1.8));
 }
@@ -138,32 +151,6 @@ void GizmoHandle::probe_places(UiProbe& ui_probe, const glm::dvec3& at_m, const 
   note("middle", shape->center);
 }
 
-namespace {
-
-constexpr const char* kId = "point entry";
-constexpr double kMaxCoordinate_m = 1e8;
-
-struct Row {
-  const char* id;
-  const char* name;
-  const char* meaning;
-  ImU32 color;
-};
-constexpr std::array<Row, 3> kRows{{{"##x", "X", "forward", color::kAxisX},
-                                    {"##y", "Y", "right", color::kAxisY},
-                                    {"##z", "Z", "down", color::kAxisZ}}};
-
-bool enter_pressed() {
-  return pressed(Key::enter) || pressed(Key::keypad_enter);
-}
-
-// What a person may type that is no place: an overflow, 1e400.
-bool is_a_place(const glm::dvec3& p_m) {
-  return std::isfinite(p_m.x) && std::isfinite(p_m.y) && std::isfinite(p_m.z);
-}
-
-}  // namespace
-
 void PointEntry::open(std::string title, const glm::dvec3& point_m) {
   title_ = std::move(title);
   point_m_ = point_m;
@@ -171,9 +158,7 @@ void PointEntry::open(std::string title, const glm::dvec3& point_m) {
 }
 
 void PointEntry::draw_fields() {
-  ImGui::PushFont(font(Font::bold));
-  ImGui::TextUnformatted(title_.c_str());
-  ImGui::PopFont();
+  draw_text(title_, color::kText, Font::bold);
   for (int i = 0; i < 3; ++i) {
     const Row& row = kRows[static_cast<std::size_t>(i)];
     ImGui::AlignTextToFramePadding();

@@ -16,26 +16,20 @@ namespace sigs::editor {
 // Where a handle is looked at from in this update. The camera has to outlive it.
 struct GizmoInput {
   const OrbitCamera& camera;
-  // Of the view on the screen.
-  ScreenRect rect;
+  ScreenRect rect;  // of the view on the screen
   // The mouse is over the canvas and nothing else has it. A drag goes on without it.
   bool mouse_is_free = false;
-  // > 0: coordinates are rounded to multiples of it while dragging.
-  double snap_m = 0;
+  double snap_m = 0;  // > 0: coordinates are rounded to multiples of it while dragging
 };
 
 // What the mouse did to the handle in this update.
 struct GizmoResult {
   // In the world: where the point is to be, while it is dragged and once the mouse has gone 3 px.
   std::optional<glm::dvec3> moved_to;
-  // The drag is over; moved_to of the same update still counts.
-  bool released = false;
-  // By Esc: the point is to be where it was (start_m()).
-  bool cancelled = false;
-  // A double click on an arrow or a plane: the point is to be typed.
-  bool wants_numbers = false;
-  // A double click on the middle.
-  bool wants_middle = false;
+  bool released = false;       // the drag is over; moved_to of the same update still counts
+  bool cancelled = false;      // by Esc: the point is to be where it was (start_m())
+  bool wants_numbers = false;  // a double click on an arrow or a plane: the point is to be typed
+  bool wants_middle = false;   // a double click on the middle
 };
 
 // The handle of a point on the screen: three arrows along the world's axes, three planes, and the middle, which moves

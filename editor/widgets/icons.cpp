@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
@@ -15,333 +17,201 @@ namespace sigs::editor {
 
 namespace {
 
-// Draws in a square from -1 to 1, y down.
-class IconPen {
- public:
-  IconPen(ImDrawList& list, ImVec2 center, float size, ImU32 color);
+using Points = std::vector<ImVec2>;
 
-  void line(std::initializer_list<ImVec2> points, bool closed = false);
-  void fill(std::initializer_list<ImVec2> corners);  // convex
-  void box(ImVec2 low, ImVec2 high, float rounding = 0);
-  void filled_box(ImVec2 low, ImVec2 high);
-  void circle(ImVec2 center, float radius);
-  void dot(ImVec2 center, float radius);
-  void arc(ImVec2 center, float radius, float from_rad, float to_rad);  // from the right, clockwise
-
- private:
-  [[nodiscard]] ImVec2 at(ImVec2 p) const { return {center_.x + p.x * half_, center_.y + p.y * half_}; }
-
-  ImDrawList& list_;
-  ImVec2 center_;
-  float half_;
-  float stroke_;
-  ImU32 color_;
+// A part of an icon, in a square from -1 to 1, y down.
+struct Stroke {
+  enum class Kind { line, closed_line, corners, fill, box, filled_box, circle, dot, arc };
+  Kind kind = Kind::line;
+  Points points;           // of a box two opposite corners, of circles and arcs the centre
+  float radius = 0;        // of a box that of its corners
+  float from = 0, to = 0;  // of an arc in radians, from the right, clockwise
 };
 
-IconPen::IconPen(ImDrawList& list, ImVec2 center, float size, ImU32 color)
-    : list_(list), center_(center), half_(size * 0.42F), stroke_(std::max(1.0F, size * 0.085F)), color_(color) {}
-
-void IconPen::line(std::initializer_list<ImVec2> points, bool closed) {
-  for (const ImVec2 point : points) list_.PathLineTo(at(point));
-  list_.PathStroke(color_, closed ? ImDrawFlags_Closed : ImDrawFlags_None, stroke_);
+Stroke line(Points points, bool closed = false) {
+  return {closed ? Stroke::Kind::closed_line : Stroke::Kind::line, std::move(points)};
+}
+// A line in the quarter right and below, and its mirror images in the other three.
+Stroke corners(Points points) {
+  return {Stroke::Kind::corners, std::move(points)};
+}
+Stroke fill(Points convex) {
+  return {Stroke::Kind::fill, std::move(convex)};
+}
+Stroke box(ImVec2 low, ImVec2 high, float rounding = 0) {
+  return {Stroke::Kind::box, {low, high}, rounding};
+}
+Stroke filled_box(ImVec2 low, ImVec2 high) {
+  return {Stroke::Kind::filled_box, {low, high}};
+}
+Stroke circle(ImVec2 center, float radius) {
+  return {Stroke::Kind::circle, {center}, radius};
+}
+Stroke dot(ImVec2 center, float radius) {
+  return {Stroke::Kind::dot, {center}, radius};
+}
+Stroke arc(ImVec2 center, float radius, float from_rad, float to_rad) {
+  return {Stroke::Kind::arc, {center}, radius, from_rad, to_rad};
 }
 
-void IconPen::fill(std::initializer_list<ImVec2> corners) {
-  for (const ImVec2 corner : corners) list_.PathLineTo(at(corner));
-  list_.PathFillConvex(color_);
+const std::vector<Stroke>& strokes_of(Icon icon) {
+  static const std::map<Icon, std::vector<Stroke>> kStrokes{
+      {Icon::play, {fill({{-0.6F, -0.85F}, {0.85F, 0}, {-0.6F, 0.85F}})}},
+      {Icon::pause, {filled_box({-0.65F, -0.8F}, {-0.2F, 0.8F}), filled_box({0.2F, -0.8F}, {0.65F, 0.8F})}},
+      {Icon::back, {fill({{0.1F, -0.75F}, {0.1F, 0.75F}, {-0.85F, 0}}), filled_box({0.4F, -0.7F}, {0.68F, 0.7F})}},
+      {Icon::forward,
+       {fill({{-0.1F, -0.75F}, {0.85F, 0}, {-0.1F, 0.75F}}), filled_box({-0.68F, -0.7F}, {-0.4F, 0.7F})}},
+      {Icon::to_start,
+       {filled_box({-0.85F, -0.75F}, {-0.6F, 0.75F}), fill({{0.15F, -0.7F}, {0.15F, 0.7F}, {-0.55F, 0}}),
+        fill({{0.85F, -0.7F}, {0.85F, 0.7F}, {0.15F, 0}})}},
+      {Icon::to_end,
+       {filled_box({0.6F, -0.75F}, {0.85F, 0.75F}), fill({{-0.15F, -0.7F}, {0.55F, 0}, {-0.15F, 0.7F}}),
+        fill({{-0.85F, -0.7F}, {-0.15F, 0}, {-0.85F, 0.7F}})}},
+      {Icon::loop,
+       {arc({0, 0}, 0.75F, 3.5F, 5.9F), arc({0, 0}, 0.75F, 0.36F, 2.76F),
+        fill({{0.95F, -0.75F}, {0.98F, -0.08F}, {0.35F, -0.2F}}),
+        fill({{-0.95F, 0.75F}, {-0.98F, 0.08F}, {-0.35F, 0.2F}})}},
+      {Icon::plus, {line({{-0.8F, 0}, {0.8F, 0}}), line({{0, -0.8F}, {0, 0.8F}})}},
+      {Icon::trash,
+       {line({{-0.85F, -0.55F}, {0.85F, -0.55F}}), line({{-0.3F, -0.6F}, {-0.3F, -0.9F}, {0.3F, -0.9F}, {0.3F, -0.6F}}),
+        line({{-0.62F, -0.5F}, {-0.5F, 0.9F}, {0.5F, 0.9F}, {0.62F, -0.5F}}), line({{-0.17F, -0.15F}, {-0.15F, 0.55F}}),
+        line({{0.17F, -0.15F}, {0.15F, 0.55F}})}},
+      {Icon::copy,
+       {box({-0.35F, -0.35F}, {0.85F, 0.85F}, 0.15F),
+        line({{-0.4F, 0.35F}, {-0.85F, 0.35F}, {-0.85F, -0.85F}, {0.35F, -0.85F}, {0.35F, -0.4F}})}},
+      {Icon::folder,
+       {line({{-0.9F, 0.7F}, {-0.9F, -0.65F}, {-0.25F, -0.65F}, {0, -0.35F}, {0.9F, -0.35F}, {0.9F, 0.7F}}, true)}},
+      {Icon::file,
+       {line({{-0.65F, -0.9F}, {0.2F, -0.9F}, {0.65F, -0.45F}, {0.65F, 0.9F}, {-0.65F, 0.9F}}, true),
+        line({{0.2F, -0.85F}, {0.2F, -0.45F}, {0.6F, -0.45F}})}},
+      {Icon::warning,
+       {line({{0, -0.85F}, {0.95F, 0.8F}, {-0.95F, 0.8F}}, true), line({{0, -0.3F}, {0, 0.25F}}),
+        dot({0, 0.53F}, 0.1F)}},
+      {Icon::info, {circle({0, 0}, 0.9F), line({{0, -0.1F}, {0, 0.5F}}), dot({0, -0.42F}, 0.1F)}},
+      {Icon::check, {line({{-0.8F, 0.05F}, {-0.25F, 0.6F}, {0.8F, -0.6F}})}},
+      {Icon::cross, {line({{-0.65F, -0.65F}, {0.65F, 0.65F}}), line({{-0.65F, 0.65F}, {0.65F, -0.65F}})}},
+      {Icon::reset, {arc({0, 0.05F}, 0.75F, -2.3F, 2.5F), fill({{-0.8F, -0.85F}, {-0.2F, -0.2F}, {-0.88F, -0.15F}})}},
+      {Icon::search, {circle({-0.2F, -0.2F}, 0.6F), line({{0.25F, 0.25F}, {0.9F, 0.9F}})}},
+      {Icon::settings,
+       {line({{-0.9F, -0.6F}, {0.9F, -0.6F}}), line({{-0.9F, 0}, {0.9F, 0}}), line({{-0.9F, 0.6F}, {0.9F, 0.6F}}),
+        dot({0.35F, -0.6F}, 0.24F), dot({-0.4F, 0}, 0.24F), dot({0.1F, 0.6F}, 0.24F)}},
+      {Icon::fit, {corners({{0.35F, 0.85F}, {0.85F, 0.85F}, {0.85F, 0.35F}})}},
+      {Icon::aircraft,
+       {fill({{-0.13F, 0.75F}, {-0.13F, -0.75F}, {0, -0.98F}, {0.13F, -0.75F}, {0.13F, 0.75F}}),
+        fill({{-0.1F, -0.35F}, {-0.1F, 0.1F}, {-0.95F, 0.35F}, {-0.95F, 0.12F}}),
+        fill({{0.1F, -0.35F}, {0.95F, 0.12F}, {0.95F, 0.35F}, {0.1F, 0.1F}}),
+        fill({{0, 0.5F}, {0.45F, 0.85F}, {-0.45F, 0.85F}})}},
+      {Icon::mark_in, {line({{0.35F, -0.8F}, {-0.25F, -0.8F}, {-0.25F, 0.8F}, {0.35F, 0.8F}})}},
+      {Icon::mark_out, {line({{-0.35F, -0.8F}, {0.25F, -0.8F}, {0.25F, 0.8F}, {-0.35F, 0.8F}})}},
+      {Icon::chevron_left, {line({{0.35F, -0.7F}, {-0.35F, 0}, {0.35F, 0.7F}})}},
+      {Icon::box, {corners({{0.75F, 0.2F}, {0.75F, 0.6F}, {0.3F, 0.6F}})}},
+      {Icon::path, {line({{-0.8F, 0.55F}, {-0.35F, -0.1F}, {0, -0.25F}, {0.35F, -0.15F}, {0.8F, -0.55F}})}},
+      {Icon::waypoints, {fill({{0, -0.55F}, {0.5F, 0}, {0, 0.55F}, {-0.5F, 0}})}},
+      {Icon::horizon, {line({{-0.85F, 0.25F}, {0.85F, 0.25F}}), arc({0, 0.25F}, 0.45F, 3.1415927F, 6.2831853F)}},
+      {Icon::own_body,
+       {box({-0.8F, -0.65F}, {0.8F, 0.65F}), fill({{-0.8F, 0.65F}, {-0.2F, 0.1F}, {0.2F, 0.1F}, {0.8F, 0.65F}})}},
+      {Icon::grid,
+       {line({{-0.27F, -0.75F}, {-0.27F, 0.75F}}), line({{-0.75F, -0.27F}, {0.75F, -0.27F}}),
+        line({{0.27F, -0.75F}, {0.27F, 0.75F}}), line({{-0.75F, 0.27F}, {0.75F, 0.27F}})}},
+      {Icon::wipe,
+       {box({-0.75F, -0.55F}, {0.75F, 0.55F}), filled_box({-0.75F, -0.55F}, {0, 0.55F}),
+        line({{0, -0.85F}, {0, 0.85F}})}},
+      {Icon::fit_contents, {corners({{0.75F, 0.25F}, {0.75F, 0.65F}, {0.3F, 0.65F}}), dot({0, 0}, 0.16F)}},
+      {Icon::target,
+       {circle({0, 0}, 0.5F), line({{-0.85F, 0}, {-0.3F, 0}}), line({{0.3F, 0}, {0.85F, 0}}),
+        line({{0, -0.85F}, {0, -0.3F}}), line({{0, 0.3F}, {0, 0.85F}})}},
+      {Icon::brush,
+       {line({{0.7F, -0.75F}, {-0.15F, 0.15F}}),
+        fill({{-0.35F, 0}, {0, 0.35F}, {-0.3F, 0.7F}, {-0.8F, 0.75F}, {-0.65F, 0.3F}})}},
+      {Icon::eraser,
+       {line({{-0.1F, 0.65F}, {-0.75F, 0.05F}, {0.15F, -0.7F}, {0.75F, -0.1F}, {-0.1F, 0.65F}, {0.75F, 0.65F}}),
+        line({{-0.3F, -0.3F}, {0.35F, 0.25F}})}},
+      {Icon::undo,
+       {line({{-0.7F, -0.2F},
+              {0.2F, -0.2F},
+              {0.55F, -0.05F},
+              {0.7F, 0.25F},
+              {0.55F, 0.55F},
+              {0.2F, 0.7F},
+              {-0.25F, 0.7F}}),
+        line({{-0.3F, -0.6F}, {-0.7F, -0.2F}, {-0.3F, 0.2F}})}},
+      {Icon::redo,
+       {line({{0.7F, -0.2F},
+              {-0.2F, -0.2F},
+              {-0.55F, -0.05F},
+              {-0.7F, 0.25F},
+              {-0.55F, 0.55F},
+              {-0.2F, 0.7F},
+              {0.25F, 0.7F}}),
+        line({{0.3F, -0.6F}, {0.7F, -0.2F}, {0.3F, 0.2F}})}},
+      {Icon::orbit,
+       {line({{0, -0.85F}, {0.75F, -0.45F}, {0.75F, 0.45F}, {0, 0.85F}, {-0.75F, 0.45F}, {-0.75F, -0.45F}}, true),
+        line({{-0.75F, -0.45F}, {0, -0.05F}, {0.75F, -0.45F}}), line({{0, -0.05F}, {0, 0.85F}})}},
+      {Icon::view_from_top,
+       {box({-0.7F, -0.1F}, {0.7F, 0.85F}), line({{0, -0.95F}, {0, -0.35F}}),
+        line({{-0.28F, -0.6F}, {0, -0.3F}, {0.28F, -0.6F}})}},
+      {Icon::view_from_side,
+       {box({0.0F, -0.7F}, {0.9F, 0.7F}), line({{-0.95F, 0}, {-0.3F, 0}}),
+        line({{-0.55F, -0.28F}, {-0.25F, 0}, {-0.55F, 0.28F}})}},
+      {Icon::camera,
+       {box({-0.9F, -0.5F}, {0.3F, 0.5F}, 0.2F), line({{0.3F, -0.1F}, {0.9F, -0.5F}, {0.9F, 0.5F}, {0.3F, 0.1F}})}},
+      {Icon::perspective,
+       {line({{-0.35F, -0.7F}, {0.35F, -0.7F}, {0.9F, 0.7F}, {-0.9F, 0.7F}}, true), line({{0, -0.7F}, {0, 0.7F}}),
+        line({{-0.55F, -0.15F}, {0.55F, -0.15F}})}},
+      {Icon::snap,
+       {line({{-0.65F, -0.8F}, {-0.65F, 0.1F}, {-0.4F, 0.6F}, {0, 0.8F}, {0.4F, 0.6F}, {0.65F, 0.1F}, {0.65F, -0.8F}}),
+        line({{-0.85F, -0.45F}, {-0.45F, -0.45F}}), line({{0.45F, -0.45F}, {0.85F, -0.45F}})}},
+      {Icon::cylinder,
+       {line({{-0.8F, -0.45F}, {-0.4F, -0.7F}, {0.4F, -0.7F}, {0.8F, -0.45F}, {0.4F, -0.2F}, {-0.4F, -0.2F}}, true),
+        line({{-0.8F, -0.45F}, {-0.8F, 0.5F}, {-0.4F, 0.75F}, {0.4F, 0.75F}, {0.8F, 0.5F}, {0.8F, -0.45F}})}},
+      {Icon::more, {dot({-0.714F, 0}, 0.214F), dot({0, 0}, 0.214F), dot({0.714F, 0}, 0.214F)}},
+  };
+  return kStrokes.at(icon);
 }
 
-void IconPen::box(ImVec2 low, ImVec2 high, float rounding) {
-  list_.AddRect(at(low), at(high), color_, rounding * half_, ImDrawFlags_None, stroke_);
-}
+// Puts strokes onto the screen: an icon's square there, and how wide its lines are.
+struct IconPen {
+  ImDrawList& list;
+  ImVec2 center;
+  float half = 0;
+  float width = 1;
+  ImU32 color = 0;
 
-void IconPen::filled_box(ImVec2 low, ImVec2 high) {
-  list_.AddRectFilled(at(low), at(high), color_);
-}
-
-void IconPen::circle(ImVec2 center, float radius) {
-  list_.AddCircle(at(center), radius * half_, color_, 0, stroke_);
-}
-
-void IconPen::dot(ImVec2 center, float radius) {
-  list_.AddCircleFilled(at(center), std::max(stroke_ * 0.7F, radius * half_), color_);
-}
-
-void IconPen::arc(ImVec2 center, float radius, float from_rad, float to_rad) {
-  list_.PathArcTo(at(center), radius * half_, from_rad, to_rad, 14);
-  list_.PathStroke(color_, ImDrawFlags_None, stroke_);
-}
-
-void play(IconPen& pen) {
-  pen.fill({{-0.6F, -0.85F}, {0.85F, 0}, {-0.6F, 0.85F}});
-}
-
-void pause(IconPen& pen) {
-  pen.filled_box({-0.65F, -0.8F}, {-0.2F, 0.8F});
-  pen.filled_box({0.2F, -0.8F}, {0.65F, 0.8F});
-}
-
-void back(IconPen& pen) {
-  pen.fill({{0.1F, -0.75F}, {0.1F, 0.75F}, {-0.85F, 0}});
-  pen.filled_box({0.4F, -0.7F}, {0.68F, 0.7F});
-}
-
-void forward(IconPen& pen) {
-  pen.fill({{-0.1F, -0.75F}, {0.85F, 0}, {-0.1F, 0.75F}});
-  pen.filled_box({-0.68F, -0.7F}, {-0.4F, 0.7F});
-}
-
-void to_start(IconPen& pen) {
-  pen.filled_box({-0.85F, -0.75F}, {-0.6F, 0.75F});
-  pen.fill({{0.15F, -0.7F}, {0.15F, 0.7F}, {-0.55F, 0}});
-  pen.fill({{0.85F, -0.7F}, {0.85F, 0.7F}, {0.15F, 0}});
-}
-
-void to_end(IconPen& pen) {
-  pen.filled_box({0.6F, -0.75F}, {0.85F, 0.75F});
-  pen.fill({{-0.15F, -0.7F}, {0.55F, 0}, {-0.15F, 0.7F}});
-  pen.fill({{-0.85F, -0.7F}, {-0.15F, 0}, {-0.85F, 0.7F}});
-}
-
-void loop(IconPen& pen) {
-  pen.arc({0, 0}, 0.75F, 3.5F, 5.9F);
-  pen.arc({0, 0}, 0.75F, 0.36F, 2.76F);
-  pen.fill({{0.95F, -0.75F}, {0.98F, -0.08F}, {0.35F, -0.2F}});
-  pen.fill({{-0.95F, 0.75F}, {-0.98F, 0.08F}, {-0.35F, 0.2F}});
-}
-
-void plus(IconPen& pen) {
-  pen.line({{-0.8F, 0}, {0.8F, 0}});
-  pen.line({{0, -0.8F}, {0, 0.8F}});
-}
-
-void trash(IconPen& pen) {
-  pen.line({{-0.85F, -0.55F}, {0.85F, -0.55F}});
-  pen.line({{-0.3F, -0.6F}, {-0.3F, -0.9F}, {0.3F, -0.9F}, {0.3F, -0.6F}});
-  pen.line({{-0.62F, -0.5F}, {-0.5F, 0.9F}, {0.5F, 0.9F}, {0.62F, -0.5F}});
-  pen.line({{-0.17F, -0.15F}, {-0.15F, 0.55F}});
-  pen.line({{0.17F, -0.15F}, {0.15F, 0.55F}});
-}
-
-void copy(IconPen& pen) {
-  pen.box({-0.35F, -0.35F}, {0.85F, 0.85F}, 0.15F);
-  pen.line({{-0.4F, 0.35F}, {-0.85F, 0.35F}, {-0.85F, -0.85F}, {0.35F, -0.85F}, {0.35F, -0.4F}});
-}
-
-void folder(IconPen& pen) {
-  pen.line({{-0.9F, 0.7F}, {-0.9F, -0.65F}, {-0.25F, -0.65F}, {0, -0.35F}, {0.9F, -0.35F}, {0.9F, 0.7F}}, true);
-}
-
-void file(IconPen& pen) {
-  pen.line({{-0.65F, -0.9F}, {0.2F, -0.9F}, {0.65F, -0.45F}, {0.65F, 0.9F}, {-0.65F, 0.9F}}, true);
-  pen.line({{0.2F, -0.85F}, {0.2F, -0.45F}, {0.6F, -0.45F}});
-}
-
-void warning(IconPen& pen) {
-  pen.line({{0, -0.85F}, {0.95F, 0.8F}, {-0.95F, 0.8F}}, true);
-  pen.line({{0, -0.3F}, {0, 0.25F}});
-  pen.dot({0, 0.53F}, 0.1F);
-}
-
-void info(IconPen& pen) {
-  pen.circle({0, 0}, 0.9F);
-  pen.line({{0, -0.1F}, {0, 0.5F}});
-  pen.dot({0, -0.42F}, 0.1F);
-}
-
-void check(IconPen& pen) {
-  pen.line({{-0.8F, 0.05F}, {-0.25F, 0.6F}, {0.8F, -0.6F}});
-}
-
-void cross(IconPen& pen) {
-  pen.line({{-0.65F, -0.65F}, {0.65F, 0.65F}});
-  pen.line({{-0.65F, 0.65F}, {0.65F, -0.65F}});
-}
-
-void reset(IconPen& pen) {
-  pen.arc({0, 0.05F}, 0.75F, -2.3F, 2.5F);
-  pen.fill({{-0.8F, -0.85F}, {-0.2F, -0.2F}, {-0.88F, -0.15F}});
-}
-
-void search(IconPen& pen) {
-  pen.circle({-0.2F, -0.2F}, 0.6F);
-  pen.line({{0.25F, 0.25F}, {0.9F, 0.9F}});
-}
-
-void settings(IconPen& pen) {
-  for (const float y : {-0.6F, 0.0F, 0.6F}) pen.line({{-0.9F, y}, {0.9F, y}});
-  pen.dot({0.35F, -0.6F}, 0.24F);
-  pen.dot({-0.4F, 0}, 0.24F);
-  pen.dot({0.1F, 0.6F}, 0.24F);
-}
-
-void fit(IconPen& pen) {
-  for (const float x : {-1.0F, 1.0F})
-    for (const float y : {-1.0F, 1.0F})
-      pen.line({{x * 0.35F, y * 0.85F}, {x * 0.85F, y * 0.85F}, {x * 0.85F, y * 0.35F}});
-}
-
-void aircraft(IconPen& pen) {
-  pen.fill({{-0.13F, 0.75F}, {-0.13F, -0.75F}, {0, -0.98F}, {0.13F, -0.75F}, {0.13F, 0.75F}});
-  pen.fill({{-0.1F, -0.35F}, {-0.1F, 0.1F}, {-0.95F, 0.35F}, {-0.95F, 0.12F}});
-  pen.fill({{0.1F, -0.35F}, {0.95F, 0.12F}, {0.95F, 0.35F}, {0.1F, 0.1F}});
-  pen.fill({{0, 0.5F}, {0.45F, 0.85F}, {-0.45F, 0.85F}});
-}
-
-void mark_in(IconPen& pen) {
-  pen.line({{0.35F, -0.8F}, {-0.25F, -0.8F}, {-0.25F, 0.8F}, {0.35F, 0.8F}});
-}
-
-void mark_out(IconPen& pen) {
-  pen.line({{-0.35F, -0.8F}, {0.25F, -0.8F}, {0.25F, 0.8F}, {-0.35F, 0.8F}});
-}
-
-void chevron_left(IconPen& pen) {
-  pen.line({{0.35F, -0.7F}, {-0.35F, 0}, {0.35F, 0.7F}});
-}
-
-void box(IconPen& pen) {
-  for (const float x : {-1.0F, 1.0F})
-    for (const float y : {-1.0F, 1.0F}) pen.line({{0.75F * x, 0.2F * y}, {0.75F * x, 0.6F * y}, {0.3F * x, 0.6F * y}});
-}
-
-void path(IconPen& pen) {
-  pen.line({{-0.8F, 0.55F}, {-0.35F, -0.1F}, {0, -0.25F}, {0.35F, -0.15F}, {0.8F, -0.55F}});
-}
-
-void waypoints(IconPen& pen) {
-  pen.fill({{0, -0.55F}, {0.5F, 0}, {0, 0.55F}, {-0.5F, 0}});
-}
-
-void horizon(IconPen& pen) {
-  pen.line({{-0.85F, 0.25F}, {0.85F, 0.25F}});
-  pen.arc({0, 0.25F}, 0.45F, 3.1415927F, 6.2831853F);
-}
-
-void own_body(IconPen& pen) {
-  pen.box({-0.8F, -0.65F}, {0.8F, 0.65F});
-  pen.fill({{-0.8F, 0.65F}, {-0.2F, 0.1F}, {0.2F, 0.1F}, {0.8F, 0.65F}});
-}
-
-void grid(IconPen& pen) {
-  for (const float at : {-0.27F, 0.27F}) {
-    pen.line({{at, -0.75F}, {at, 0.75F}});
-    pen.line({{-0.75F, at}, {0.75F, at}});
+  [[nodiscard]] ImVec2 at(ImVec2 p) const { return {center.x + p.x * half, center.y + p.y * half}; }
+  void path(const Points& points, ImVec2 mirror = {1, 1}) const {
+    for (const ImVec2 point : points) list.PathLineTo(at({point.x * mirror.x, point.y * mirror.y}));
   }
-}
-
-void wipe(IconPen& pen) {
-  pen.box({-0.75F, -0.55F}, {0.75F, 0.55F});
-  pen.filled_box({-0.75F, -0.55F}, {0, 0.55F});
-  pen.line({{0, -0.85F}, {0, 0.85F}});
-}
-
-void fit_contents(IconPen& pen) {
-  for (const float x : {-1.0F, 1.0F})
-    for (const float y : {-1.0F, 1.0F})
-      pen.line({{0.75F * x, 0.25F * y}, {0.75F * x, 0.65F * y}, {0.3F * x, 0.65F * y}});
-  pen.dot({0, 0}, 0.16F);
-}
-
-void target(IconPen& pen) {
-  pen.circle({0, 0}, 0.5F);
-  pen.line({{-0.85F, 0}, {-0.3F, 0}});
-  pen.line({{0.3F, 0}, {0.85F, 0}});
-  pen.line({{0, -0.85F}, {0, -0.3F}});
-  pen.line({{0, 0.3F}, {0, 0.85F}});
-}
-
-void brush(IconPen& pen) {
-  pen.line({{0.7F, -0.75F}, {-0.15F, 0.15F}});
-  pen.fill({{-0.35F, 0}, {0, 0.35F}, {-0.3F, 0.7F}, {-0.8F, 0.75F}, {-0.65F, 0.3F}});
-}
-
-void eraser(IconPen& pen) {
-  pen.line({{-0.1F, 0.65F}, {-0.75F, 0.05F}, {0.15F, -0.7F}, {0.75F, -0.1F}, {-0.1F, 0.65F}, {0.75F, 0.65F}});
-  pen.line({{-0.3F, -0.3F}, {0.35F, 0.25F}});
-}
-
-// side_sign -1: the arrow's head is at the left.
-void turned_arrow(IconPen& pen, float side_sign) {
-  const auto at = [side_sign](float x, float y) { return ImVec2(side_sign * -x, y); };
-  pen.line({at(-0.7F, -0.2F), at(0.2F, -0.2F), at(0.55F, -0.05F), at(0.7F, 0.25F), at(0.55F, 0.55F), at(0.2F, 0.7F),
-            at(-0.25F, 0.7F)});
-  pen.line({at(-0.3F, -0.6F), at(-0.7F, -0.2F), at(-0.3F, 0.2F)});
-}
-
-void undo(IconPen& pen) {
-  turned_arrow(pen, -1);
-}
-
-void redo(IconPen& pen) {
-  turned_arrow(pen, 1);
-}
-
-void orbit(IconPen& pen) {
-  pen.line({{0, -0.85F}, {0.75F, -0.45F}, {0.75F, 0.45F}, {0, 0.85F}, {-0.75F, 0.45F}, {-0.75F, -0.45F}}, true);
-  pen.line({{-0.75F, -0.45F}, {0, -0.05F}, {0.75F, -0.45F}});
-  pen.line({{0, -0.05F}, {0, 0.85F}});
-}
-
-void view_from_top(IconPen& pen) {
-  pen.box({-0.7F, -0.1F}, {0.7F, 0.85F});
-  pen.line({{0, -0.95F}, {0, -0.35F}});
-  pen.line({{-0.28F, -0.6F}, {0, -0.3F}, {0.28F, -0.6F}});
-}
-
-void view_from_side(IconPen& pen) {
-  pen.box({0.0F, -0.7F}, {0.9F, 0.7F});
-  pen.line({{-0.95F, 0}, {-0.3F, 0}});
-  pen.line({{-0.55F, -0.28F}, {-0.25F, 0}, {-0.55F, 0.28F}});
-}
-
-void camera(IconPen& pen) {
-  pen.box({-0.9F, -0.5F}, {0.3F, 0.5F}, 0.2F);
-  pen.line({{0.3F, -0.1F}, {0.9F, -0.5F}, {0.9F, 0.5F}, {0.3F, 0.1F}});
-}
-
-void perspective(IconPen& pen) {
-  pen.line({{-0.35F, -0.7F}, {0.35F, -0.7F}, {0.9F, 0.7F}, {-0.9F, 0.7F}}, true);
-  pen.line({{0, -0.7F}, {0, 0.7F}});
-  pen.line({{-0.55F, -0.15F}, {0.55F, -0.15F}});
-}
-
-void snap(IconPen& pen) {
-  pen.line({{-0.65F, -0.8F}, {-0.65F, 0.1F}, {-0.4F, 0.6F}, {0, 0.8F}, {0.4F, 0.6F}, {0.65F, 0.1F}, {0.65F, -0.8F}});
-  pen.line({{-0.85F, -0.45F}, {-0.45F, -0.45F}});
-  pen.line({{0.45F, -0.45F}, {0.85F, -0.45F}});
-}
-
-void cylinder(IconPen& pen) {
-  pen.line({{-0.8F, -0.45F}, {-0.4F, -0.7F}, {0.4F, -0.7F}, {0.8F, -0.45F}, {0.4F, -0.2F}, {-0.4F, -0.2F}}, true);
-  pen.line({{-0.8F, -0.45F}, {-0.8F, 0.5F}, {-0.4F, 0.75F}, {0.4F, 0.75F}, {0.8F, 0.5F}, {0.8F, -0.45F}});
-}
-
-void more(IconPen& pen) {
-  for (const float x : {-0.714F, 0.0F, 0.714F}) pen.dot({x, 0}, 0.214F);
-}
-
-using Shape = void (*)(IconPen&);
-
-// In the order of Icon.
-constexpr Shape kShapes[] = {
-    play,     pause,         back,           forward, to_start,     to_end,       loop,   plus,     trash,
-    copy,     folder,        file,           warning, info,         check,        cross,  reset,    search,
-    settings, fit,           aircraft,       mark_in, mark_out,     chevron_left, box,    path,     waypoints,
-    horizon,  own_body,      grid,           wipe,    target,       brush,        eraser, undo,     redo,
-    orbit,    view_from_top, view_from_side, camera,  fit_contents, perspective,  snap,   cylinder, more,
+  void draw(const Stroke& stroke) const {
+    const Points& points = stroke.points;
+    const float radius = stroke.radius * half;
+    switch (stroke.kind) {
+      case Stroke::Kind::line:
+      case Stroke::Kind::closed_line:
+        path(points);
+        return list.PathStroke(color, stroke.kind == Stroke::Kind::line ? ImDrawFlags_None : ImDrawFlags_Closed, width);
+      case Stroke::Kind::corners:
+        for (const ImVec2 mirror : {ImVec2(-1, -1), ImVec2(-1, 1), ImVec2(1, -1), ImVec2(1, 1)}) {
+          path(points, mirror);
+          list.PathStroke(color, ImDrawFlags_None, width);
+        }
+        return;
+      case Stroke::Kind::fill:
+        path(points);
+        return list.PathFillConvex(color);
+      case Stroke::Kind::box:
+        return list.AddRect(at(points[0]), at(points[1]), color, radius, ImDrawFlags_None, width);
+      case Stroke::Kind::filled_box:
+        return list.AddRectFilled(at(points[0]), at(points[1]), color);
+      case Stroke::Kind::circle:
+        return list.AddCircle(at(points[0]), radius, color, 0, width);
+      case Stroke::Kind::dot:
+        return list.AddCircleFilled(at(points[0]), std::max(width * 0.7F, radius), color);
+      case Stroke::Kind::arc:
+        list.PathArcTo(at(points[0]), radius, stroke.from, stroke.to, 14);
+        return list.PathStroke(color, ImDrawFlags_None, width);
+    }
+  }
 };
-static_assert(std::size(kShapes) == static_cast<std::size_t>(Icon::more) + 1);
-
-}  // namespace
-
-void draw_icon(ImDrawList& list, Icon icon, ImVec2 center, float size, ImU32 color) {
-  // On whole pixels, so that upright lines are sharp.
-  IconPen pen(list, {std::floor(center.x) + 0.5F, std::floor(center.y) + 0.5F}, size, color);
-  kShapes[static_cast<std::size_t>(icon)](pen);
-}
-
-namespace {
 
 constexpr float kRestBeforeTooltip_s = 0.35F;
 
@@ -351,6 +221,16 @@ float icon_size() {
 }
 
 }  // namespace
+
+void draw_icon(ImDrawList& list, Icon icon, ImVec2 center, float size, ImU32 color) {
+  // On whole pixels, so that upright lines are sharp.
+  const IconPen pen{.list = list,
+                    .center = {std::floor(center.x) + 0.5F, std::floor(center.y) + 0.5F},
+                    .half = size * 0.42F,
+                    .width = std::max(1.0F, size * 0.085F),
+                    .color = color};
+  for (const Stroke& stroke : strokes_of(icon)) pen.draw(stroke);
+}
 
 float icon_button_width() {
   return ImGui::GetFrameHeight();

@@ -6,7 +6,7 @@
 namespace sigs::editor {
 
 // All icons of the editor. They are drawn from lines, so that no icon font is needed and every size is sharp. An icon
-// that is added needs its drawing in the table of icons.cpp, in the same order.
+// that is added needs its drawing in the table of icons.cpp.
 enum class Icon {
   play,
   pause,

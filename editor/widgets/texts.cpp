@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "editor/widgets/texts.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -7,9 +8,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
-
-#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 
@@ -75,6 +73,25 @@ std::string elided_front(const std::string& text, float width) {
   if (text.size() <= kMaxShownText && width_of(text) <= width) return text;
   const std::string end = tail(text, kMaxShownText);
   return longest(end, width, [&](std::size_t bytes) { return kDots + tail(end, bytes); });
+}
+
+void draw_text(const std::string& text, ImU32 color, std::optional<Font> which) {
+  if (which) ImGui::PushFont(font(*which));
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  if (which) ImGui::PopFont();
+}
+
+void draw_wrapped(const std::string& text, ImU32 color, std::optional<Font> which) {
+  ImGui::PushTextWrapPos(0);
+  draw_text(text, color, which);
+  ImGui::PopTextWrapPos();
+}
+
+glm::dvec2 text_size(const std::string& text, Font which) {
+  const ImFont& face = *font(which);
+  return dv(face.CalcTextSizeA(face.FontSize, 1e6F, 0, text.c_str()));
 }
 
 std::string distance_text(double distance_m) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+
+#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -24,6 +27,13 @@ constexpr std::size_t kMaxShownText = 2000;
 
 // The same with "..." at its beginning: of a path the end tells more.
 [[nodiscard]] std::string elided_front(const std::string& text, float width);
+
+// Draws a text as ImGui's next item: on one line, or wrapped at the window's right edge. Without a font in the present
+// one.
+void draw_text(const std::string& text, ImU32 color, std::optional<Font> which = std::nullopt);
+void draw_wrapped(const std::string& text, ImU32 color, std::optional<Font> which = std::nullopt);
+// Width and height of a text in one of the fonts, on one line.
+[[nodiscard]] glm::dvec2 text_size(const std::string& text, Font which);
 
 // "0.84 m", "312.4 m", "4.21 km": about four digits, as a person says it.
 [[nodiscard]] std::string distance_text(double distance_m);

@@ -15,36 +15,6 @@ namespace {
 
 constexpr long kUpdatesKept = 30;
 
-}  // namespace
-
-void TextureOrder::use(TextureKey key, std::size_t bytes) {
-  Use& use = uses_[key];
-  bytes_ += bytes - use.bytes;
-  use = {.bytes = bytes, .update = update_};
-}
-
-std::vector<TextureKey> TextureOrder::end_update(std::size_t max_bytes) {
-  std::vector<TextureKey> gone;
-  while (!uses_.empty()) {
-    const auto oldest = std::min_element(
-        uses_.begin(), uses_.end(), [](const auto& a, const auto& b) { return a.second.update < b.second.update; });
-    const long unused_updates = update_ - oldest->second.update;
-    if (unused_updates == 0 || (unused_updates < kUpdatesKept && bytes_ <= max_bytes)) break;
-    bytes_ -= oldest->second.bytes;
-    gone.push_back(oldest->first);
-    uses_.erase(oldest);
-  }
-  ++update_;
-  return gone;
-}
-
-cv::Size reduced_size(const cv::Size& image_px, int divisor) {
-  const int by = std::max(1, divisor);
-  return {(image_px.width + by - 1) / by, (image_px.height + by - 1) / by};
-}
-
-namespace {
-
 std::size_t bytes_on_card(const cv::Mat& image, int divisor) {
   return 4 * static_cast<std::size_t>(reduced_size(image.size(), divisor).area());
 }
@@ -85,7 +55,48 @@ void set_filter(unsigned int name, Filter filter) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, how);
 }
 
+// Pixels and the blocks that they become.
+struct BlockRun {
+  cv::Range pixels;
+  cv::Range blocks;
+};
+
+// The whole blocks, then what is left over as one more.
+std::vector<BlockRun> block_runs(int length, int divisor) {
+  const int whole = length / divisor;
+  std::vector<BlockRun> runs;
+  if (whole > 0) runs.push_back({{0, whole * divisor}, {0, whole}});
+  if (whole * divisor < length) runs.push_back({{whole * divisor, length}, {whole, whole + 1}});
+  return runs;
+}
+
 }  // namespace
+
+void TextureOrder::use(TextureKey key, std::size_t bytes) {
+  Use& use = uses_[key];
+  bytes_ += bytes - use.bytes;
+  use = {.bytes = bytes, .update = update_};
+}
+
+std::vector<TextureKey> TextureOrder::end_update(std::size_t max_bytes) {
+  std::vector<TextureKey> gone;
+  while (!uses_.empty()) {
+    const auto oldest =
+        std::ranges::min_element(uses_, [](const auto& a, const auto& b) { return a.second.update < b.second.update; });
+    const long unused_updates = update_ - oldest->second.update;
+    if (unused_updates == 0 || (unused_updates < kUpdatesKept && bytes_ <= max_bytes)) break;
+    bytes_ -= oldest->second.bytes;
+    gone.push_back(oldest->first);
+    uses_.erase(oldest);
+  }
+  ++update_;
+  return gone;
+}
+
+cv::Size reduced_size(const cv::Size& image_px, int divisor) {
+  const int by = std::max(1, divisor);
+  return {(image_px.width + by - 1) / by, (image_px.height + by - 1) / by};
+}
 
 Textures::~Textures() {
   for (const auto& [key, entry] : entries_) glDeleteTextures(1, &entry.name);
@@ -110,25 +121,6 @@ void Textures::end_update(std::size_t max_bytes) {
     entries_.erase(place);
   }
 }
-
-namespace {
-
-// Pixels and the blocks that they become.
-struct BlockRun {
-  cv::Range pixels;
-  cv::Range blocks;
-};
-
-// The whole blocks, then what is left over as one more.
-std::vector<BlockRun> block_runs(int length, int divisor) {
-  const int whole = length / divisor;
-  std::vector<BlockRun> runs;
-  if (whole > 0) runs.push_back({{0, whole * divisor}, {0, whole}});
-  if (whole * divisor < length) runs.push_back({{whole * divisor, length}, {whole, whole + 1}});
-  return runs;
-}
-
-}  // namespace
 
 cv::Mat reduced_copy(const cv::Mat& image, int divisor) {
   if (divisor < 2) return image;

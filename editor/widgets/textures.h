@@ -36,8 +36,7 @@ class TextureOrder {
  private:
   struct Use {
     std::size_t bytes = 0;
-    // In which it was drawn last.
-    long update = 0;
+    long update = 0;  // in which it was drawn last
   };
   std::map<TextureKey, Use> uses_;
   std::size_t bytes_ = 0;

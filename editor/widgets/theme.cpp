@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -67,7 +66,7 @@ void set_controls(ImVec4* colors) {
 }
 
 std::filesystem::path first_of(const std::vector<std::filesystem::path>& paths) {
-  const auto found = std::find_if(paths.begin(), paths.end(), [](const auto& path) {
+  const auto found = std::ranges::find_if(paths, [](const auto& path) {
     std::error_code code;
     return std::filesystem::exists(path, code);
   });

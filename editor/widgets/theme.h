@@ -3,7 +3,18 @@
 
 #include <imgui.h>
 
+#include <array>
+#include <glm/glm.hpp>
+
 namespace sigs::editor {
+
+// Points on the screen, as ImGui has them (float) and as we do (double), in the same coordinates.
+[[nodiscard]] inline ImVec2 im(const glm::dvec2& p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y)};
+}
+[[nodiscard]] inline glm::dvec2 dv(const ImVec2& p) {
+  return {p.x, p.y};
+}
 
 // The colours that mean something, one place for all views.
 namespace color {
@@ -30,6 +41,7 @@ inline constexpr ImU32 kCanvas = IM_COL32(18, 19, 22, 255);  // behind images
 inline constexpr ImU32 kAxisX = IM_COL32(236, 92, 92, 255);
 inline constexpr ImU32 kAxisY = IM_COL32(110, 200, 96, 255);
 inline constexpr ImU32 kAxisZ = IM_COL32(96, 148, 255, 255);
+inline constexpr std::array<ImU32, 3> kAxes{kAxisX, kAxisY, kAxisZ};
 }  // namespace color
 
 // One colour per intruder, in order, repeating after eight.

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <imgui.h>
-
 #include <functional>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,8 +39,7 @@ struct ToolbarItem {
   // Called while drawing, after a click on the button; may be empty.
   std::function<void()> clicked;
   bool is_gap = false;
-  // Of the other content, in screen pixels.
-  float width = 0;
+  float width = 0;  // of the other content, in screen pixels
   // Draws the other content at the cursor; empty: the item is a button or a gap.
   std::function<void()> content;
   // Called after the item was drawn, while it is ImGui's last item: to note its place for tests, for example.

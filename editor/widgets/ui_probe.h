@@ -17,8 +17,13 @@ class UiProbe {
   void note(const std::string& name, const ScreenRect& rect) {
     if (wanted_) ui_probe_[name] = rect;
   }
-  // The item that ImGui drew last.
-  void note_item(const std::string& name);
+  // The item that ImGui drew last; with a tooltip, as tooltip_for_item().
+  void note_item(const std::string& name, const std::string& tooltip = "");
+  // The same for a widget in a condition: passes on whether it was clicked or changed.
+  [[nodiscard]] bool noted(bool clicked, const std::string& name, const std::string& tooltip = "") {
+    note_item(name, tooltip);
+    return clicked;
+  }
 
   // Off at first: note() does nothing then.
   void set_wanted(bool wanted) { wanted_ = wanted; }

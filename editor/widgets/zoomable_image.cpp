@@ -9,13 +9,88 @@
 
 #include "editor/widgets/keys.h"
 #include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
 namespace {
 
 constexpr double kZoomPerNotch = 1.25;
+
+// Pixels of a larger image, of which `piece` is given, and the first pixel of that.
+struct Placed {
+  const cv::Mat& piece;
+  cv::Point at;
+};
+
+// The part of the piece that lies in `part`. Blocks of the reduced copy begin at the piece's first pixel, and the last
+// ones may extend beyond it.
+void draw_part(ImDrawList& draw, Textures& textures, const Placed& placed, const cv::Rect& part,
+               const ImageView& view) {
+  const int divisor = divisor_at(view.zoom);
+  const cv::Size reduced = reduced_size(placed.piece.size(), divisor);
+  const glm::dvec2 texture_px(divisor * reduced.width, divisor * reduced.height);
+  const glm::dvec2 corner(placed.at.x, placed.at.y);
+  const glm::dvec2 low(part.x, part.y);
+  const glm::dvec2 high(part.x + part.width, part.y + part.height);
+  const Filter filter = view.zoom >= 1 ? Filter::nearest : Filter::smooth;
+  draw.AddImage(textures.of(placed.piece, filter, divisor), im(view.screen_of(low - 0.5)),
+                im(view.screen_of(high - 0.5)), im((low - corner) / texture_px), im((high - corner) / texture_px));
+}
+
+constexpr std::size_t kMaxLabel = 120;  // bytes
+constexpr double kGridFromZoom = 8;
+constexpr double kMinValueText_px = 9;
+constexpr int kMaxValues = 320;        // pixels; each takes nine characters
+constexpr int kValuesAroundMouse = 5;  // pixels to every side
+
+ImU32 readable_on(const cv::Vec3b& bgr) {
+  const int luma = (bgr[0] * 11 + bgr[1] * 59 + bgr[2] * 30) / 100;
+  return luma > 128 ? IM_COL32(0, 0, 0, 230) : IM_COL32(255, 255, 255, 230);
+}
+
+// One side of an outline, upright or level.
+void draw_side(ImDrawList& draw, glm::dvec2 low, glm::dvec2 high, ImU32 color, bool dashed) {
+  const bool level = high.x - low.x >= high.y - low.y;
+  const double length = level ? high.x - low.x : high.y - low.y;
+  const double dash = scaled(5);
+  for (double at = 0; at < length; at += dashed ? 2 * dash : length) {
+    const double end = dashed ? std::min(at + dash, length) : length;
+    const glm::dvec2 from = level ? glm::dvec2(low.x + at, low.y) : glm::dvec2(low.x, low.y + at);
+    const glm::dvec2 to = level ? glm::dvec2(low.x + end, high.y) : glm::dvec2(high.x, low.y + end);
+    draw.AddRectFilled(im(from), im(to), color);
+  }
+}
+
+void draw_value(const ImageCanvas& canvas, const PatchedImage& image, int x, int y, float text_px) {
+  const cv::Vec3b bgr = image.bgr_at({x, y});
+  const int lines = image.ground.channels() == 3 ? 3 : 1;
+  const glm::dvec2 middle = canvas.view.screen_of({x, y});
+  char text[8];
+  for (int line = 0; line < lines; ++line) {
+    const int length = std::snprintf(text, sizeof text, "%d", bgr[2 - line]);
+    const double width = text_px * 0.6 * length;  // DejaVu Sans Mono's advance
+    const glm::dvec2 at(middle.x - width / 2, middle.y + (line - lines / 2.0) * text_px);
+    canvas.draw.AddText(font(Font::mono), text_px, im(glm::floor(at)), readable_on(bgr), text);
+  }
+}
+
+glm::dvec2 plate_margin() {
+  return {scaled(5), scaled(2)};
+}
+
+ScreenRect plate_at(const ImageCanvas& canvas, const glm::dvec2& at, const std::string& text) {
+  const glm::dvec2 plate = label_size(text);
+  const glm::dvec2 maximum = glm::max(canvas.rect.low, canvas.rect.high - plate);
+  const glm::dvec2 low = glm::floor(glm::clamp(glm::dvec2(at.x, at.y - plate.y), canvas.rect.low, maximum));
+  return {low, low + plate};
+}
+
+void draw_plate(const ImageCanvas& canvas, const ScreenRect& plate, const std::string& text, ImU32 color) {
+  ImFont* const small = font(Font::small);
+  canvas.draw.AddRectFilled(im(plate.low), im(plate.high), IM_COL32(12, 13, 16, 190), scaled(3));
+  canvas.draw.AddText(small, small->FontSize, im(plate.low + plate_margin()), color,
+                      shortened(text, kMaxLabel).c_str());
+}
 
 }  // namespace
 
@@ -97,31 +172,6 @@ cv::Rect pixels_in_sight(const ImageView& view, const cv::Size& image_px, const 
           cv::Point(static_cast<int>(high.x), static_cast<int>(high.y))};
 }
 
-namespace {
-
-// Pixels of a larger image, of which `piece` is given, and the first pixel of that.
-struct Placed {
-  const cv::Mat& piece;
-  cv::Point at;
-};
-
-// The part of the piece that lies in `part`. Blocks of the reduced copy begin at the piece's first pixel, and the last
-// ones may extend beyond it.
-void draw_part(ImDrawList& draw, Textures& textures, const Placed& placed, const cv::Rect& part,
-               const ImageView& view) {
-  const int divisor = divisor_at(view.zoom);
-  const cv::Size reduced = reduced_size(placed.piece.size(), divisor);
-  const glm::dvec2 texture_px(divisor * reduced.width, divisor * reduced.height);
-  const glm::dvec2 corner(placed.at.x, placed.at.y);
-  const glm::dvec2 low(part.x, part.y);
-  const glm::dvec2 high(part.x + part.width, part.y + part.height);
-  const Filter filter = view.zoom >= 1 ? Filter::nearest : Filter::smooth;
-  draw.AddImage(textures.of(placed.piece, filter, divisor), im(view.screen_of(low - 0.5)),
-                im(view.screen_of(high - 0.5)), im((low - corner) / texture_px), im((high - corner) / texture_px));
-}
-
-}  // namespace
-
 void draw_image(ImDrawList& draw, Textures& textures, const cv::Mat& image, const ImageView& view,
                 const ScreenRect& rect) {
   draw_image(draw, textures, PatchedImage{.ground = image, .patch = {}, .patch_at = {}}, view, rect);
@@ -140,65 +190,6 @@ void draw_image(ImDrawList& draw, Textures& textures, const PatchedImage& image,
     draw_part(draw, textures, {image.patch(patch.reduced - image.patch_at), patch.reduced.tl()}, part, view);
   draw.PopClipRect();
 }
-
-namespace {
-
-constexpr std::size_t kMaxLabel = 120;  // bytes
-constexpr double kGridFromZoom = 8;
-constexpr double kMinValueText_px = 9;
-constexpr int kMaxValues = 320;        // pixels; each takes nine characters
-constexpr int kValuesAroundMouse = 5;  // pixels to every side
-
-ImU32 readable_on(const cv::Vec3b& bgr) {
-  const int luma = (bgr[0] * 11 + bgr[1] * 59 + bgr[2] * 30) / 100;
-  return luma > 128 ? IM_COL32(0, 0, 0, 230) : IM_COL32(255, 255, 255, 230);
-}
-
-// One side of an outline, upright or level.
-void draw_side(ImDrawList& draw, glm::dvec2 low, glm::dvec2 high, ImU32 color, bool dashed) {
-  const bool level = high.x - low.x >= high.y - low.y;
-  const double length = level ? high.x - low.x : high.y - low.y;
-  const double dash = scaled(5);
-  for (double at = 0; at < length; at += dashed ? 2 * dash : length) {
-    const double end = dashed ? std::min(at + dash, length) : length;
-    const glm::dvec2 from = level ? glm::dvec2(low.x + at, low.y) : glm::dvec2(low.x, low.y + at);
-    const glm::dvec2 to = level ? glm::dvec2(low.x + end, high.y) : glm::dvec2(high.x, low.y + end);
-    draw.AddRectFilled(im(from), im(to), color);
-  }
-}
-
-void draw_value(const ImageCanvas& canvas, const PatchedImage& image, int x, int y, float text_px) {
-  const cv::Vec3b bgr = image.bgr_at({x, y});
-  const int lines = image.ground.channels() == 3 ? 3 : 1;
-  const glm::dvec2 middle = canvas.view.screen_of({x, y});
-  char text[8];
-  for (int line = 0; line < lines; ++line) {
-    const int length = std::snprintf(text, sizeof text, "%d", bgr[2 - line]);
-    const double width = text_px * 0.6 * length;  // DejaVu Sans Mono's advance
-    const glm::dvec2 at(middle.x - width / 2, middle.y + (line - lines / 2.0) * text_px);
-    canvas.draw.AddText(font(Font::mono), text_px, im(glm::floor(at)), readable_on(bgr), text);
-  }
-}
-
-glm::dvec2 plate_margin() {
-  return {scaled(5), scaled(2)};
-}
-
-ScreenRect plate_at(const ImageCanvas& canvas, const glm::dvec2& at, const std::string& text) {
-  const glm::dvec2 plate = label_size(text);
-  const glm::dvec2 maximum = glm::max(canvas.rect.low, canvas.rect.high - plate);
-  const glm::dvec2 low = glm::floor(glm::clamp(glm::dvec2(at.x, at.y - plate.y), canvas.rect.low, maximum));
-  return {low, low + plate};
-}
-
-void draw_plate(const ImageCanvas& canvas, const ScreenRect& plate, const std::string& text, ImU32 color) {
-  ImFont* const small = font(Font::small);
-  canvas.draw.AddRectFilled(im(plate.low), im(plate.high), IM_COL32(12, 13, 16, 190), scaled(3));
-  canvas.draw.AddText(small, small->FontSize, im(plate.low + plate_margin()), color,
-                      shortened(text, kMaxLabel).c_str());
-}
-
-}  // namespace
 
 ScreenRect ImageCanvas::image_on_screen() const {
   return {view.screen_of({-0.5, -0.5}), view.screen_of({image_px.width - 0.5, image_px.height - 0.5})};
@@ -277,10 +268,7 @@ void draw_pixel_values(const ImageCanvas& canvas, const PatchedImage& image, con
 void draw_pixel_mark(const ImageCanvas& canvas, const cv::Point& pixel) {
   const glm::dvec2 low = canvas.view.screen_of(glm::dvec2(pixel.x, pixel.y) - 0.5);
   const ScreenRect square{low, low + canvas.view.zoom};
-  if (canvas.view.zoom >= 4) {
-    draw_outline(canvas, square, color::kAccent, false);
-    return;
-  }
+  if (canvas.view.zoom >= 4) return draw_outline(canvas, square, color::kAccent, false);
   const glm::dvec2 middle = glm::floor((square.low + square.high) / 2.0);
   const double gap = scaled(4);
   const double arm = scaled(7);

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <imgui.h>
-
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "base/image.h"
 #include "editor/geometry/image_view.h"
-#include "editor/geometry/patched_image.h"
-#include "editor/geometry/screen_marks.h"
-#include "editor/widgets/screen_vec.h"
 #include "editor/widgets/textures.h"
+#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -83,6 +78,10 @@ struct ImageCanvas {
 
   // The first and the one after the last screen pixel that the image covers, within the rect or not.
   [[nodiscard]] ScreenRect image_on_screen() const;
+  // Where a box of the image lies.
+  [[nodiscard]] ScreenRect on_screen(const Box& box) const {
+    return {view.screen_of({box.x, box.y}), view.screen_of({box.x + box.width, box.y + box.height})};
+  }
   // The pixel at a place of the screen; none beside the image.
   [[nodiscard]] std::optional<cv::Point> pixel_at(const glm::dvec2& screen) const;
 };

@@ -8,7 +8,6 @@
 
 #include "editor/document/waypoint_edits.h"
 #include "editor/views/waypoint_actions.h"
-#include "encounter/encounter.h"
 #include "project/places.h"
 #include "scene/encounter_tracks.h"
 #include "scene/scene_parts.h"
@@ -151,6 +150,19 @@ tl::expected<std::vector<WaypointSettings>, std::string> straight(const Approach
   return waypoints;
 }
 
+std::string put_waypoints(const ViewContext& context, const char* name, const ApproachStart& start,
+                          tl::expected<std::vector<WaypointSettings>, std::string> waypoints,
+                          const std::string& gesture) {
+  if (!waypoints) return waypoints.error();
+  context.edits.change(
+      name,
+      [intruder = static_cast<std::size_t>(start.intruder), waypoints = std::move(*waypoints)](Project& project) {
+        project.intruders[intruder].trajectory.waypoints = waypoints;
+      },
+      gesture);
+  return {};
+}
+
 }  // namespace
 
 std::optional<PresentApproach> present_approach(const ViewContext& context, int intruder) {
@@ -228,23 +240,6 @@ tl::expected<PlannedApproach, std::string> approach_at_distance(const ApproachSt
     return tl::unexpected(fmt::format("closest distance: {:.2f} m is the least with these flights", distance_of(0)));
   return scaled_by(high);
 }
-
-namespace {
-
-std::string put_waypoints(const ViewContext& context, const char* name, const ApproachStart& start,
-                          tl::expected<std::vector<WaypointSettings>, std::string> waypoints,
-                          const std::string& gesture) {
-  if (!waypoints) return waypoints.error();
-  context.edits.change(
-      name,
-      [intruder = static_cast<std::size_t>(start.intruder), waypoints = std::move(*waypoints)](Project& project) {
-        project.intruders[intruder].trajectory.waypoints = waypoints;
-      },
-      gesture);
-  return {};
-}
-
-}  // namespace
 
 std::string change_approach(const ViewContext& context, const ApproachStart& start, const PlannedApproach& wanted,
                             const std::string& gesture) {

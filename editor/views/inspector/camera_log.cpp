@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/camera_log.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include "base/pose.h"
-#include "editor/preview/ego_motion_job.h"
-#include "editor/views/inspector/job_progress.h"
-#include "editor/views/shown_camera.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
+#include "editor/preview/jobs.h"
 #include "scene/scene_at.h"
 
 namespace sigs::editor {
@@ -40,11 +34,11 @@ void draw_estimate(const ViewContext& context) {
     context.ui_probe.note_item("inspector/stop camera motion");
     return;
   }
-  if (ImGui::Button("Estimate camera motion")) context.edits.ask(EstimateCameraMotion{});
-  context.ui_probe.note_item("inspector/estimate camera motion");
-  tooltip_for_item(
-      "Finds how the camera turns from the footage itself, in the background, and writes it as a log beside the "
-      "project. With a log that has rates of turn, both are used together.");
+  if (context.ui_probe.noted(
+          ImGui::Button("Estimate camera motion"), "inspector/estimate camera motion",
+          "Finds how the camera turns from the footage itself, in the background, and writes it as a log beside the "
+          "project. With a log that has rates of turn, both are used together."))
+    context.edits.ask(EstimateCameraMotion{});
   if (state->value)
     for (const Warning& warning : state->value->warnings) note(warning.what, true);
 }
@@ -80,9 +74,9 @@ void draw_camera(const ViewContext& context, FieldRows& rows) {
   ImGui::Spacing();
   if (!knows_horizon(context.project().camera))
     note("Horizon: not set. Labels call the intruders' side of it unknown.");
-  if (ImGui::Button("Horizon...")) context.edits.ask(ShowHorizon{});
-  context.ui_probe.note_item("inspector/horizon");
-  tooltip_for_item("Shows the horizon's line over the footage, to be dragged onto the footage's own");
+  if (context.ui_probe.noted(ImGui::Button("Horizon..."), "inspector/horizon",
+                             "Shows the horizon's line over the footage, to be dragged onto the footage's own"))
+    context.edits.ask(ShowHorizon{});
 }
 
 void draw_camera_log(const ViewContext& context, FieldRows& rows) {

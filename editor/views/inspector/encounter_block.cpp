@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/encounter_block.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
@@ -10,8 +9,6 @@
 #include <numbers>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -86,12 +83,8 @@ void draw_losses(const ViewContext& context, FieldRows& rows, const VolumeLosses
 void draw_volumes_lost(const ViewContext& context, FieldRows& rows, int intruder) {
   ImGui::Spacing();
   note("Well clear lost");
-  const auto index = static_cast<std::size_t>(intruder);
-  const Survey* const survey = index < context.shown.surveys.size() ? context.shown.surveys[index].get() : nullptr;
-  if (survey == nullptr || !survey->encounter) {
-    note("Not known yet.");
-    return;
-  }
+  const std::shared_ptr<const Survey> survey = survey_of(context, intruder);
+  if (survey == nullptr || !survey->encounter) return note("Not known yet.");
   for (const VolumeLosses& volume : survey->encounter->volumes) draw_losses(context, rows, volume);
 }
 
@@ -136,8 +129,7 @@ std::optional<PlannedApproach> EncounterBlock::draw_numbers(const ViewContext& c
     const float width = rows.begin_row(number.label);
     PlannedApproach approach = shown;
     if (draw_number(number, approach, width)) edited = approach;
-    context.ui_probe.note_item(fmt::format("inspector/encounter/{}", number.id));
-    tooltip_for_item(number.help);
+    context.ui_probe.note_item(fmt::format("inspector/encounter/{}", number.id), number.help);
     follow_hold(context);
     ImGui::PopID();
   }
@@ -161,11 +153,11 @@ std::optional<PlannedApproach> EncounterBlock::draw_distance(const ViewContext& 
   ImGui::SetNextItemWidth(rows.begin_row("Closest, 3-D"));
   const bool is_changed =
       ImGui::DragScalar("##number", ImGuiDataType_Double, &distance_m, 0.5F, nullptr, nullptr, "%.2f m");
-  context.ui_probe.note_item("inspector/encounter/distance");
-  tooltip_for_item(fmt::format("Least distance in space, at {:.3f} s. A change makes both misses larger or smaller in "
-                               "the same proportion",
-                               present.nearest_3d.time_s)
-                       .c_str());
+  context.ui_probe.note_item(
+      "inspector/encounter/distance",
+      fmt::format("Least distance in space, at {:.3f} s. A change makes both misses larger or smaller in "
+                  "the same proportion",
+                  present.nearest_3d.time_s));
   follow_hold(context);
   ImGui::PopID();
   if (!is_changed) return std::nullopt;
@@ -183,9 +175,9 @@ std::optional<PlannedApproach> EncounterBlock::draw_distance(const ViewContext& 
 }
 
 void EncounterBlock::draw_straight(const ViewContext& context, int intruder) {
-  const bool is_clicked = ImGui::Button("Make it straight");
-  context.ui_probe.note_item("inspector/encounter/straight");
-  tooltip_for_item("Two waypoints, in the first frame and in the last one; the closest approach stays");
+  const bool is_clicked =
+      context.ui_probe.noted(ImGui::Button("Make it straight"), "inspector/encounter/straight",
+                             "Two waypoints, in the first frame and in the last one; the closest approach stays");
   if (!is_clicked) return;
   if (const std::optional<ApproachStart> start = approach_start(context, intruder)) {
     reason_ = make_straight(context, *start);
@@ -204,16 +196,10 @@ void EncounterBlock::change(const ViewContext& context, int intruder, const Plan
 
 void EncounterBlock::draw(const ViewContext& context, FieldRows& rows) {
   const std::optional<int> intruder = current_intruder(context);
-  if (!intruder) {
-    note("No intruder yet. Add one above.");
-    return;
-  }
+  if (!intruder) return note("No intruder yet. Add one above.");
   context.needs.encounters = true;
   const PresentApproach* const present = memory_.of(context, *intruder);
-  if (present == nullptr) {
-    note("The flight is not known yet.");
-    return;
-  }
+  if (present == nullptr) return note("The flight is not known yet.");
   settle(context, *intruder);
   note("Closest approach");
   const bool was_held = is_held_;
@@ -229,11 +215,7 @@ void EncounterBlock::draw(const ViewContext& context, FieldRows& rows) {
   frame_link(context, fmt::format("{:.1f}", present->frame), std::round(present->frame), color::kAccent);
   context.ui_probe.note_item("inspector/encounter/frame");
   if (!reason_.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(fmt::format("Not possible: {}", reason_).c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
+    draw_wrapped(fmt::format("Not possible: {}", reason_), color::kBad);
     context.ui_probe.note_item("inspector/encounter/reason");
   }
   draw_notes(*present, context);

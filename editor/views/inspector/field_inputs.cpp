@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/field_inputs.h"
-
-#include <imgui.h>
+#include "editor/views/inspector/field_rows.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
-#include <utility>
 
-#include "editor/document/field_edits.h"
 #include "editor/geometry/rulers.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -109,7 +102,7 @@ std::optional<Edited> typed_text_input(const std::string& value, const Field& fi
 
 std::string in_words(std::string_view name) {
   std::string text(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
+  std::ranges::replace(text, '_', ' ');
   return text;
 }
 
@@ -125,7 +118,7 @@ std::optional<int> combo(const Names& names, int chosen, const std::string& show
 }
 
 std::optional<Edited> named_text_input(const std::string& value, const RowOptions& look, float width) {
-  const auto found = std::find(look.names.begin(), look.names.end(), value);
+  const auto found = std::ranges::find(look.names, value);
   const std::optional<int> taken = combo(look.names, static_cast<int>(found - look.names.begin()), value, width);
   if (!taken) return std::nullopt;
   return Edited{look.names[static_cast<std::size_t>(*taken)], true};
@@ -146,10 +139,10 @@ bool color_input(glm::dvec3& value, float width) {
 std::optional<Edited> list_input(const std::vector<std::string>& values, const RowOptions& look) {
   std::vector<std::string> names = look.names;
   for (const std::string& value : values)
-    if (std::find(names.begin(), names.end(), value) == names.end()) names.push_back(value);
+    if (std::ranges::find(names, value) == names.end()) names.push_back(value);
   std::optional<Edited> edited;
   for (const std::string& name : names) {
-    const auto found = std::find(values.begin(), values.end(), name);
+    const auto found = std::ranges::find(values, name);
     bool is_chosen = found != values.end();
     if (!ImGui::Checkbox(shortened(name, 200).c_str(), &is_chosen)) continue;
     std::vector<std::string> changed = values;
@@ -231,7 +224,6 @@ bool number_input(const char* id, double& value, const Field& field, float width
 
 bool vector_input(glm::dvec3& value, const Field& field, float width) {
   constexpr std::array<const char*, 3> kIds{"##X", "##Y", "##Z"};
-  constexpr std::array<ImU32, 3> kColors{color::kAxisX, color::kAxisY, color::kAxisZ};
   const float gap = scaled(4);
   const bool side_by_side = (width - 2 * gap) / 3 >= scaled(64);
   const float each = side_by_side ? std::floor((width - 2 * gap) / 3) : width;
@@ -244,7 +236,7 @@ bool vector_input(glm::dvec3& value, const Field& field, float width) {
     has_changed |= number_input(kIds[axis], value[i], part, each);
     const ImVec2 low = ImGui::GetItemRectMin();
     const ImVec2 high = ImGui::GetItemRectMax();
-    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + scaled(3), high.y}, kColors[axis], scaled(2),
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + scaled(3), high.y}, color::kAxes[axis], scaled(2),
                                               ImDrawFlags_RoundCornersLeft);
   }
   return has_changed;

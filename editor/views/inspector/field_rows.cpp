@@ -2,21 +2,13 @@
 #include "editor/views/inspector/field_rows.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <optional>
 #include <system_error>
-#include <utility>
-#include <vector>
 
-#include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -41,21 +33,11 @@ bool takes_whole_row(const Field& field, const RowOptions& look) {
 }  // namespace
 
 void note(const std::string& text, bool is_warning) {
-  ImGui::PushStyleColor(ImGuiCol_Text, is_warning ? color::kPartly : color::kQuiet);
-  ImGui::PushFont(font(Font::small));
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(shortened(text).c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopFont();
-  ImGui::PopStyleColor();
+  draw_wrapped(shortened(text), is_warning ? color::kPartly : color::kQuiet, Font::small);
 }
 
 void frame_link(const ViewContext& context, const std::string& text, double frame, ImU32 shade) {
-  ImGui::PushStyleColor(ImGuiCol_Text, shade);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
+  draw_wrapped(text, shade);
   if (!ImGui::IsItemHovered()) return;
   ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   const ImVec2 low = ImGui::GetItemRectMin();
@@ -76,6 +58,12 @@ bool ButtonFlow::button(const char* label, const char* tooltip, bool enabled) {
   right_x_ = ImGui::GetItemRectMax().x;
   tooltip_for_item(tooltip);
   return clicked;
+}
+
+void RowMemory::refresh(const ViewContext& context) {
+  if (sheet && sheet_revision == context.document.revision().number) return;
+  sheet.emplace(context.project());
+  sheet_revision = context.document.revision().number;
 }
 
 float FieldRows::begin_row(const std::string& label, bool below) {
@@ -128,8 +116,9 @@ void FieldRows::draw_side_buttons(const Field& field, float top_y) {
   const float right = after.x + ImGui::GetContentRegionAvail().x;
   ImGui::SetCursorScreenPos({right - icon_button_width(), top_y});
   if (field.is_path) {
-    if (icon_button("browse", Icon::folder, "Choose a file")) browse(field);
-    context_.ui_probe.note_item(fmt::format("{}{}/browse", place_, field.key));
+    if (context_.ui_probe.noted(icon_button("browse", Icon::folder, "Choose a file"),
+                                fmt::format("{}{}/browse", place_, field.key)))
+      browse(field);
   } else {
     const std::string text = "Back to " + value_text(field, sheet_.default_of(field));
     ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(0, 0, 0, 0));
@@ -210,12 +199,8 @@ void FieldRows::problem_lines(std::string_view key) {
       note(what_to_do);
       continue;
     }
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(
-        shortened(capitalised(found->second.what) + (what_to_do.empty() ? "" : ". " + what_to_do), 400).c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
+    draw_wrapped(shortened(capitalised(found->second.what) + (what_to_do.empty() ? "" : ". " + what_to_do), 400),
+                 color::kBad);
   }
 }
 
@@ -243,6 +228,15 @@ void FieldRows::finish() {
     memory_.gesture_is_open = false;
   }
   if (memory_.wanted_updates > 0) --memory_.wanted_updates;
+}
+
+bool draw_job_progress(int done, int total, bool is_stopping) {
+  const std::string text = total > 0 ? fmt::format("{} of {} frames", done, total) : "reading";
+  ImGui::ProgressBar(share_done(done, total), {-1, 0}, text.c_str());
+  ImGui::BeginDisabled(is_stopping);
+  const bool is_clicked = ImGui::Button("Stop");
+  ImGui::EndDisabled();
+  return is_clicked;
 }
 
 }  // namespace sigs::editor

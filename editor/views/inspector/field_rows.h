@@ -3,17 +3,53 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "editor/document/field_edits.h"
+#include "editor/preview/background_job.h"
 #include "editor/views/context.h"
-#include "editor/views/inspector/field_inputs.h"
 #include "project/validate.h"
 
 namespace sigs::editor {
+
+// How a field is shown, where its type does not say all.
+struct RowOptions {
+  std::string label;               // "": by its key
+  std::string off_because;         // not empty: it cannot be edited, and why
+  std::vector<std::string> names;  // a text that is one of these is chosen from a list
+  // The value of an optional number when it is switched on.
+  std::optional<double> suggested;
+  bool is_color = false;
+};
+
+// A text that is being typed becomes the field's value when it is finished.
+struct TypedText {
+  std::string key;
+  std::string text;
+};
+
+// A value that the person has given. One that is still being dragged or typed is not yet finished: it is part of a
+// gesture.
+struct Edited {
+  PlainValue value;
+  bool is_finished = false;
+};
+
+// The editor of a field by its type, from the cursor on, `width` screen pixels wide. None: nothing was edited in this
+// update.
+[[nodiscard]] std::optional<Edited> field_input(const Field& field, const RowOptions& look, float width,
+                                                TypedText& typed);
+
+// A number with its unit: dragged, or typed after a click; true in updates in which it has changed. Stays in the range.
+[[nodiscard]] bool number_input(const char* id, double& value, const Field& field, float width);
+
+// X, Y, Z side by side, or below each other where there is no room; true in updates in which one has changed.
+[[nodiscard]] bool vector_input(glm::dvec3& value, const Field& field, float width);
 
 // What is wrong, by the key of the field that it is in: "intruders[0].model.file".
 using ProblemsByField = std::multimap<std::string, Problem, std::less<>>;
@@ -23,10 +59,15 @@ struct RowMemory {
   TypedText typed;
   // A row to be scrolled to and given the keyboard, once it is drawn; "": none.
   std::string wanted_key;
-  // For how many updates it is still waited for.
-  int wanted_updates = 0;
+  int wanted_updates = 0;  // for how many updates it is still waited for
   // A value is being dragged or typed, so its undo step is not complete.
   bool gesture_is_open = false;
+  // The project's fields, of the revision with this number.
+  std::optional<FieldSheet> sheet;
+  std::uint64_t sheet_revision = 0;
+
+  // Once per update: lists the fields anew for another revision.
+  void refresh(const ViewContext& context);
 };
 
 // Draws fields, each as a row: label, editor with its unit, a way back to the default, and what is wrong with it.
@@ -34,9 +75,10 @@ struct RowMemory {
 class FieldRows {
  public:
   // place  what the names of the fields' places in the UI probe begin with
-  FieldRows(const ViewContext& context, const FieldSheet& sheet, const ProblemsByField& problems, RowMemory& memory,
+  // memory was refreshed in this update
+  FieldRows(const ViewContext& context, const ProblemsByField& problems, RowMemory& memory,
             std::string place = "inspector/")
-      : context_(context), sheet_(sheet), problems_(problems), memory_(memory), place_(std::move(place)) {}
+      : context_(context), sheet_(*memory.sheet), problems_(problems), memory_(memory), place_(std::move(place)) {}
 
   // Rows that most projects do not need (is_common()) are left out from now on, unless they are wrong, guessed or
   // gone to.
@@ -95,8 +137,16 @@ class ButtonFlow {
   [[nodiscard]] bool button(const char* label, const char* tooltip, bool enabled = true);
 
  private:
-  // Right edge of the last one, on the screen; -1: there is none yet.
-  float right_x_ = -1;
+  float right_x_ = -1;  // right edge of the last one, on the screen; -1: there is none yet
 };
+
+// A bar with the frames that are done, and the button "Stop" below it, which is the item drawn last. True when the
+// button is clicked.
+[[nodiscard]] bool draw_job_progress(int done, int total, bool is_stopping);
+
+template <class Request, class Value>
+[[nodiscard]] bool draw_job_progress(const JobState<Request, Value>& state) {
+  return draw_job_progress(state.done, state.total, state.is_stopping);
+}
 
 }  // namespace sigs::editor

@@ -2,19 +2,12 @@
 #include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "base/text.h"
-#include "editor/document/field_edits.h"
-#include "editor/views/inspector/camera_log.h"
-#include "editor/views/inspector/scene_blocks.h"
 #include "editor/views/results/results_view.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "scene/opened_project.h"
 
 namespace sigs::editor {
@@ -48,9 +41,9 @@ void draw_own_body(const ViewContext& context, FieldRows& rows) {
     return look;
   });
   ImGui::Spacing();
-  if (ImGui::Button("Detect and paint...")) context.edits.ask(ShowOwnBody{});
-  context.ui_probe.note_item("inspector/own body");
-  tooltip_for_item("Finds the aircraft that carries the camera in its footage");
+  if (context.ui_probe.noted(ImGui::Button("Detect and paint..."), "inspector/own body",
+                             "Finds the aircraft that carries the camera in its footage"))
+    context.edits.ask(ShowOwnBody{});
   note("What else hides intruders: trees and hills, as a mask of one frame.");
   rows.rows("footage.occluder_");
 }
@@ -74,9 +67,9 @@ void draw_export(const ViewContext& context, FieldRows& rows) {
     return look;
   });
   ImGui::Spacing();
-  if (ImGui::Button("Export...")) context.edits.ask(ShowExport{});
-  context.ui_probe.note_item("inspector/export");
-  tooltip_for_item("Writes video, masks and labels (Ctrl + E)");
+  if (context.ui_probe.noted(ImGui::Button("Export..."), "inspector/export",
+                             "Writes video, masks and labels (Ctrl + E)"))
+    context.edits.ask(ShowExport{});
 }
 
 // How many problems a block holds, at the right end of its header.
@@ -96,10 +89,7 @@ void draw_badge(int count) {
 }  // namespace
 
 void InspectorView::refresh(const ViewContext& context) {
-  if (!sheet_ || sheet_revision_ != context.document.revision().number) {
-    sheet_.emplace(context.project());
-    sheet_revision_ = context.document.revision().number;
-  }
+  memory_.refresh(context);
   problems_.refresh(context);
   if (std::optional<std::string> lost = loss_of_view_.found(context))
     context.edits.ask(ShowMessage{*std::move(lost), true});
@@ -131,7 +121,7 @@ void InspectorView::go_to_problem(const ViewContext& context, const std::string&
   filter_.clear();
   block_to_open_ = editor::block_of(key);
   // A key without a row of its own is shown by its block.
-  const bool has_row = sheet_->find(key) != nullptr;
+  const bool has_row = memory_.sheet->find(key) != nullptr;
   updates_to_open_ = has_row ? kUpdatesToWait : 2;
   memory_.wanted_key = key;
   memory_.wanted_updates = has_row ? kUpdatesToWait : 0;
@@ -152,8 +142,7 @@ void InspectorView::draw_depth(const ViewContext& context) const {
     ImGui::PushStyleColor(ImGuiCol_Button, is_on ? color::kAccentSoft : IM_COL32(0, 0, 0, 0));
     if (ImGui::Button(label)) context.edits.ask(ShowAllSettings{all});
     ImGui::PopStyleColor();
-    context.ui_probe.note_item(name);
-    tooltip_for_item(tooltip);
+    context.ui_probe.note_item(name, tooltip);
   };
   ImGui::SameLine(0, scaled(6));
   choice("Common", "inspector/common", false,
@@ -163,7 +152,7 @@ void InspectorView::draw_depth(const ViewContext& context) const {
 }
 
 void InspectorView::draw_top(const ViewContext& context, FieldRows& rows) {
-  for (const Field& field : sheet_->fields())
+  for (const Field& field : memory_.sheet->fields())
     if (editor::block_of(field.key).empty()) rows.row(field.key);
   const float depth = ImGui::CalcTextSize("CommonAll").x + 4 * ImGui::GetStyle().FramePadding.x + scaled(8);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - depth -
@@ -231,7 +220,7 @@ void InspectorView::draw_blocks(const ViewContext& context, FieldRows& rows) {
 void InspectorView::draw_found(const ViewContext& context, FieldRows& rows) const {
   std::string heading;
   bool has_any = false;
-  for (const Field& field : sheet_->fields()) {
+  for (const Field& field : memory_.sheet->fields()) {
     const std::string name = editor::block_of(field.key);
     if (name.empty() || !matches(field, filter_)) continue;
     const bool is_of_intruder = name == "Intruders" || name == "Trajectory";
@@ -250,7 +239,7 @@ void InspectorView::draw(const ViewContext& context) {
   refresh(context);
   follow_selection(context);
   follow_matching(context);
-  FieldRows rows(context, *sheet_, problems_.by_field(), memory_);
+  FieldRows rows(context, problems_.by_field(), memory_);
   if (!context.settings.all_settings && filter_.empty()) rows.leave_out_uncommon();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(4)});
   draw_top(context, rows);

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/light_block.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <string_view>
 
 #include "base/pose.h"
-#include "editor/document/field_edits.h"
-#include "editor/views/inspector/job_progress.h"
-#include "editor/views/shown_camera.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "scene/scene_at.h"
 #include "scene/scene_light.h"
 
@@ -71,6 +64,28 @@ bool slider(FieldRows& rows, const char* label, double& value, double low, doubl
   return moved;
 }
 
+constexpr std::array<const char*, 4> kPointKeys{"light.kind", "light.position_m", "light.color", "light.ambient"};
+constexpr std::array<const char*, 3> kSunKeys{"light.kind", "light.sun.azimuth_deg", "light.sun.elevation_deg"};
+constexpr std::array<const char*, 4> kSunColorKeys{"light.color", "light.sky_color", "light.ground_color",
+                                                   "light.exposure"};
+
+RowOptions look_of_light(std::string_view key) {
+  RowOptions look;
+  look.is_color = key.ends_with("color");
+  return look;
+}
+
+// Where the sun stands in the playhead's frame, wherever that comes from.
+void note_sun(const ViewContext& context) {
+  const OpenedScene* const opened = context.shown.scene.get();
+  if (opened == nullptr || opened->draft.scene.light.kind != LightKind::sun) return;
+  const Sunlight sun = sunlight_at(opened->draft.scene, time_of(context, context.document.playhead()));
+  const double bearing_deg = deg_of_rad(std::atan2(sun.to_sun.y, sun.to_sun.x));
+  const double elevation_deg = deg_of_rad(std::asin(std::clamp(-sun.to_sun.z, -1.0, 1.0)));
+  note(fmt::format("In the playhead's frame the sun stands {:.1f} deg from world X to the right, {:.1f} deg high{}",
+                   bearing_deg, elevation_deg, sun.visible_share > 0 ? "." : ": it has set."));
+}
+
 }  // namespace
 
 LightBlock::Viewpoint LightBlock::viewpoint_of(const ViewContext& context) {
@@ -124,44 +139,18 @@ void LightBlock::draw_presets(const ViewContext& context, const Viewpoint& viewp
   }
 }
 
-namespace {
-
-constexpr std::array<const char*, 4> kPointKeys{"light.kind", "light.position_m", "light.color", "light.ambient"};
-constexpr std::array<const char*, 3> kSunKeys{"light.kind", "light.sun.azimuth_deg", "light.sun.elevation_deg"};
-constexpr std::array<const char*, 4> kSunColorKeys{"light.color", "light.sky_color", "light.ground_color",
-                                                   "light.exposure"};
-
-RowOptions look_of_light(std::string_view key) {
-  RowOptions look;
-  look.is_color = key.ends_with("color");
-  return look;
-}
-
-// Where the sun stands in the playhead's frame, wherever that comes from.
-void note_sun(const ViewContext& context) {
-  const OpenedScene* const opened = context.shown.scene.get();
-  if (opened == nullptr || opened->draft.scene.light.kind != LightKind::sun) return;
-  const Sunlight sun = sunlight_at(opened->draft.scene, time_of(context, context.document.playhead()));
-  const double bearing_deg = deg_of_rad(std::atan2(sun.to_sun.y, sun.to_sun.x));
-  const double elevation_deg = deg_of_rad(std::asin(std::clamp(-sun.to_sun.z, -1.0, 1.0)));
-  note(fmt::format("In the playhead's frame the sun stands {:.1f} deg from world X to the right, {:.1f} deg high{}",
-                   bearing_deg, elevation_deg, sun.visible_share > 0 ? "." : ": it has set."));
-}
-
-}  // namespace
-
 void LightBlock::draw_lit_like(const ViewContext& context) {
   if (context.light != nullptr && context.light->is_running()) {
     if (draw_job_progress(*context.light)) context.edits.ask(StopLightLike{});
     context.ui_probe.note_item("inspector/stop lit like");
     return;
   }
-  if (ImGui::Button("Lit like...")) context.edits.ask(ShowLightLike{});
-  context.ui_probe.note_item("inspector/lit like");
-  tooltip_for_item(
-      "Draw a box around a real aircraft in the footage, or another thing that the sun lights: the exposure is set so "
-      "that "
-      "the intruder is as bright as it.");
+  if (context.ui_probe.noted(ImGui::Button("Lit like..."), "inspector/lit like",
+                             "Draw a box around a real aircraft in the footage, or another thing that the sun lights: "
+                             "the exposure is set so "
+                             "that "
+                             "the intruder is as bright as it."))
+    context.edits.ask(ShowLightLike{});
 }
 
 void LightBlock::draw(const ViewContext& context, FieldRows& rows) {

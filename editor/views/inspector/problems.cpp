@@ -2,7 +2,6 @@
 #include "editor/views/inspector/problems.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
@@ -13,10 +12,8 @@
 
 #include "base/text.h"
 #include "editor/document/field_edits.h"
-#include "editor/views/inspector/trajectory.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
+#include "editor/views/inspector/inspector_view.h"
+#include "editor/views/waypoint_actions.h"
 #include "export/export_project.h"
 #include "scene/opened_project.h"
 
@@ -128,6 +125,19 @@ std::optional<Visibility> whole_visibility(const OpenedScene& opened, const Surv
   return is_whole ? std::optional(visibility_of(*survey, frames)) : std::nullopt;
 }
 
+std::vector<Problem> lines_of(const ProblemsByField& problems) {
+  std::vector<Problem> lines;
+  for (const auto& [field, problem] : problems) lines.push_back(problem);
+  return lines;
+}
+
+// How much hangs on a guess: all distances on the lens, all places on the camera, the look of one aircraft on the rest.
+int weight_of(std::string_view field) {
+  constexpr std::array<std::string_view, 4> kFirst{"footage.", "camera.", "intruders", "light."};
+  const auto found = std::ranges::find_if(kFirst, [&](std::string_view begin) { return field.starts_with(begin); });
+  return static_cast<int>(found - kFirst.begin());
+}
+
 }  // namespace
 
 std::string block_of(std::string_view key) {
@@ -161,10 +171,7 @@ std::string place_of(const Project& project, std::string_view key) {
 
 void ProblemList::find_warnings() {
   warnings_.clear();
-  if (!scene_) {
-    never_visible_.clear();
-    return;
-  }
+  if (!scene_) return never_visible_.clear();
   const auto add = [&](const Problem& warning) { warnings_.emplace(warning.field, warning); };
   for (const Problem& warning : warnings_of_files(*scene_)) add(warning);
   if (horizons_)
@@ -206,8 +213,7 @@ std::optional<std::string> LossOfView::found(const ViewContext& context) {
   const std::vector<IntruderSettings>& intruders = opened->project->intruders;
   std::map<std::string, Visibility> now;
   for (std::size_t i = 0; i < intruders.size(); ++i) {
-    const Survey* const survey = i < context.shown.surveys.size() ? context.shown.surveys[i].get() : nullptr;
-    const std::optional<Visibility> visibility = whole_visibility(*opened, survey);
+    const std::optional<Visibility> visibility = whole_visibility(*opened, survey_of(context, int(i)).get());
     if (visibility)
       now.emplace(intruders[i].name, *visibility);
     else if (!intruders[i].trajectory.waypoints.empty())
@@ -225,24 +231,6 @@ std::optional<std::string> LossOfView::found(const ViewContext& context) {
   return message;
 }
 
-namespace {
-
-std::vector<Problem> lines_of(const ProblemsByField& problems) {
-  std::vector<Problem> lines;
-  for (const auto& [field, problem] : problems) lines.push_back(problem);
-  return lines;
-}
-
-// How much hangs on a guess: all distances on the lens, all places on the camera, the look of one aircraft on the rest.
-int weight_of(std::string_view field) {
-  constexpr std::array<std::string_view, 4> kFirst{"footage.", "camera.", "intruders", "light."};
-  const auto found =
-      std::find_if(kFirst.begin(), kFirst.end(), [&](std::string_view begin) { return field.starts_with(begin); });
-  return static_cast<int>(found - kFirst.begin());
-}
-
-}  // namespace
-
 int ProblemList::count_in(const std::string& block) const {
   const auto found = counts_.find(block);
   return found == counts_.end() ? 0 : found->second;
@@ -253,7 +241,7 @@ std::optional<std::string> ProblemList::draw(const ViewContext& context) const {
   const std::optional<std::string> warning = draw_list(context, lines_of(warnings_), "warning", color::kPartly);
   std::vector<Problem> guesses;
   if (context.guesses != nullptr) guesses = *context.guesses;
-  std::stable_sort(guesses.begin(), guesses.end(), [](const Problem& a, const Problem& b) {
+  std::ranges::stable_sort(guesses, [](const Problem& a, const Problem& b) {
     return std::pair(weight_of(a.field), a.field) < std::pair(weight_of(b.field), b.field);
   });
   const std::optional<std::string> guess = draw_list(context, guesses, "guessed setting", color::kAccent, true);

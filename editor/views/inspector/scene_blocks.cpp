@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/scene_blocks.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
-#include <optional>
 
 #include "base/text.h"
-#include "editor/document/field_edits.h"
 #include "editor/preview/thumbnails.h"
-#include "editor/views/shown_camera.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -56,25 +48,6 @@ std::string lens_text(const Camera& camera) {
                      number_text(std::round(valid_deg * 10) / 10, "deg"));
 }
 
-}  // namespace
-
-void draw_inputs(const ViewContext& context, FieldRows& rows) {
-  const OpenedScene* const scene = context.shown.scene.get();
-  rows.row("footage.video");
-  if (scene != nullptr && scene->footage) draw_video(*scene->footage, rows);
-  RowOptions last;
-  last.suggested = scene != nullptr ? double(scene->draft.scene.footage.times_s.size()) - 1 : 0;
-  for (const Field& field : rows.sheet().fields()) {
-    if (!field.key.starts_with("footage.") || field.key == "footage.video") continue;
-    if (field.key.starts_with("footage.occluder_")) continue;  // with the own body
-    rows.row(field.key, field.key == "footage.last_frame" ? last : RowOptions());
-    if (field.key == "footage.calibration" && scene != nullptr && !rows.problems().contains(field.key))
-      note(lens_text(scene->draft.scene.camera));
-  }
-}
-
-namespace {
-
 constexpr double kMaxListRows = 6;        // of the list, before it scrolls
 constexpr double kMaxPreviewWidth = 300;  // where the text is 15 px high
 constexpr double kTurnAPixel_rad = 0.01;  // a drag across the preview is about half a turn
@@ -95,14 +68,15 @@ std::string decimetres(double metres) {
 
 void draw_buttons(const ViewContext& context, std::optional<int> intruder) {
   ButtonFlow flow;
-  if (flow.button("Add", "Another intruder, 300 m ahead of the camera and crossing")) add_intruder(context);
-  context.ui_probe.note_item("inspector/add intruder");
-  if (flow.button("Duplicate", "A copy of this one, 30 m to its right", intruder.has_value()))
+  if (context.ui_probe.noted(flow.button("Add", "Another intruder, 300 m ahead of the camera and crossing"),
+                             "inspector/add intruder"))
+    add_intruder(context);
+  if (context.ui_probe.noted(flow.button("Duplicate", "A copy of this one, 30 m to its right", intruder.has_value()),
+                             "inspector/duplicate intruder"))
     duplicate_intruder(context, *intruder);
-  context.ui_probe.note_item("inspector/duplicate intruder");
-  if (flow.button("Delete", "Takes this intruder out of the project", intruder.has_value()))
+  if (context.ui_probe.noted(flow.button("Delete", "Takes this intruder out of the project", intruder.has_value()),
+                             "inspector/delete intruder"))
     delete_intruder(context, *intruder);
-  context.ui_probe.note_item("inspector/delete intruder");
 }
 
 RowOptions look_of(const Field& field, const IntruderSettings& intruder) {
@@ -155,6 +129,21 @@ void draw_axis(ImDrawList& list, ImVec2 low, ImVec2 size, const glm::dvec3& axis
 
 }  // namespace
 
+void draw_inputs(const ViewContext& context, FieldRows& rows) {
+  const OpenedScene* const scene = context.shown.scene.get();
+  rows.row("footage.video");
+  if (scene != nullptr && scene->footage) draw_video(*scene->footage, rows);
+  RowOptions last;
+  last.suggested = scene != nullptr ? double(scene->draft.scene.footage.times_s.size()) - 1 : 0;
+  for (const Field& field : rows.sheet().fields()) {
+    if (!field.key.starts_with("footage.") || field.key == "footage.video") continue;
+    if (field.key.starts_with("footage.occluder_")) continue;  // with the own body
+    rows.row(field.key, field.key == "footage.last_frame" ? last : RowOptions());
+    if (field.key == "footage.calibration" && scene != nullptr && !rows.problems().contains(field.key))
+      note(lens_text(scene->draft.scene.camera));
+  }
+}
+
 void ModelBlock::draw_list(const ViewContext& context, const FieldRows& rows) {
   const std::vector<IntruderSettings>& intruders = context.project().intruders;
   const std::optional<int> chosen = current_intruder(context);
@@ -166,8 +155,8 @@ void ModelBlock::draw_list(const ViewContext& context, const FieldRows& rows) {
   while (clipper.Step())
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       ImGui::PushID(i);
-      if (ImGui::Selectable("##intruder", chosen == i)) context.edits.select({Selected::intruder, i, 0});
-      context.ui_probe.note_item("inspector/" + key_of(i));
+      if (context.ui_probe.noted(ImGui::Selectable("##intruder", chosen == i), "inspector/" + key_of(i)))
+        context.edits.select({Selected::intruder, i, 0});
       const ImVec2 low = ImGui::GetItemRectMin();
       const ImVec2 high = ImGui::GetItemRectMax();
       ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -205,10 +194,11 @@ void ModelBlock::draw_preview(const ViewContext& context, int intruder) {
   const ModelImage* const model = context.shown.model.get();
   const std::string& file = context.project().intruders[static_cast<std::size_t>(intruder)].model.file;
   const bool is_of_this = model != nullptr && is_same_file(model->file, resolved(context.project(), file));
-  if (!is_of_this || model->rgba.empty()) {
-    draw_centred(low, size, file.empty() ? "no model" : is_of_this && !model->problem.empty() ? "no image" : "...");
-    return;
-  }
+  if (!is_of_this || model->rgba.empty())
+    return draw_centred(low, size,
+                        file.empty()                            ? "no model"
+                        : is_of_this && !model->problem.empty() ? "no image"
+                                                                : "...");
   list.AddImage(context.textures.of(model->rgba, Filter::smooth), low, high);
   context.ui_probe.note_item("inspector/model image");
   draw_axis(list, low, size, {1, 0, 0}, turn_rad_, color::kAccent, "nose");
@@ -230,9 +220,9 @@ void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {
   const IntruderSettings& settings = context.project().intruders[static_cast<std::size_t>(*intruder)];
   rows.row(key + ".name");
   rows.row(key + ".model.file");
-  if (ImGui::Button("Change model...")) context.edits.ask(ShowModels{*intruder});
-  context.ui_probe.note_item("inspector/change model");
-  tooltip_for_item("Shows the models that come with the program, and takes one of yours");
+  if (context.ui_probe.noted(ImGui::Button("Change model..."), "inspector/change model",
+                             "Shows the models that come with the program, and takes one of yours"))
+    context.edits.ask(ShowModels{*intruder});
   draw_preview(context, *intruder);
   for (const Field& field : rows.sheet().fields())
     if (field.key.starts_with(key + ".model.") && field.key != key + ".model.file")

@@ -1,21 +1,51 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/trajectory.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <string>
 
-#include "editor/document/field_edits.h"
+#include "base/ensure.h"
+#include "editor/document/waypoint_edits.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
 namespace {
+
+constexpr int kMaxRows = 9;  // before the table scrolls
+
+const std::vector<WaypointSettings>& waypoints_of(const ViewContext& context, int intruder) {
+  return context.project().intruders[static_cast<std::size_t>(intruder)].trajectory.waypoints;
+}
+
+std::optional<int> selected_waypoint(const ViewContext& context, int intruder) {
+  const Selection& selection = context.document.selection();
+  const bool is_here = selection.kind == Selected::waypoint && selection.intruder == intruder;
+  return is_here ? std::optional(selection.waypoint) : std::nullopt;
+}
+
+std::string waypoint_key(int intruder, int waypoint) {
+  return fmt::format("intruders[{}].trajectory.waypoints[{}]", intruder, waypoint);
+}
+
+bool has_problem(const ProblemsByField& problems, const std::string& key) {
+  const auto found = problems.lower_bound(key);
+  return found != problems.end() && found->first.starts_with(key);
+}
+
+// Column titles in the colours of the axes.
+void draw_titles() {
+  constexpr std::array<const char*, 5> kTitles{"#", "Frame", "X (m)", "Y (m)", "Z (m)"};
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (int column = 0; column < 5; ++column) {
+    ImGui::TableSetColumnIndex(column);
+    const ImU32 shade = column < 2 ? color::kQuiet : color::kAxes[static_cast<std::size_t>(column - 2)];
+    draw_text(kTitles[static_cast<std::size_t>(column)], shade);
+  }
+}
 
 constexpr int kMaxProblems = 3;
 
@@ -38,14 +68,194 @@ void draw_problems(FieldRows& rows, const std::string& prefix) {
   }
 }
 
+constexpr std::size_t kMaxFlags = 12;
+
+std::string tenths(double value, double step = 0.1) {
+  return number_text(std::round(value / step) * step);
+}
+
+void note_row(FieldRows& rows, const char* label, const std::string& text, const char* tooltip) {
+  (void)rows.begin_row(label);
+  draw_wrapped(text, color::kQuiet);
+  tooltip_for_item(tooltip);
+}
+
+std::string frames_text(const FlightFlag& flag) {
+  const long first = std::lround(flag.first_frame);
+  const long last = std::lround(flag.last_frame);
+  return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
+}
+
 }  // namespace
+
+WaypointTable::WaypointTable() : example_(std::make_unique<Project>()) {
+  example_->intruders.resize(1);
+  example_->intruders[0].trajectory.waypoints.resize(1);
+  example_fields_ = fields_of(*example_);
+  for (const Field& field : example_fields_) {
+    if (field.key.ends_with("waypoints[0].frame")) frame_field_ = &field;
+    if (field.key.ends_with("waypoints[0].position_m")) position_field_ = &field;
+  }
+  ENSURE(frame_field_ != nullptr && position_field_ != nullptr);
+}
+
+void WaypointTable::refresh(const ViewContext& context, int intruder) {
+  const Document& document = context.document;
+  const bool is_same = revision_ == document.revision().number && intruder_ == intruder &&
+                       range_first_ == document.first_frame() && range_last_ == document.last_frame();
+  if (is_same) return;
+  revision_ = document.revision().number;
+  intruder_ = intruder;
+  range_first_ = document.first_frame();
+  range_last_ = document.last_frame();
+  frames_ = frames_of_waypoints(context, intruder);
+}
+
+void WaypointTable::draw_frame(const ViewContext& context, int intruder, int waypoint) {
+  const auto index = static_cast<std::size_t>(waypoint);
+  const bool is_own = waypoints_of(context, intruder)[index].frame.has_value();
+  double frame = frames_[index];
+  if (!is_own) ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
+  const bool has_changed = number_input("##frame", frame, *frame_field_, ImGui::GetContentRegionAvail().x);
+  if (!is_own) ImGui::PopStyleColor();
+  tooltip_for_item(is_own ? "Frame in which it is passed; drag, or click to type"
+                          : "Spread evenly between its neighbours; give it a frame by dragging or typing");
+  if (ImGui::IsItemActivated()) context.edits.select({Selected::waypoint, intruder, waypoint});
+  if (has_changed)
+    context.edits.change(
+        "move waypoint in time",
+        [=, frames = frames_](Project& project) {
+          TrajectoryPlan& plan = project.intruders[static_cast<std::size_t>(intruder)].trajectory;
+          move_waypoint_in_time(plan, waypoint, frame, frames);
+        },
+        "inspector frame " + waypoint_key(intruder, waypoint));
+  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+}
+
+void WaypointTable::draw_position(const ViewContext& context, int intruder, int waypoint) {
+  constexpr std::array<const char*, 3> kIds{"##x", "##y", "##z"};
+  Field part = *position_field_;
+  part.unit = "";  // in the title
+  glm::dvec3 position_m = waypoints_of(context, intruder)[static_cast<std::size_t>(waypoint)].position_m;
+  for (int axis = 0; axis < 3; ++axis) {
+    ImGui::TableSetColumnIndex(2 + axis);
+    const char* const id = kIds[static_cast<std::size_t>(axis)];
+    if (number_input(id, position_m[axis], part, ImGui::GetContentRegionAvail().x))
+      context.edits.move_waypoint(intruder, waypoint, position_m, gesture_of_waypoint(intruder, waypoint));
+    if (ImGui::IsItemActivated()) context.edits.select({Selected::waypoint, intruder, waypoint});
+    if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  }
+}
+
+void WaypointTable::draw_row(const ViewContext& context, int intruder, int waypoint, bool is_wrong) {
+  const bool is_selected = selected_waypoint(context, intruder) == waypoint;
+  ImGui::TableNextRow();
+  if (is_selected) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, color::kAccentSoft);
+  ImGui::TableSetColumnIndex(0);
+  ImGui::AlignTextToFramePadding();
+  const std::string number = std::to_string(waypoint + 1);  // as on the timeline and in menus
+  if (is_wrong) ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
+  if (ImGui::Selectable(number.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick)) {
+    context.edits.select({Selected::waypoint, intruder, waypoint});
+    const double frame = std::round(frames_[static_cast<std::size_t>(waypoint)]);
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+      context.edits.go_to_frame(static_cast<int>(std::clamp(frame, 0.0, 1e9)));
+  }
+  if (is_wrong) ImGui::PopStyleColor();
+  context.ui_probe.note_item("inspector/waypoint " + number, "Click selects, double click goes to its frame");
+  ImGui::TableSetColumnIndex(1);
+  draw_frame(context, intruder, waypoint);
+  context.ui_probe.note_item(fmt::format("inspector/waypoint {}/frame", number));
+  draw_position(context, intruder, waypoint);
+}
+
+// What was selected elsewhere comes into sight.
+void WaypointTable::scroll_to_selected(const ViewContext& context, int intruder, float row_height) {
+  const Selection& selection = context.document.selection();
+  if (selection == shown_) return;
+  shown_ = selection;
+  const std::optional<int> waypoint = selected_waypoint(context, intruder);
+  if (!waypoint) return;
+  const float top = static_cast<float>(*waypoint) * row_height;
+  const float room = ImGui::GetWindowHeight() - 2 * row_height;
+  const float scroll = ImGui::GetScrollY();
+  if (top < scroll || top > scroll + room) ImGui::SetScrollY(std::max(0.0F, top - room / 2));
+}
+
+void WaypointTable::draw_rows(const ViewContext& context, const ProblemsByField& problems, int intruder) {
+  const auto count = static_cast<int>(waypoints_of(context, intruder).size());
+  const float row_height = ImGui::GetFrameHeight() + 2 * scaled(1);
+  const float room = ImGui::GetContentRegionAvail().x;
+  const float minimum = scaled(34) + 4 * scaled(58);
+  const int rows = std::min(count, kMaxRows);
+  const float height = row_height * static_cast<float>(rows) + ImGui::GetTextLineHeight() + scaled(8) +
+                       (room < minimum ? ImGui::GetStyle().ScrollbarSize : 0);
+  constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_RowBg |
+                                     ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoSavedSettings;
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {scaled(2), scaled(1)});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {scaled(4), ImGui::GetStyle().FramePadding.y});
+  if (ImGui::BeginTable("waypoints", 5, kFlags, {0, height})) {
+    const bool scrolls = count > kMaxRows;
+    const float usable = room - scaled(34) - 5 * scaled(4) - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+    const float each = std::max(scaled(54), std::floor(usable / 4));
+    ImGui::TableSetupScrollFreeze(1, 1);
+    ImGui::TableSetupColumn("#", ImGuiTableColumnFlags_WidthFixed, scaled(30));
+    for (const char* const title : {"frame", "x", "y", "z"})
+      ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, each);
+    draw_titles();
+    ImGuiListClipper clipper;
+    clipper.Begin(count);
+    while (clipper.Step())
+      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+        ImGui::PushID(i);
+        draw_row(context, intruder, i, has_problem(problems, waypoint_key(intruder, i)));
+        ImGui::PopID();
+      }
+    scroll_to_selected(context, intruder, row_height);
+    ImGui::EndTable();
+  }
+  ImGui::PopStyleVar(2);
+}
+
+// Half way in time to the next one, on the curve.
+void WaypointTable::insert_after(const ViewContext& context, int intruder, int waypoint) const {
+  const auto index = static_cast<std::size_t>(waypoint);
+  const std::vector<WaypointSettings>& waypoints = waypoints_of(context, intruder);
+  if (index + 1 >= waypoints.size()) return;
+  const double frame = std::round((frames_[index] + frames_[index + 1]) / 2);
+  const glm::dvec3 between_m = (waypoints[index].position_m + waypoints[index + 1].position_m) / 2.0;
+  add_waypoint(context, intruder, frame, position_of(context, intruder, frame).value_or(between_m));
+}
+
+void WaypointTable::draw_buttons(const ViewContext& context, int intruder) const {
+  const std::optional<int> chosen = selected_waypoint(context, intruder);
+  const std::size_t count = frames_.size();
+  const auto after = static_cast<std::size_t>(chosen.value_or(0)) + 1;
+  const bool has_room = chosen && after < count && frames_[after] - frames_[after - 1] >= 2 * kMinGap_frames;
+  ButtonFlow flow;
+  if (context.ui_probe.noted(flow.button("Add here", "A waypoint in the playhead's frame, on the trajectory (Enter)"),
+                             "inspector/add waypoint"))
+    add_waypoint_here(context);
+  if (context.ui_probe.noted(
+          flow.button("Insert", "A waypoint on the curve, half way between this one and the next", has_room),
+          "inspector/insert waypoint"))
+    insert_after(context, intruder, *chosen);
+  if (flow.button("Duplicate##waypoint", "A copy of this one, farther on (Ctrl + D)", chosen.has_value()))
+    duplicate_selected(context);
+  if (context.ui_probe.noted(flow.button("Delete##waypoint", "Takes this waypoint out (Delete)", chosen && count > 1),
+                             "inspector/delete waypoint"))
+    delete_selected(context);
+}
+
+void WaypointTable::draw(const ViewContext& context, const ProblemsByField& problems, int intruder) {
+  refresh(context, intruder);
+  if (!frames_.empty()) draw_rows(context, problems, intruder);
+  draw_buttons(context, intruder);
+}
 
 void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   const std::optional<int> intruder = current_intruder(context);
-  if (!intruder) {
-    note("No intruder yet. Add one above.");
-    return;
-  }
+  if (!intruder) return note("No intruder yet. Add one above.");
   const std::string key = fmt::format("intruders[{}].trajectory.", *intruder);
   const bool is_level =
       context.project().intruders[static_cast<std::size_t>(*intruder)].trajectory.bank == BankChoice::level;
@@ -64,32 +274,6 @@ void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   note("Flight");
   flight_.draw(context, rows, *intruder);
 }
-
-namespace {
-
-constexpr std::size_t kMaxFlags = 12;
-
-std::string tenths(double value, double step = 0.1) {
-  return number_text(std::round(value / step) * step);
-}
-
-void note_row(FieldRows& rows, const char* label, const std::string& text, const char* tooltip) {
-  (void)rows.begin_row(label);
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-  tooltip_for_item(tooltip);
-}
-
-std::string frames_text(const FlightFlag& flag) {
-  const long first = std::lround(flag.first_frame);
-  const long last = std::lround(flag.last_frame);
-  return first == last ? fmt::format("frame {}", first) : fmt::format("frames {} to {}", first, last);
-}
-
-}  // namespace
 
 Visibility visibility_of(const Survey& survey, int frames) {
   Visibility visibility{.frames = frames};
@@ -114,14 +298,10 @@ void FlightSummary::measure(const std::shared_ptr<const Survey>& survey) {
 }
 
 void FlightSummary::draw(const ViewContext& context, FieldRows& rows, int intruder) {
-  const auto index = static_cast<std::size_t>(intruder);
-  const std::vector<std::shared_ptr<const Survey>>& surveys = context.shown.surveys;
-  if (index >= surveys.size() || !surveys[index] || surveys[index]->flight.empty()) {
-    note("The flight has not been looked at yet.");
-    return;
-  }
-  const Survey& survey = *surveys[index];
-  measure(surveys[index]);
+  const std::shared_ptr<const Survey> shown = survey_of(context, intruder);
+  if (!shown || shown->flight.empty()) return note("The flight has not been looked at yet.");
+  const Survey& survey = *shown;
+  measure(shown);
   note_row(rows, "Speed", fmt::format("{} to {} m/s", tenths(speed_mps_.minimum), tenths(speed_mps_.maximum)),
            "Minimum and maximum");
   note_row(rows, "Load factor", fmt::format("{} to {} g", tenths(load_.minimum, 0.01), tenths(load_.maximum, 0.01)),

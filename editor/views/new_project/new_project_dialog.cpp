@@ -2,19 +2,13 @@
 #include "editor/views/new_project/new_project_dialog.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "base/text.h"
 #include "editor/document/field_edits.h"
-#include "editor/views/export_parts.h"
+#include "editor/views/export_view.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -23,11 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void small_text(const std::string& text, ImU32 shade) {
-  ImGui::PushFont(font(Font::small));
-  ImGui::PushStyleColor(ImGuiCol_Text, shade);
-  ImGui::TextWrapped("%s", shortened(text).c_str());
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
+  draw_wrapped(shortened(text), shade, Font::small);
 }
 
 // Some room above the next setting.
@@ -76,11 +66,11 @@ bool NewProjectDialog::draw_path(const ViewContext& context, const char* name, s
   ImGui::PushID(name);
   const float browse = dialog_button_width("Browse...");
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - browse - ImGui::GetStyle().ItemSpacing.x);
-  const bool is_typed = text_input("##path", text);
-  context.ui_probe.note_item(fmt::format("new project/{}", name));
+  const bool is_typed = context.ui_probe.noted(text_input("##path", text), fmt::format("new project/{}", name));
   ImGui::SameLine();
-  if (ImGui::Button("Browse...", {browse, ImGui::GetFrameHeight()})) context.edits.ask(std::move(wanted));
-  context.ui_probe.note_item(fmt::format("new project/{} browse", name));
+  if (context.ui_probe.noted(ImGui::Button("Browse...", {browse, ImGui::GetFrameHeight()}),
+                             fmt::format("new project/{} browse", name)))
+    context.edits.ask(std::move(wanted));
   ImGui::PopID();
   return is_typed;
 }
@@ -139,21 +129,19 @@ void NewProjectDialog::draw_video(const ViewContext& context) {
 }
 
 void NewProjectDialog::draw_field_of_view(const ViewContext& context) {
-  if (ImGui::RadioButton("Field of view", form_.lens == LensChoice::field_of_view)) {
+  if (context.ui_probe.noted(
+          ImGui::RadioButton("Field of view", form_.lens == LensChoice::field_of_view), "new project/field of view",
+          "Horizontal, of the whole image; from the camera's data sheet. The lens is taken as free of "
+          "distortion")) {
     form_.lens = LensChoice::field_of_view;
     changed();
   }
-  context.ui_probe.note_item("new project/field of view");
-  tooltip_for_item(
-      "Horizontal, of the whole image; from the camera's data sheet. The lens is taken as free of "
-      "distortion");
   ImGui::SameLine(scaled(150));
   ImGui::SetNextItemWidth(scaled(90));
-  if (text_input("##fov", form_.fov_deg, "e.g. 70")) {
+  if (context.ui_probe.noted(text_input("##fov", form_.fov_deg, "e.g. 70"), "new project/degrees")) {
     form_.lens = LensChoice::field_of_view;
     changed();
   }
-  context.ui_probe.note_item("new project/degrees");
   ImGui::SameLine();
   ImGui::TextDisabled("degrees, left to right");
 }
@@ -163,9 +151,9 @@ void NewProjectDialog::draw_calibration(const ViewContext& context) {
     form_.lens = LensChoice::calibration;
     changed();
   };
-  if (ImGui::RadioButton("Calibration", form_.lens == LensChoice::calibration)) choose();
-  context.ui_probe.note_item("new project/calibrated");
-  tooltip_for_item("A file of OpenCV, ROS or Gyroflow for this camera");
+  if (context.ui_probe.noted(ImGui::RadioButton("Calibration", form_.lens == LensChoice::calibration),
+                             "new project/calibrated", "A file of OpenCV, ROS or Gyroflow for this camera"))
+    choose();
   ImGui::SameLine(scaled(150));
   AskForFile wanted = question_for("Choose the calibration", "footage.calibration",
                                    form_.calibration.empty() ? form_.video : form_.calibration);
@@ -183,12 +171,12 @@ void NewProjectDialog::draw_lens(const ViewContext& context) {
   const VideoFactsState state = facts_.state();
   const bool is_known = state.phase == JobPhase::done && state.request == typed_path(form_.video);
   const bool is_stated = is_known && !state.value->lens.empty();
-  if (ImGui::RadioButton(is_stated ? "As the video states###guess" : "Guess###guess",
-                         form_.lens == LensChoice::guess)) {
+  if (context.ui_probe.noted(ImGui::RadioButton(is_stated ? "As the video states###guess" : "Guess###guess",
+                                                form_.lens == LensChoice::guess),
+                             "new project/guess")) {
     form_.lens = LensChoice::guess;
     changed();
   }
-  context.ui_probe.note_item("new project/guess");
   ImGui::SameLine(scaled(150));
   const std::string hint = is_stated  ? state.value->lens
                            : is_known ? "the video does not tell its lens: a usual one is assumed"
@@ -224,9 +212,10 @@ void NewProjectDialog::draw_model(const ViewContext& context) {
 void NewProjectDialog::draw_look(const ViewContext& context) {
   begin_group();
   begin_setting("Look", "How the camera shows the aircraft");
-  if (ImGui::Checkbox("Match the footage", &form_.matches_footage)) changed();
-  context.ui_probe.note_item("new project/match the footage");
-  tooltip_for_item("Light, blur, noise, haze and compression as the footage shows them; takes some seconds");
+  if (context.ui_probe.noted(ImGui::Checkbox("Match the footage", &form_.matches_footage),
+                             "new project/match the footage",
+                             "Light, blur, noise, haze and compression as the footage shows them; takes some seconds"))
+    changed();
 }
 
 void NewProjectDialog::draw_file(const ViewContext& context) {
@@ -256,9 +245,8 @@ void NewProjectDialog::draw_file(const ViewContext& context) {
 }
 
 void NewProjectDialog::draw_rows(const ViewContext& context, const FirstProjectState& making) {
-  ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
-  ImGui::TextWrapped("Puts one simulated aircraft into a video of yours. All of it can be changed afterwards.");
-  ImGui::PopStyleColor();
+  draw_wrapped("Puts one simulated aircraft into a video of yours. All of it can be changed afterwards.",
+               color::kQuiet);
   ImGui::Dummy({0, scaled(2)});
   if (ImGui::BeginTable("rows", 2)) {
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, scaled(80));
@@ -297,21 +285,19 @@ void NewProjectDialog::try_to_create(NewProjectChoice& choice) {
 
 void NewProjectDialog::draw_buttons(const ViewContext& context, NewProjectChoice& choice) {
   ImGui::Dummy({0, scaled(6)});
-  if (dialog_button("Empty project")) choice.empty = true;
-  context.ui_probe.note_item("new project/empty");
-  tooltip_for_item("Without a video: the files are chosen one by one");
+  if (context.ui_probe.noted(dialog_button("Empty project"), "new project/empty",
+                             "Without a video: the files are chosen one by one"))
+    choice.empty = true;
   ImGui::SameLine();
   std::error_code code;
   const bool replaces = !asked_about_.empty() && fs::exists(asked_about_, code);
   const char* const go = replaces ? "Replace" : "Create";
   const char* const labels[] = {"Cancel", go};
   align_buttons_right(labels, 2);
-  if (dialog_button("Cancel")) closed_ = true;
-  context.ui_probe.note_item("new project/cancel");
+  if (context.ui_probe.noted(dialog_button("Cancel"), "new project/cancel")) closed_ = true;
   ImGui::SameLine();
-  bool wants = dialog_button(go, true);
-  context.ui_probe.note_item("new project/create");
-  if ((pressed(Key::enter) || pressed(Key::keypad_enter))) wants = true;
+  bool wants = context.ui_probe.noted(dialog_button(go, true), "new project/create");
+  if (enter_pressed()) wants = true;
   if (wants && !closed_) try_to_create(choice);
 }
 
@@ -319,15 +305,13 @@ void NewProjectDialog::draw_progress(const ViewContext& context, const FirstProj
                                      const std::string& step, NewProjectChoice& choice) {
   ImGui::TextUnformatted(elided("Making " + state.request.out.string(), ImGui::GetContentRegionAvail().x).c_str());
   ImGui::Dummy({0, scaled(2)});
-  const double share = state.total > 0 ? double(state.done) / state.total : 0;
-  ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
+  ImGui::ProgressBar(share_done(state.done, state.total), {-1, scaled(10)}, "");
   const std::string text = state.is_stopping ? "stopping" : step.empty() ? "reading the video" : step;
   ImGui::TextDisabled("%s", elided(capitalised(text) + "...", ImGui::GetContentRegionAvail().x).c_str());
   ImGui::Dummy({0, scaled(6)});
   const char* const labels[] = {"Cancel"};
   align_buttons_right(labels, 1);
-  if (dialog_button("Cancel", false, !state.is_stopping)) closed_ = true;
-  context.ui_probe.note_item("new project/stop");
+  if (context.ui_probe.noted(dialog_button("Cancel", false, !state.is_stopping), "new project/stop")) closed_ = true;
   choice.cancel = std::exchange(closed_, false);
 }
 

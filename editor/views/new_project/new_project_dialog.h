@@ -5,23 +5,19 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "editor/preview/first_project_job.h"
+#include "editor/preview/jobs.h"
 #include "editor/views/context.h"
-#include "editor/views/models/model_gallery.h"
+#include "editor/views/models/change_model.h"
 #include "editor/views/new_project/new_project_form.h"
 
 namespace sigs::editor {
 
 // What the person wants of the dialog in one update.
 struct NewProjectChoice {
-  // A project without footage, to be filled by hand.
-  bool empty = false;
-  // A project of this video.
-  std::optional<FirstProjectOptions> create;
-  // What is being made is not wanted any more.
-  bool cancel = false;
+  bool empty = false;                         // a project without footage, to be filled by hand
+  std::optional<FirstProjectOptions> create;  // a project of this video
+  bool cancel = false;                        // what is being made is not wanted any more
 };
 
 // The dialog "New project": video, lens, aircraft and the project file to be written; then the progress. It decides
@@ -80,16 +76,13 @@ class NewProjectDialog {
   NewProjectForm form_;
   VideoFactsJob facts_;
   std::optional<FormProblem> problem_;
-  // What went wrong outside of the form's rows; "": nothing.
-  std::string note_;
+  std::string note_;  // what went wrong outside of the form's rows; "": nothing
   // The file that the person was asked about whether it may be replaced; "": none.
   std::filesystem::path asked_about_;
   bool open_ = false;
   bool closed_ = false;
-  // The first row gets the keyboard in this update.
-  bool focus_video_ = false;
-  // How the making ends has to be told.
-  bool tells_end_ = false;
+  bool focus_video_ = false;  // the first row gets the keyboard in this update
+  bool tells_end_ = false;    // how the making ends has to be told
 };
 
 }  // namespace sigs::editor

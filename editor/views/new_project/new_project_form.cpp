@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <system_error>
 
@@ -13,7 +12,7 @@
 #include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
-#include "editor/document/dropped_file.h"
+#include "editor/document/project_paths.h"
 #include "editor/widgets/texts.h"
 #include "video/image_sequence.h"
 

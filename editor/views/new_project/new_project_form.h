@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/preview/first_project_job.h"
+#include "editor/preview/jobs.h"
 
 namespace sigs::editor {
 
@@ -36,8 +36,7 @@ struct NewProjectForm {
   // Index into the sample models; none: the file in `model`.
   std::optional<std::size_t> sample = 0;
   std::string model;
-  // The intruder looks as the footage's camera shows things.
-  bool matches_footage = true;
+  bool matches_footage = true;  // the intruder looks as the footage's camera shows things
   // The project file to be written; it follows the video until it is typed or chosen.
   std::string file;
   bool is_file_chosen = false;

@@ -4,17 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
 #include "base/text.h"
-#include "editor/widgets/screen_vec.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -28,6 +22,36 @@ const cv::Vec3d kBody(230, 110, 225);
 cv::Vec3b color_of_confidence(double confidence) {
   const double side = 2 * confidence - 1;
   return cv::Vec3b(kUnknown + std::abs(side) * ((side < 0 ? kWorld : kBody) - kUnknown));
+}
+
+constexpr int kTile_px = 512;
+
+bool is_same(const cv::Mat& a, const cv::Mat& b) {
+  if (a.size() != b.size()) return false;
+  for (int y = 0; y < a.rows; ++y)
+    if (!std::equal(a.ptr<uchar>(y), a.ptr<uchar>(y) + a.cols, b.ptr<uchar>(y))) return false;
+  return true;
+}
+
+cv::Mat reduced(const cv::Mat& mask, int divisor) {
+  if (divisor < 2) return mask.clone();
+  cv::Mat small;
+  const cv::Size size(std::max(1, mask.cols / divisor), std::max(1, mask.rows / divisor));
+  cv::resize(mask, small, size, 0, 0, cv::INTER_AREA);
+  return small;
+}
+
+// The part in sight alone, as draw_image has it.
+void draw_tile(const ImageCanvas& canvas, Textures& textures, const cv::Rect& place, const cv::Mat& shown) {
+  const cv::Rect part = pixels_in_sight(canvas.view, canvas.image_px, canvas.rect) & place;
+  if (part.empty()) return;
+  const glm::dvec2 low(part.x, part.y);
+  const glm::dvec2 high(part.x + part.width, part.y + part.height);
+  const glm::dvec2 corner(place.x, place.y);
+  const glm::dvec2 size(place.width, place.height);
+  canvas.draw.AddImage(textures.of(shown, canvas.view.zoom >= 1 ? Filter::nearest : Filter::smooth),
+                       im(canvas.view.screen_of(low - 0.5)), im(canvas.view.screen_of(high - 0.5)),
+                       im((low - corner) / size), im((high - corner) / size));
 }
 
 }  // namespace
@@ -86,40 +110,6 @@ std::string progress_text(const DetectionState& state) {
   if (state.left_s) text += fmt::format(", {} left", clock_text(*state.left_s));
   return text;
 }
-
-namespace {
-
-constexpr int kTile_px = 512;
-
-bool is_same(const cv::Mat& a, const cv::Mat& b) {
-  if (a.size() != b.size()) return false;
-  for (int y = 0; y < a.rows; ++y)
-    if (!std::equal(a.ptr<uchar>(y), a.ptr<uchar>(y) + a.cols, b.ptr<uchar>(y))) return false;
-  return true;
-}
-
-cv::Mat reduced(const cv::Mat& mask, int divisor) {
-  if (divisor < 2) return mask.clone();
-  cv::Mat small;
-  const cv::Size size(std::max(1, mask.cols / divisor), std::max(1, mask.rows / divisor));
-  cv::resize(mask, small, size, 0, 0, cv::INTER_AREA);
-  return small;
-}
-
-// The part in sight alone, as draw_image has it.
-void draw_tile(const ImageCanvas& canvas, Textures& textures, const cv::Rect& place, const cv::Mat& shown) {
-  const cv::Rect part = pixels_in_sight(canvas.view, canvas.image_px, canvas.rect) & place;
-  if (part.empty()) return;
-  const glm::dvec2 low(part.x, part.y);
-  const glm::dvec2 high(part.x + part.width, part.y + part.height);
-  const glm::dvec2 corner(place.x, place.y);
-  const glm::dvec2 size(place.width, place.height);
-  canvas.draw.AddImage(textures.of(shown, canvas.view.zoom >= 1 ? Filter::nearest : Filter::smooth),
-                       im(canvas.view.screen_of(low - 0.5)), im(canvas.view.screen_of(high - 0.5)),
-                       im((low - corner) / size), im((high - corner) / size));
-}
-
-}  // namespace
 
 cv::Mat tinted(const cv::Mat& mask, double opacity) {
   const ImVec4 tone = ImGui::ColorConvertU32ToFloat4(color::kOwnBody);

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "editor/preview/background_job.h"
-#include "editor/views/stages/stage_grid.h"
-#include "editor/widgets/textures.h"
+#include "editor/views/stages/stages_view.h"
 #include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/own_body/own_body_panel.h"
+#include "editor/views/own_body/own_body_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "editor/views/export_parts.h"
+#include "editor/views/export_view.h"
 #include "editor/views/inspector/field_rows.h"
-#include "editor/views/own_body/own_body_images.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -22,22 +18,12 @@ namespace {
 
 void panel_heading(const char* text) {
   ImGui::Dummy({0, scaled(4)});
-  ImGui::PushFont(font(Font::bold));
-  ImGui::TextUnformatted(text);
-  ImGui::PopFont();
+  draw_text(text, color::kText, Font::bold);
 }
 
 // As wide as the panel.
 bool wide_button(const char* label, bool is_main, bool enabled) {
-  ImGui::BeginDisabled(!enabled);
-  if (is_main) {
-    ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32(40, 98, 165, 255));
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(52, 118, 194, 255));
-  }
-  const bool clicked = ImGui::Button(label, {-1, scaled(28)});
-  if (is_main) ImGui::PopStyleColor(2);
-  ImGui::EndDisabled();
-  return clicked;
+  return dialog_button(label, is_main, enabled, -1);
 }
 
 bool has_footage(const ViewContext& context) {
@@ -72,15 +58,12 @@ double seconds_of(const ViewContext& context, int frames) {
 }  // namespace
 
 void OwnBodyPanel::draw_settings(const ViewContext& context) {
-  if (!sheet_ || sheet_revision_ != context.document.revision().number) {
-    sheet_.emplace(context.project());
-    sheet_revision_ = context.document.revision().number;
-  }
+  memory_.refresh(context);
   problems_.refresh(context);
-  FieldRows rows(context, *sheet_, problems_.by_field(), memory_, "own body/");
+  FieldRows rows(context, problems_.by_field(), memory_, "own body/");
   const std::string own =
       context.project().own_body.method == OwnBodyMethod::paper ? "own_body.paper." : "own_body.stable.";
-  for (const Field& field : sheet_->fields()) {
+  for (const Field& field : rows.sheet().fields()) {
     const bool is_of_a_method = field.key.starts_with("own_body.paper.") || field.key.starts_with("own_body.stable.");
     if (field.key.starts_with("own_body.") && (!is_of_a_method || field.key.starts_with(own))) rows.row(field.key);
   }
@@ -89,23 +72,18 @@ void OwnBodyPanel::draw_settings(const ViewContext& context) {
 
 void OwnBodyPanel::draw_running(const ViewContext& context, OwnBodySession& session) const {
   const DetectionState& state = session.detection();
-  const double share = state.total > 0 ? double(state.done) / state.total : 0;
-  ImGui::ProgressBar(static_cast<float>(share), {-1, scaled(10)}, "");
+  ImGui::ProgressBar(share_done(state.done, state.total), {-1, scaled(10)}, "");
   note(progress_text(state));
   context.ui_probe.note_item("own body/progress");
-  if (wide_button("Stop", false, !state.is_stopping)) session.job().cancel();
-  context.ui_probe.note_item("own body/stop");
+  if (context.ui_probe.noted(wide_button("Stop", false, !state.is_stopping), "own body/stop")) session.job().cancel();
 }
 
 void OwnBodyPanel::draw_detection(const ViewContext& context, OwnBodySession& session) const {
   const DetectionState& state = session.detection();
-  if (state.is_running()) {
-    draw_running(context, session);
-    return;
-  }
+  if (state.is_running()) return draw_running(context, session);
   if (has_footage(context)) note(frames_text(context));
-  if (wide_button("Detect", true, has_footage(context))) session.start(context.document);
-  context.ui_probe.note_item("own body/detect");
+  if (context.ui_probe.noted(wide_button("Detect", true, has_footage(context)), "own body/detect"))
+    session.start(context.document);
   if (!has_footage(context)) note("The footage cannot be read: choose a video in the inspector.", true);
   if (state.phase == JobPhase::failed) {
     note_line(Icon::warning, color::kBad, state.error.what);
@@ -120,10 +98,7 @@ void OwnBodyPanel::draw_detection(const ViewContext& context, OwnBodySession& se
 
 void OwnBodyPanel::draw_found(const ViewContext& context, const DetectionState& state) const {
   const OwnBody& found = *state.value;
-  if (state.phase != JobPhase::done) {
-    note("Before: " + result_text(found));
-    return;
-  }
+  if (state.phase != JobPhase::done) return note("Before: " + result_text(found));
   const std::vector<std::string> cautions = cautions_about(found, seconds_of(context, found.frames_passed));
   const bool has_cautions = !cautions.empty();
   note_line(has_cautions ? Icon::warning : Icon::check, has_cautions ? color::kPartly : color::kGood,
@@ -141,22 +116,24 @@ bool OwnBodyPanel::draw_start_from(const ViewContext& context, OwnBodySession& s
         "the strokes.",
         true);
   ButtonFlow flow;
-  if (flow.button("Detected", "The mask that was found", session.detection().value != nullptr))
+  if (context.ui_probe.noted(flow.button("Detected", "The mask that was found", session.detection().value != nullptr),
+                             "own body/start from found"))
     session.start_from_found();
-  context.ui_probe.note_item("own body/start from found");
   if (session.could_start_from_project(context.project()) && !session.is_used(context.project())) {
-    if (flow.button("Project's", "The mask that the project uses")) session.start_from_project(context.project());
-    context.ui_probe.note_item("own body/start from project");
+    if (context.ui_probe.noted(flow.button("Project's", "The mask that the project uses"),
+                               "own body/start from project"))
+      session.start_from_project(context.project());
   }
-  if (flow.button("File...", "A mask in a file")) session.ask_start_from_file(context.project());
-  context.ui_probe.note_item("own body/start from file");
-  if (flow.button("Empty", "Nothing is masked")) session.start_from_empty();
-  context.ui_probe.note_item("own body/clear");
+  if (context.ui_probe.noted(flow.button("File...", "A mask in a file"), "own body/start from file"))
+    session.ask_start_from_file(context.project());
+  if (context.ui_probe.noted(flow.button("Empty", "Nothing is masked"), "own body/clear")) session.start_from_empty();
   if (session.edge_waits()) {
     note("The soft edge counts for strokes from now on. This mask has the edge that it had.");
-    if (flow.button("Feather this mask", "The whole mask gets the edge of the setting; Ctrl + Z brings the other back"))
+    if (context.ui_probe.noted(
+            flow.button("Feather this mask",
+                        "The whole mask gets the edge of the setting; Ctrl + Z brings the other back"),
+            "own body/feather"))
       session.feather();
-    context.ui_probe.note_item("own body/feather");
   }
   return session.painting().state() != before;
 }
@@ -165,8 +142,7 @@ void OwnBodyPanel::draw_misfit(const ViewContext& context, OwnBodySession& sessi
   if (session.painting().empty()) return;
   note_line(Icon::warning, color::kPartly,
             "This mask was painted for footage of another size. Save it, or begin anew.");
-  if (wide_button("Begin anew", false, true)) session.begin_anew();
-  context.ui_probe.note_item("own body/begin anew");
+  if (context.ui_probe.noted(wide_button("Begin anew", false, true), "own body/begin anew")) session.begin_anew();
 }
 
 void OwnBodyPanel::draw_replacing(const ViewContext& context, OwnBodySession& session) {
@@ -178,16 +154,14 @@ void OwnBodyPanel::draw_replacing(const ViewContext& context, OwnBodySession& se
             fmt::format("The project uses {}{}. Replace it, or take a new name?", name,
                         is_elsewhere ? ", which lies elsewhere: other projects may use it too" : ""));
   ButtonFlow flow;
-  if (flow.button("New name...", "The old mask stays as it is")) {
+  if (context.ui_probe.noted(flow.button("New name...", "The old mask stays as it is"), "own body/new name")) {
     session.ask_save_and_use(context.project());
     asks_to_replace_ = false;
   }
-  context.ui_probe.note_item("own body/new name");
-  if (flow.button("Replace", usual_mask_file(context.project()).c_str())) {
+  if (context.ui_probe.noted(flow.button("Replace", usual_mask_file(context.project()).c_str()), "own body/replace")) {
     session.replace_and_use(context.project());
     asks_to_replace_ = false;
   }
-  context.ui_probe.note_item("own body/replace");
   if (flow.button("Cancel", "")) asks_to_replace_ = false;
 }
 
@@ -199,20 +173,17 @@ void OwnBodyPanel::draw_file(const ViewContext& context, OwnBodySession& session
   if (session.is_used(project)) context.ui_probe.note_item("own body/used");
   if (!session.painting().empty()) note(share_text(session.share()));
   asks_to_replace_ = asks_to_replace_ && session.could_replace(project);
-  if (asks_to_replace_) {
-    draw_replacing(context, session);
-    return;
-  }
-  if (wide_button("Use in project", true,
-                  session.fits() && !session.is_used(project) && (is_unsaved || !session.file().empty()))) {
+  if (asks_to_replace_) return draw_replacing(context, session);
+  if (context.ui_probe.noted(
+          wide_button("Use in project", true,
+                      session.fits() && !session.is_used(project) && (is_unsaved || !session.file().empty())),
+          "own body/use", "Saves the mask and hides intruders behind it")) {
     asks_to_replace_ = session.could_replace(project);
     if (!asks_to_replace_) session.use(project);
   }
-  context.ui_probe.note_item("own body/use");
-  tooltip_for_item("Saves the mask and hides intruders behind it");
-  if (wide_button("Save as...", false, !session.painting().empty())) session.ask_save_as(project);
-  context.ui_probe.note_item("own body/save");
-  tooltip_for_item("A PNG of 8 bits, of the footage's size: 255 is own body");
+  if (context.ui_probe.noted(wide_button("Save as...", false, !session.painting().empty()), "own body/save",
+                             "A PNG of 8 bits, of the footage's size: 255 is own body"))
+    session.ask_save_as(project);
 }
 
 bool OwnBodyPanel::draw(const ViewContext& context, OwnBodySession& session) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/own_body/own_body_session.h"
 
-#include <string>
 #include <utility>
 
 #include "base/paths.h"
@@ -15,6 +14,8 @@ namespace sigs::editor {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kMaskEnding = "_own_body";
 
 cv::Mat bytes_of(const cv::Mat& share) {
   cv::Mat mask;
@@ -41,28 +42,15 @@ cv::Mat with_edge(const cv::Mat& mask, double has_px, double wanted_px) {
   return has_px == wanted_px ? mask : soft_edged(hard(mask), wanted_px);
 }
 
-// 1: without a number.
-fs::path mask_file_beside(const Project& project, int number) {
-  const fs::path beside = !project.file.empty()            ? project.file
-                          : !project.footage.video.empty() ? resolved(project, project.footage.video)
-                                                           : fs::path(project.name);
-  std::string name = beside.stem().string().append("_own_body");
-  if (number > 1) name.append("_").append(std::to_string(number));
-  return fs::absolute(beside.parent_path() / name.append(".png")).lexically_normal();
-}
-
 }  // namespace
 
 fs::path new_mask_file(const Project& project) {
-  std::error_code code;
-  int number = 1;
-  while (fs::exists(mask_file_beside(project, number), code)) ++number;
-  return mask_file_beside(project, number);
+  return new_file_beside(project, kMaskEnding, ".png");
 }
 
 fs::path usual_mask_file(const Project& project) {
   const fs::path named = project_mask_file(project);
-  return is_png(named) ? named : mask_file_beside(project, 1);
+  return is_png(named) ? named : file_beside(project, kMaskEnding, ".png");
 }
 
 OwnBodySession::OwnBodySession(Edits& edits, std::function<void()> wake, OwnBodyJob::Detect detect)
@@ -153,10 +141,7 @@ void OwnBodySession::take_project_mask(const Project& project, const cv::Mat& ow
   const bool was_worked_on = painting_.can_undo() || painting_.can_redo();
   const bool is_another = own_body.empty() || file_ != project_mask_file(project);
   if (painting_.has_unsaved_changes() || (was_worked_on && !file_.empty() && is_another)) return;
-  if (was_worked_on) {
-    start_from_project(project);
-    return;
-  }
+  if (was_worked_on) return start_from_project(project);
   const fs::path file = own_body.empty() ? fs::path() : project_mask_file(project);
   begin(own_body.empty() ? cv::Mat::zeros(footage_px_, CV_8UC1) : bytes_of(own_body),
         file.empty() ? std::string() : "from " + file.filename().string());

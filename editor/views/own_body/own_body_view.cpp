@@ -2,21 +2,15 @@
 #include "editor/views/own_body/own_body_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "base/text.h"
-#include "editor/views/own_body/own_body_images.h"
+#include "editor/views/viewport/viewport_view.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -35,6 +29,9 @@ void draw_sign(ImDrawList& draw, const glm::dvec2& at, bool minus, ImU32 color) 
     if (!minus) draw.AddLine(im(at - glm::dvec2(0, arm)), im(at + glm::dvec2(0, arm)), ink, width);
   }
 }
+
+constexpr double kPanel = 290;  // wide, where the text is 15 px high
+constexpr double kRadius = 120;
 
 }  // namespace
 
@@ -64,10 +61,7 @@ void OwnBodyCanvas::handle_mouse(const ViewContext& context, OwnBodySession& ses
     else
       painting.begin_stroke(brush(context), place);
   }
-  if (!ImGui::IsItemActive()) {
-    painting.end_stroke();
-    return;
-  }
+  if (!ImGui::IsItemActive()) return painting.end_stroke();
   const auto button = ImGui::IsMouseDown(ImGuiMouseButton_Middle) ? ImGuiMouseButton_Middle : ImGuiMouseButton_Left;
   if (pans_) look_.pan(dv(ImGui::GetMouseDragDelta(button, 0)));
   if (pressed(Key::escape)) painting.take_back_stroke();
@@ -112,11 +106,9 @@ void OwnBodyCanvas::draw_layers(const ViewContext& context, const OwnBodySession
 void OwnBodyCanvas::draw_confidence(const ViewContext& context, const OwnBodySession& session,
                                     const ImageCanvas& canvas) {
   const std::shared_ptr<const OwnBody>& found = session.detection().value;
-  if (!found || found->confidence.size() != canvas.image_px) {
-    draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
-               "Nothing is detected yet. Detect first.", color::kPartly);
-    return;
-  }
+  if (!found || found->confidence.size() != canvas.image_px)
+    return draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
+                      "Nothing is detected yet. Detect first.", color::kPartly);
   if (shown_confidence_of_ != found) confidence_ = confidence_image(found->confidence);
   shown_confidence_of_ = found;
   draw_image(canvas.draw, context.textures, confidence_, canvas.view, canvas.rect);
@@ -161,17 +153,6 @@ void OwnBodyCanvas::draw_readout(const OwnBodySession& session) const {
     draw.AddText(&mono, mono.FontSize, {low.x + size.x - width - scaled(10), y}, color::kQuiet, right.c_str());
 }
 
-namespace {
-
-constexpr double kPanel = 290;  // wide, where the text is 15 px high
-constexpr double kRadius = 120;
-
-float readout_height() {
-  return std::ceil(font(Font::mono)->FontSize + scaled(9));
-}
-
-}  // namespace
-
 ToolbarItem OwnBodyView::look_button(const ViewContext& context, const char* label, const char* tooltip, Mode look) {
   ToolbarItem item =
       choice_item({.id = label, .label = label, .tooltip = tooltip}, look_, look, [this] { grid_.show_all(); });
@@ -182,12 +163,13 @@ ToolbarItem OwnBodyView::look_button(const ViewContext& context, const char* lab
 void OwnBodyView::draw_radius(const ViewContext& context) {
   auto radius = static_cast<float>(canvas_.radius_px());
   ImGui::SetNextItemWidth(scaled(kRadius));
-  if (ImGui::DragFloat("##radius", &radius, std::max(0.05F, radius * 0.01F), static_cast<float>(kMinRadius_px),
-                       static_cast<float>(kMaxRadius_px), radius < 10 ? "radius %.1f px" : "radius %.0f px",
-                       ImGuiSliderFlags_AlwaysClamp))
+  if (context.ui_probe.noted(
+          ImGui::DragFloat("##radius", &radius, std::max(0.05F, radius * 0.01F), static_cast<float>(kMinRadius_px),
+                           static_cast<float>(kMaxRadius_px), radius < 10 ? "radius %.1f px" : "radius %.0f px",
+                           ImGuiSliderFlags_AlwaysClamp),
+          "own body/radius",
+          "Radius of the brush in the footage's pixels ([ and ]); its edge is as soft as the setting says"))
     canvas_.set_radius_px(radius);
-  context.ui_probe.note_item("own body/radius");
-  tooltip_for_item("Radius of the brush in the footage's pixels ([ and ]); its edge is as soft as the setting says");
 }
 
 void OwnBodyView::add_brush_items(std::vector<ToolbarItem>& items, const ViewContext& context, MaskPainting& painting) {

@@ -1,18 +1,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
+#include "editor/document/field_edits.h"
 #include "editor/views/context.h"
+#include "editor/views/inspector/problems.h"
 #include "editor/views/own_body/own_body_images.h"
-#include "editor/views/own_body/own_body_panel.h"
 #include "editor/views/own_body/own_body_session.h"
-#include "editor/views/stages/stage_grid.h"
+#include "editor/views/stages/stages_view.h"
 #include "editor/widgets/toolbar.h"
 #include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
+
+// Beside the canvas: how to detect, what came of it, what to paint on, and where the mask goes. Settings of the
+// detection are changed by edits of the project; all else goes to the session.
+class OwnBodyPanel {
+ public:
+  // Into what is left of the current ImGui window. True in updates in which the painting was given another start.
+  [[nodiscard]] bool draw(const ViewContext& context, OwnBodySession& session);
+
+ private:
+  // The project's fields of the method that is chosen.
+  void draw_settings(const ViewContext& context);
+  // A button that starts it, progress while it runs, and what the last run found with cautions about it.
+  void draw_detection(const ViewContext& context, OwnBodySession& session) const;
+  void draw_running(const ViewContext& context, OwnBodySession& session) const;
+  void draw_found(const ViewContext& context, const DetectionState& state) const;
+  // Buttons that replace the painting. True: one of them did.
+  [[nodiscard]] bool draw_start_from(const ViewContext& context, OwnBodySession& session) const;
+  // Where the painting is of another size than the footage.
+  void draw_misfit(const ViewContext& context, OwnBodySession& session) const;
+  // Whether the mask is on disk and used, and the buttons that save it.
+  void draw_file(const ViewContext& context, OwnBodySession& session);
+  // The question whether the project's own file may be replaced.
+  void draw_replacing(const ViewContext& context, OwnBodySession& session);
+
+  ProblemList problems_;
+  RowMemory memory_;
+  bool asks_to_replace_ = false;  // the question of draw_replacing() is open
+};
 
 // The mask as a tint over the footage, the mask alone (white: own body), or the detection's confidence.
 enum class CanvasMode { over_footage, mask_alone, confidence };
@@ -55,12 +85,9 @@ class OwnBodyCanvas {
   cv::Mat confidence_;
   double radius_px_ = 20;
   bool erases_ = false;
-  // The mouse was over the canvas in this update.
-  bool hovered_ = false;
-  // The press that lasts moves the image instead of painting.
-  bool pans_ = false;
-  // Under the mouse; none: beside the image.
-  std::optional<cv::Point> pixel_;
+  bool hovered_ = false;            // the mouse was over the canvas in this update
+  bool pans_ = false;               // the press that lasts moves the image instead of painting
+  std::optional<cv::Point> pixel_;  // under the mouse; none: beside the image
 };
 
 // Where the own body's mask is made: found in the footage, looked at step by step, painted, saved and used. A toolbar
@@ -93,8 +120,7 @@ class OwnBodyView {
   StageGrid grid_;
   // The last press was on the image or its toolbar, or gave the painting another start.
   bool is_worked_in_ = false;
-  // Number of the ImGui frame in which it was drawn last.
-  int last_update_ = -1;
+  int last_update_ = -1;  // number of the ImGui frame in which it was drawn last
 };
 
 }  // namespace sigs::editor

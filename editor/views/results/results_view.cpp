@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "editor/views/results/results_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <string>
 #include <vector>
 
 #include "base/text.h"
-#include "editor/views/results/results_view.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/screen_vec.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -75,8 +67,8 @@ std::string truth_text(const Scored& scored) {
 }
 
 std::string shown_name(const Scored& scored, const ScoredTracker& tracker) {
-  const auto same = std::count_if(scored.trackers.begin(), scored.trackers.end(),
-                                  [&](const ScoredTracker& other) { return other.name == tracker.name; });
+  const auto same =
+      std::ranges::count_if(scored.trackers, [&](const ScoredTracker& other) { return other.name == tracker.name; });
   return same > 1 ? tracker.file.path.parent_path().filename().string() + "/" + tracker.name : tracker.name;
 }
 
@@ -89,10 +81,6 @@ constexpr double kFree_px = 24;
 
 glm::dvec2 middle_of(const ScreenRect& rect) {
   return (rect.low + rect.high) / 2.0;
-}
-
-ScreenRect on_screen(const ImageCanvas& canvas, const Box& box) {
-  return {canvas.view.screen_of({box.x, box.y}), canvas.view.screen_of({box.x + box.width, box.y + box.height})};
 }
 
 // From where the truth's middle must be, by the errors, to the reported one.
@@ -112,7 +100,7 @@ void draw_reported(const ImageCanvas& canvas, const Scored& scored, const Scored
   const ReportedBox* const reported = tracker.results ? tracker.results->best_at(frame) : nullptr;
   if (reported == nullptr) return;
   const ImU32 shade = result_color(tracker.file.color);
-  const ScreenRect box = on_screen(canvas, reported->box);
+  const ScreenRect box = canvas.on_screen(reported->box);
   draw_path_line(canvas, box, score_at(tracker, scored.first_frame, frame), shade);
   // A dark line outside, none between the dashes: where it agrees with the truth, that shows through.
   const double line = std::max(1.0F, std::round(scaled(1)));
@@ -144,6 +132,146 @@ void draw_sample(ImDrawList& list, ImVec2 at, float width, const LegendLine& lin
   const float dash = line.is_dashed ? scaled(5) : width;
   for (float x = 0; x < width; x += 2 * dash)
     list.AddRectFilled({at.x + x, at.y - thick / 2}, {at.x + std::min(x + dash, width), at.y + thick / 2}, line.color);
+}
+
+constexpr int kColumns = 7;  // eye, name, four figures, remove
+
+struct Column {
+  const char* title;
+  const char* help;
+};
+constexpr Column kFigures[] = {
+    {"CLE", "mean distance of the middles in pixels, over the frames with a report"},
+    {"P20", "precision: in how many of the scored frames the middles are at most 20 px apart"},
+    {"AUC", "success: area under the curve of overlaps, in percent"},
+    {"lost", "scored frames without a report, or with one that does not touch the truth"},
+};
+
+void right_aligned(const std::string& text, ImU32 shade) {
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(shade), "%s", text.c_str());
+}
+
+void draw_head(const Scored& scored) {
+  const bool is_about = scored.truth == TruthKind::outlines;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TableNextColumn();
+  for (const Column& column : kFigures) {
+    ImGui::TableNextColumn();
+    right_aligned(column.title, color::kQuiet);
+    tooltip_for_item(is_about ? (std::string(column.help) + " (about)").c_str() : column.help);
+  }
+}
+
+std::string figure_text(double value) {
+  std::string text = pixels_text(value);
+  return text.substr(0, text.find(' '));
+}
+
+std::string share_text(double share) {
+  const std::string text = percent_text(share);
+  return text.substr(0, text.find(' '));
+}
+
+// A square in the tracker's colour, hollow while it is not shown; switches that.
+void draw_switch(const ViewContext& context, const ScoredTracker& tracker, const std::string& place) {
+  const float side = ImGui::GetFrameHeight();
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  if (context.ui_probe.noted(ImGui::InvisibleButton("show", {side * 0.8F, side}), place + "/show",
+                             tracker.file.is_shown ? "hide its boxes and its curve" : "show its boxes and its curve"))
+    context.edits.ask(ShowResults{tracker.file.id, !tracker.file.is_shown});
+  const float half = side * 0.26F;
+  const ImVec2 middle{low.x + side * 0.4F, low.y + side / 2};
+  const ImU32 shade = result_color(tracker.file.color);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (tracker.file.is_shown)
+    list.AddRectFilled({middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}, shade, scaled(2));
+  else
+    list.AddRect({middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}, shade, scaled(2));
+}
+
+void draw_figures(const Scored& scored, const ScoredTracker& tracker) {
+  const TrackScore* const score = tracker.score.get();
+  const ImU32 shade = scored.truth == TruthKind::measured ? color::kText : color::kQuiet;
+  const bool is_scored = score != nullptr && score->scored > 0;
+  const std::string figures[] = {
+      is_scored ? figure_text(score->mean_center_error_px) : "-", is_scored ? share_text(score->precision_at_20) : "-",
+      is_scored ? share_text(score->success_auc) : "-", is_scored ? std::to_string(score->lost) : "-"};
+  for (const std::string& figure : figures) {
+    ImGui::TableNextColumn();
+    right_aligned(figure, shade);
+  }
+}
+
+std::string counts_text(const ScoredTracker& tracker) {
+  std::string text = tracker.file.path.string();
+  if (!tracker.score) return text;
+  const TrackScore& score = *tracker.score;
+  text += fmt::format("\n{} of {} scored frames reported, {} lost", score.reported, score.scored, score.lost);
+  if (score.reported_absent > 0)
+    text += fmt::format("; reported in {} in which there is nothing", count_text(score.reported_absent, "frame"));
+  text += fmt::format("\nmean dx {} px, dy {} px; median {}, 95 % below {}", signed_text(score.mean_dx_px),
+                      signed_text(score.mean_dy_px), pixels_text(score.median_center_error_px),
+                      pixels_text(score.p95_center_error_px));
+  return text;
+}
+
+void draw_tracker(const ViewContext& context, const ScoredTracker& tracker) {
+  const Scored& scored = *context.scored;
+  const std::string place = "results/" + tracker.name;
+  ImGui::PushID(tracker.file.id);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  draw_switch(context, tracker, place);
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  const bool is_bad = !tracker.problem.empty();
+  const std::string name = elided(shown_name(scored, tracker), ImGui::GetContentRegionAvail().x);
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(is_bad ? color::kBad : color::kText), "%s", name.c_str());
+  context.ui_probe.note_item(is_bad ? place + "/problem" : place,
+                             (is_bad ? tracker.problem : counts_text(tracker)).c_str());
+  draw_figures(scored, tracker);
+  ImGui::TableNextColumn();
+  if (context.ui_probe.noted(icon_button("remove", Icon::cross, "remove it from here; the file stays"),
+                             place + "/remove"))
+    context.edits.ask(RemoveResults{tracker.file.id});
+  ImGui::PopID();
+}
+
+void draw_table(const ViewContext& context) {
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {scaled(3), 0});
+  if (ImGui::BeginTable("trackers", kColumns, ImGuiTableFlags_SizingFixedFit)) {
+    ImGui::TableSetupColumn("shown");
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    for (const Column& column : kFigures)
+      ImGui::TableSetupColumn(column.title, ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0.000").x);
+    ImGui::TableSetupColumn("remove");
+    draw_head(*context.scored);
+    for (const ScoredTracker& tracker : context.scored->trackers) draw_tracker(context, tracker);
+    ImGui::EndTable();
+  }
+  ImGui::PopStyleVar();
+}
+
+// Why a file cannot be used, in full below the table.
+void draw_problems(const Scored& scored) {
+  for (const ScoredTracker& tracker : scored.trackers) {
+    if (tracker.problem.empty()) continue;
+    draw_wrapped(shortened(tracker.problem), color::kBad);
+  }
+}
+
+void draw_truth(const ViewContext& context) {
+  const Scored& scored = *context.scored;
+  ImGui::PushFont(font(Font::small));
+  ImGui::PushStyleColor(ImGuiCol_Text, scored.truth == TruthKind::measured ? color::kQuiet : color::kPartly);
+  ImGui::TextWrapped("%s", truth_text(scored).c_str());
+  context.ui_probe.note_item(scored.truth == TruthKind::measured ? "results/measured" : "results/about");
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
 }
 
 }  // namespace
@@ -185,160 +313,13 @@ void draw_result_legend(const ImageCanvas& canvas, const ViewContext& context, i
   ImGui::PopFont();
 }
 
-namespace {
-
-constexpr int kColumns = 7;  // eye, name, four figures, remove
-
-struct Column {
-  const char* title;
-  const char* help;
-};
-constexpr Column kFigures[] = {
-    {"CLE", "mean distance of the middles in pixels, over the frames with a report"},
-    {"P20", "precision: in how many of the scored frames the middles are at most 20 px apart"},
-    {"AUC", "success: area under the curve of overlaps, in percent"},
-    {"lost", "scored frames without a report, or with one that does not touch the truth"},
-};
-
-void right_aligned(const std::string& text, ImU32 shade) {
-  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-  if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(shade), "%s", text.c_str());
-}
-
-void draw_head(const Scored& scored) {
-  const bool is_about = scored.truth == TruthKind::outlines;
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TableNextColumn();
-  for (const Column& column : kFigures) {
-    ImGui::TableNextColumn();
-    right_aligned(column.title, color::kQuiet);
-    tooltip_for_item(is_about ? (std::string(column.help) + " (about)").c_str() : column.help);
-  }
-}
-
-std::string number_text(double value) {
-  std::string text = pixels_text(value);
-  return text.substr(0, text.find(' '));
-}
-
-std::string share_text(double share) {
-  const std::string text = percent_text(share);
-  return text.substr(0, text.find(' '));
-}
-
-// A square in the tracker's colour, hollow while it is not shown; switches that.
-void draw_switch(const ViewContext& context, const ScoredTracker& tracker, const std::string& place) {
-  const float side = ImGui::GetFrameHeight();
-  const ImVec2 low = ImGui::GetCursorScreenPos();
-  if (ImGui::InvisibleButton("show", {side * 0.8F, side}))
-    context.edits.ask(ShowResults{tracker.file.id, !tracker.file.is_shown});
-  context.ui_probe.note_item(place + "/show");
-  tooltip_for_item(tracker.file.is_shown ? "hide its boxes and its curve" : "show its boxes and its curve");
-  const float half = side * 0.26F;
-  const ImVec2 middle{low.x + side * 0.4F, low.y + side / 2};
-  const ImU32 shade = result_color(tracker.file.color);
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (tracker.file.is_shown)
-    list.AddRectFilled({middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}, shade, scaled(2));
-  else
-    list.AddRect({middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}, shade, scaled(2));
-}
-
-void draw_figures(const Scored& scored, const ScoredTracker& tracker) {
-  const TrackScore* const score = tracker.score.get();
-  const ImU32 shade = scored.truth == TruthKind::measured ? color::kText : color::kQuiet;
-  const bool is_scored = score != nullptr && score->scored > 0;
-  const std::string figures[] = {
-      is_scored ? number_text(score->mean_center_error_px) : "-", is_scored ? share_text(score->precision_at_20) : "-",
-      is_scored ? share_text(score->success_auc) : "-", is_scored ? std::to_string(score->lost) : "-"};
-  for (const std::string& figure : figures) {
-    ImGui::TableNextColumn();
-    right_aligned(figure, shade);
-  }
-}
-
-std::string counts_text(const ScoredTracker& tracker) {
-  std::string text = tracker.file.path.string();
-  if (!tracker.score) return text;
-  const TrackScore& score = *tracker.score;
-  text += fmt::format("\n{} of {} scored frames reported, {} lost", score.reported, score.scored, score.lost);
-  if (score.reported_absent > 0)
-    text += fmt::format("; reported in {} in which there is nothing", count_text(score.reported_absent, "frame"));
-  text += fmt::format("\nmean dx {} px, dy {} px; median {}, 95 % below {}", signed_text(score.mean_dx_px),
-                      signed_text(score.mean_dy_px), pixels_text(score.median_center_error_px),
-                      pixels_text(score.p95_center_error_px));
-  return text;
-}
-
-void draw_tracker(const ViewContext& context, const ScoredTracker& tracker) {
-  const Scored& scored = *context.scored;
-  const std::string place = "results/" + tracker.name;
-  ImGui::PushID(tracker.file.id);
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  draw_switch(context, tracker, place);
-  ImGui::TableNextColumn();
-  ImGui::AlignTextToFramePadding();
-  const bool is_bad = !tracker.problem.empty();
-  const std::string name = elided(shown_name(scored, tracker), ImGui::GetContentRegionAvail().x);
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(is_bad ? color::kBad : color::kText), "%s", name.c_str());
-  context.ui_probe.note_item(is_bad ? place + "/problem" : place);
-  tooltip_for_item((is_bad ? tracker.problem : counts_text(tracker)).c_str());
-  draw_figures(scored, tracker);
-  ImGui::TableNextColumn();
-  if (icon_button("remove", Icon::cross, "remove it from here; the file stays"))
-    context.edits.ask(RemoveResults{tracker.file.id});
-  context.ui_probe.note_item(place + "/remove");
-  ImGui::PopID();
-}
-
-void draw_table(const ViewContext& context) {
-  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {scaled(3), 0});
-  if (ImGui::BeginTable("trackers", kColumns, ImGuiTableFlags_SizingFixedFit)) {
-    ImGui::TableSetupColumn("shown");
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
-    for (const Column& column : kFigures)
-      ImGui::TableSetupColumn(column.title, ImGuiTableColumnFlags_WidthFixed, ImGui::CalcTextSize("0.000").x);
-    ImGui::TableSetupColumn("remove");
-    draw_head(*context.scored);
-    for (const ScoredTracker& tracker : context.scored->trackers) draw_tracker(context, tracker);
-    ImGui::EndTable();
-  }
-  ImGui::PopStyleVar();
-}
-
-// Why a file cannot be used, in full below the table.
-void draw_problems(const Scored& scored) {
-  for (const ScoredTracker& tracker : scored.trackers) {
-    if (tracker.problem.empty()) continue;
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kBad);
-    ImGui::TextWrapped("%s", shortened(tracker.problem).c_str());
-    ImGui::PopStyleColor();
-  }
-}
-
-void draw_truth(const ViewContext& context) {
-  const Scored& scored = *context.scored;
-  ImGui::PushFont(font(Font::small));
-  ImGui::PushStyleColor(ImGuiCol_Text, scored.truth == TruthKind::measured ? color::kQuiet : color::kPartly);
-  ImGui::TextWrapped("%s", truth_text(scored).c_str());
-  context.ui_probe.note_item(scored.truth == TruthKind::measured ? "results/measured" : "results/about");
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
-}
-
-}  // namespace
-
 void draw_results_panel(const ViewContext& context) {
   if (context.scored == nullptr) return;
   draw_table(context);
   draw_problems(*context.scored);
-  if (ImGui::Button("Load more...")) context.edits.ask(LoadResults{});
-  context.ui_probe.note_item("results/load");
-  tooltip_for_item("Another tracker's result file; files can be dropped onto the window as well");
+  if (context.ui_probe.noted(ImGui::Button("Load more..."), "results/load",
+                             "Another tracker's result file; files can be dropped onto the window as well"))
+    context.edits.ask(LoadResults{});
   // Below the button, or that would move as the text grows and shrinks.
   draw_truth(context);
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/stages/stage_grid.h"
-
-#include <imgui.h>
+#include "editor/views/stages/stages_view.h"
 
 #include <algorithm>
 #include <array>
@@ -11,10 +9,6 @@
 
 #include "base/text.h"
 #include "editor/widgets/dialog.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -53,10 +47,17 @@ constexpr std::array kWords{
 };
 
 StageTile tile_of(const std::string& stage, const cv::Mat& image) {
-  const auto words =
-      std::find_if(kWords.begin(), kWords.end(), [&](const Words& known) { return stage == known.stage; });
+  const auto words = std::ranges::find_if(kWords, [&](const Words& known) { return stage == known.stage; });
   if (words == kWords.end()) return {stage, "", image};
   return {words->label, words->tooltip, image};
+}
+
+double head_px() {
+  return std::ceil(font(Font::small)->FontSize + scaled(8));
+}
+
+double gap_px() {
+  return std::round(scaled(4));
 }
 
 }  // namespace
@@ -95,7 +96,7 @@ cv::Mat difference(const cv::Mat& a, const cv::Mat& b, double gain) {
 }
 
 cv::Mat Differences::of(const cv::Mat& a, const cv::Mat& b, double gain) {
-  const auto known = std::find_if(made_.begin(), made_.end(), [&](const CachedDifference& made) {
+  const auto known = std::ranges::find_if(made_, [&](const CachedDifference& made) {
     return made.a.data == a.data && made.b.data == b.data && made.gain == gain;
   });
   if (known != made_.end()) return known->image;
@@ -103,18 +104,6 @@ cv::Mat Differences::of(const cv::Mat& a, const cv::Mat& b, double gain) {
   made_.push_back({a, b, gain, difference(a, b, gain)});
   return made_.back().image;
 }
-
-namespace {
-
-double head_px() {
-  return std::ceil(font(Font::small)->FontSize + scaled(8));
-}
-
-double gap_px() {
-  return std::round(scaled(4));
-}
-
-}  // namespace
 
 GridShape grid_shape(int count, const glm::dvec2& image_px, const glm::dvec2& room_px, double label_px) {
   GridShape best;
@@ -143,8 +132,7 @@ bool StageGrid::handle_escape() {
 
 void StageGrid::draw(std::span<const StageTile> tiles, const cv::Size& frame_px, const ScreenRect& rect,
                      Textures& textures) {
-  const auto large =
-      std::find_if(tiles.begin(), tiles.end(), [&](const StageTile& tile) { return tile.label == large_; });
+  const auto large = std::ranges::find(tiles, large_, &StageTile::label);
   if (large != tiles.end()) tiles = tiles.subspan(static_cast<std::size_t>(large - tiles.begin()), 1);
   const glm::dvec2 size(frame_px.width, frame_px.height);
   const GridShape shape = grid_shape(static_cast<int>(tiles.size()), size, rect.size(), head_px() + gap_px());

@@ -2,16 +2,12 @@
 #include "editor/views/stages/stages_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -106,9 +102,7 @@ std::vector<int> StagesView::choices(const ViewContext& context) const {
 
 std::optional<int> StagesView::intruder(const ViewContext& context) const {
   const std::vector<int> all = choices(context);
-  const auto there = [&](std::optional<int> number) {
-    return number && std::find(all.begin(), all.end(), *number) != all.end();
-  };
+  const auto there = [&](std::optional<int> number) { return number && std::ranges::find(all, *number) != all.end(); };
   if (there(intruder_)) return intruder_;
   const std::optional<int> current = current_intruder(context);
   const std::optional<int> worked_on = current ? scene_intruder(context, *current) : std::nullopt;
@@ -172,8 +166,9 @@ void StagesView::draw_method_choice(const ViewContext& context) {
     if (!comparing && ImGui::Selectable(own.c_str(), other_method(context) == own_method(context))) method_.reset();
     for (const MethodChoice method : kMethods) {
       if (method == own_method(context)) continue;
-      if (ImGui::Selectable(method_name(method).c_str(), method == other_method(context))) method_ = method;
-      context.ui_probe.note_item("stages/method/" + method_name(method));
+      if (context.ui_probe.noted(ImGui::Selectable(method_name(method).c_str(), method == other_method(context)),
+                                 "stages/method/" + method_name(method)))
+        method_ = method;
     }
     end_choice();
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/error_lane.h"
+#include "editor/views/timeline/timeline_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
+#include "editor/views/timeline/lane_marks.h"
 
 namespace sigs::editor {
 
@@ -39,27 +36,6 @@ ErrorCurve curve_of_tracker(const ScoredTracker& tracker, int first_frame) {
   }
   return curve;
 }
-
-}  // namespace
-
-ErrorCurves error_curves(const Scored& scored) {
-  ErrorCurves result{.first_frame = scored.first_frame};
-  std::vector<double> all;
-  for (const ScoredTracker& tracker : scored.trackers) {
-    if (!tracker.file.is_shown || !tracker.score) continue;
-    result.curves.push_back(curve_of_tracker(tracker, scored.first_frame));
-    const std::vector<double>& errors_px = result.curves.back().errors_px;
-    all.insert(all.end(), errors_px.begin(), errors_px.end());
-  }
-  for (const double error_px : all)
-    if (std::isfinite(error_px)) result.max_px = std::max(result.max_px, error_px);
-  // From 0 in any case: how far a curve lies above the ground is what is read.
-  all.push_back(0);
-  result.scale = scale_for(all, kMinSpan_px, Scaling::logarithmic);
-  return result;
-}
-
-namespace {
 
 constexpr double kPrecision_px = 20;  // the threshold that precision is usually told at
 constexpr const char* kHelp =
@@ -91,15 +67,8 @@ float y_of(const LaneParts& parts, const LaneScale& scale, double error_px) {
 }
 
 void draw_curve(ImDrawList& list, const LaneParts& parts, const ErrorCurves& all, const ErrorCurve& curve) {
-  const ImU32 shade = result_color(curve.color);
-  const float thickness = std::max(1.5F, scaled(1.5));
-  std::vector<ImVec2> points;
-  for (const Polyline& line : curve_of(curve.errors_px, all.first_frame, parts.strip.ruler, all.scale, parts.curves)) {
-    points.clear();
-    for (const glm::vec2 point : line) points.emplace_back(point.x, point.y);
-    list.AddPolyline(points.data(), static_cast<int>(points.size()), shade, ImDrawFlags_None, thickness);
-    if (points.size() == 1) list.AddCircleFilled(points.front(), thickness, shade, 8);
-  }
+  draw_polylines(list, curve_of(curve.errors_px, all.first_frame, parts.strip.ruler, all.scale, parts.curves),
+             result_color(curve.color));
 }
 
 // Of one tracker, from y down. Nothing reported: a thin line; lost: the whole height.
@@ -117,10 +86,8 @@ void draw_bars(ImDrawList& list, const LaneParts& parts, const ErrorCurve& curve
 }
 
 void draw_curves(ImDrawList& list, const LaneParts& parts, const ErrorCurves& all) {
-  if (kPrecision_px < all.scale.high) {
-    const float y = std::floor(y_of(parts, all.scale, kPrecision_px));
-    list.AddRectFilled({parts.strip.left(), y}, {parts.strip.right(), y + 1}, faded(color::kText, 0.18));
-  }
+  if (kPrecision_px < all.scale.high)
+    draw_level(list, parts.strip, y_of(parts, all.scale, kPrecision_px), faded(color::kText, 0.18));
   float y = parts.top_y + parts.height - parts.bar * static_cast<float>(all.curves.size());
   for (const ErrorCurve& curve : all.curves) {
     draw_bars(list, parts, curve, y);
@@ -133,9 +100,8 @@ void draw_dots(ImDrawList& list, const LaneParts& parts, const ErrorCurves& all,
   for (const ErrorCurve& curve : all.curves) {
     const auto index = static_cast<std::size_t>(frame - all.first_frame);
     if (frame < all.first_frame || index >= curve.errors_px.size() || !std::isfinite(curve.errors_px[index])) continue;
-    const ImVec2 center{parts.strip.moment_x(frame), y_of(parts, all.scale, curve.errors_px[index])};
-    list.AddCircleFilled(center, scaled(3.5), color::kPanel, 10);
-    list.AddCircleFilled(center, scaled(2.5), result_color(curve.color), 10);
+    draw_dot(list, {parts.strip.moment_x(frame), y_of(parts, all.scale, curve.errors_px[index])},
+             result_color(curve.color));
   }
 }
 
@@ -173,6 +139,23 @@ void tooltip_at(const ViewContext& context, int frame) {
 }
 
 }  // namespace
+
+ErrorCurves error_curves(const Scored& scored) {
+  ErrorCurves result{.first_frame = scored.first_frame};
+  std::vector<double> all;
+  for (const ScoredTracker& tracker : scored.trackers) {
+    if (!tracker.file.is_shown || !tracker.score) continue;
+    result.curves.push_back(curve_of_tracker(tracker, scored.first_frame));
+    const std::vector<double>& errors_px = result.curves.back().errors_px;
+    all.insert(all.end(), errors_px.begin(), errors_px.end());
+  }
+  for (const double error_px : all)
+    if (std::isfinite(error_px)) result.max_px = std::max(result.max_px, error_px);
+  // From 0 in any case: how far a curve lies above the ground is what is read.
+  all.push_back(0);
+  result.scale = scale_for(all, kMinSpan_px, Scaling::logarithmic);
+  return result;
+}
 
 void ErrorLane::refresh(const Scored& scored) {
   std::vector<Drawn> present;

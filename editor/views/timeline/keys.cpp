@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/keys.h"
+#include "editor/views/timeline/timeline_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "editor/document/waypoint_edits.h"
-#include "editor/views/timeline/ruler.h"
+#include "editor/views/timeline/lane_marks.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/screen_vec.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -38,12 +30,6 @@ struct KeyMarks {
   int hot = -1;          // the one below the mouse, or held by it
   bool current = false;  // the intruder that is worked on
 };
-
-// What is known of an intruder's flight; null: nothing yet.
-const Survey* survey_of(const ViewContext& context, int intruder) {
-  const auto index = static_cast<std::size_t>(intruder);
-  return index < context.shown.surveys.size() ? context.shown.surveys[index].get() : nullptr;
-}
 
 const TrajectoryPlan& plan_of(const KeyMarks& marks) {
   return marks.context.project().intruders[static_cast<std::size_t>(marks.intruder)].trajectory;
@@ -75,15 +61,15 @@ void draw_key(ImDrawList& list, const KeyMarks& marks, std::size_t waypoint) {
 }
 
 void draw_flags(ImDrawList& list, const KeyMarks& marks) {
-  const Survey* survey = survey_of(marks.context, marks.intruder);
+  const std::shared_ptr<const Survey> survey = survey_of(marks.context, marks.intruder);
   if (survey == nullptr) return;
   const float bottom_y = marks.top_y + marks.height - 1;
   for (const FlightFlag& flag : survey->flags) {
-    const float low = std::max(marks.strip.left(), marks.strip.moment_x(flag.first_frame));
-    const float high = std::min(marks.strip.right(), std::max(low + scaled(2), marks.strip.moment_x(flag.last_frame)));
-    if (high <= low) continue;
-    list.AddRectFilled({low, marks.top_y}, {high, bottom_y}, faded(color::kBad, 0.13));
-    list.AddRectFilled({low, bottom_y - scaled(2.5)}, {high, bottom_y}, color::kBad);
+    const auto draw = [&](float top_y, ImU32 shade) {
+      draw_stretch(list, marks.strip, flag.first_frame, flag.last_frame, top_y, bottom_y, shade);
+    };
+    draw(marks.top_y, faded(color::kBad, 0.13));
+    draw(bottom_y - scaled(2.5), color::kBad);
   }
 }
 
@@ -113,13 +99,8 @@ std::string key_text(const KeyMarks& marks, std::size_t waypoint) {
 }
 
 std::string flags_text(const KeyMarks& marks, double frame) {
-  const Survey* survey = survey_of(marks.context, marks.intruder);
-  std::string text;
-  if (survey == nullptr) return text;
-  for (const FlightFlag& flag : survey->flags)
-    if (frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
-      text.append(text.empty() ? "" : "\n").append(flag.text());
-  return text;
+  const std::shared_ptr<const Survey> survey = survey_of(marks.context, marks.intruder);
+  return survey == nullptr ? "" : flags_text(*survey, frame);
 }
 
 // Keys as diamonds, hollow where the waypoint's time follows from the others; below them stretches that no such
@@ -145,26 +126,11 @@ void draw_key_marks(ImDrawList& list, const KeyMarks& marks) {
 
 // What there is to say of the place below the mouse.
 void tooltip_for_keys(const KeyMarks& marks, double mouse_frame) {
-  if (marks.hot >= 0 && marks.hot < static_cast<int>(marks.frames.size())) {
-    tooltip_for_item(key_text(marks, static_cast<std::size_t>(marks.hot)).c_str());
-    return;
-  }
+  if (marks.hot >= 0 && marks.hot < static_cast<int>(marks.frames.size()))
+    return tooltip_for_item(key_text(marks, static_cast<std::size_t>(marks.hot)).c_str());
   const std::string flags = flags_text(marks, mouse_frame);
   tooltip_for_item(flags.empty() ? "double click: add a waypoint on the curve here" : flags.c_str());
 }
-
-}  // namespace
-
-// What is worked out once for the row that is drawn.
-struct KeyRows::Row {
-  const TimelineStrip& strip;
-  int intruder = 0;
-  std::vector<double> frames;  // of its waypoints
-  float top_y = 0;
-  int under = -1;  // the waypoint below the mouse
-};
-
-namespace {
 
 void select(const ViewContext& context, int intruder, int waypoint) {
   const Selected kind = waypoint < 0 ? Selected::intruder : Selected::waypoint;
@@ -235,6 +201,15 @@ int key_under_mouse(const TimelineStrip& strip, const std::vector<double>& frame
 }
 
 }  // namespace
+
+// What is worked out once for the row that is drawn.
+struct KeyRows::Row {
+  const TimelineStrip& strip;
+  int intruder = 0;
+  std::vector<double> frames;  // of its waypoints
+  float top_y = 0;
+  int under = -1;  // the waypoint below the mouse
+};
 
 float KeyRows::row_height() {
   return std::ceil(ImGui::GetFontSize() + scaled(6));

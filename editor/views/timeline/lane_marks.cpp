@@ -2,7 +2,6 @@
 #include "editor/views/timeline/lane_marks.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <array>
@@ -10,14 +9,28 @@
 #include <cstdio>
 #include <optional>
 
-#include "editor/views/timeline/clear_strip.h"
-#include "editor/views/timeline/deviation_band.h"
-#include "editor/views/timeline/visibility_strip.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
-
 namespace sigs::editor {
+
+void draw_deviation_band(ImDrawList& list, const TimelineStrip& strip, const LaneValues& lane, int first_frame,
+                         const LaneBox& box, ImU32 shade) {
+  if (lane.deviations.empty()) return;
+  const auto y_of = [&](double value) {
+    return static_cast<float>(box.top_y + (1 - lane.scale.share_of(value)) * box.height);
+  };
+  const double stride = std::max(1.0, std::ceil(strip.ruler.count / std::max(1.0, strip.ruler.width)));
+  const double first = first_frame;
+  const auto count = static_cast<double>(lane.deviations.size());
+  const double from = std::clamp(std::floor((strip.ruler.first - first) / stride) * stride, 0.0, count);
+  const double to = std::clamp(strip.ruler.first + strip.ruler.count + stride - first, 0.0, count);
+  for (double i = from; i < to; i += stride) {
+    const auto index = static_cast<std::size_t>(i);
+    const double sd = lane.deviations[index];
+    if (!std::isfinite(sd)) continue;
+    const double value = lane.values[index];
+    list.AddRectFilled({strip.edge_x(first + i), y_of(value + sd)},
+                       {strip.edge_x(first + i + stride), y_of(value - sd)}, shade);
+  }
+}
 
 namespace {
 
@@ -63,30 +76,21 @@ void draw_curve(ImDrawList& list, const LaneMarks& marks) {
                       faded(style.color, 0.25));
   const LaneScale& scale = marks.values.scale;
   if (style.reference && *style.reference > scale.low && *style.reference < scale.high) {
-    const float y = std::floor(y_of(marks, *style.reference));
-    list.AddRectFilled({marks.strip.left(), y}, {marks.strip.right(), y + 1}, faded(color::kFaint, 0.12));
+    draw_level(list, marks.strip, y_of(marks, *style.reference), faded(color::kFaint, 0.12));
   }
-  const float thickness = std::max(1.5F, scaled(1.5));
-  static_assert(sizeof(glm::vec2) == sizeof(ImVec2));
-  std::vector<ImVec2> points;
-  for (const Polyline& line :
-       curve_of(marks.values.values, marks.survey->first_frame, marks.strip.ruler, scale, box_of(marks))) {
-    points.clear();
-    for (const glm::vec2 point : line) points.emplace_back(point.x, point.y);
-    list.AddPolyline(points.data(), static_cast<int>(points.size()), style.color, ImDrawFlags_None, thickness);
-    if (points.size() == 1) list.AddCircleFilled(points.front(), thickness, style.color, 8);
-  }
+  draw_polylines(list, curve_of(marks.values.values, marks.survey->first_frame, marks.strip.ruler, scale, box_of(marks)),
+             style.color);
 }
 
 void draw_flags(ImDrawList& list, const LaneMarks& marks) {
   for (const FlightFlag& flag : marks.survey->flags) {
-    if (!belongs_to(flag.fault, marks.style.lane)) continue;
-    const float low = std::max(marks.strip.left(), marks.strip.moment_x(flag.first_frame));
-    const float high = std::min(marks.strip.right(), std::max(low + scaled(2), marks.strip.moment_x(flag.last_frame)));
-    if (high <= low) continue;
-    list.AddRectFilled({low, marks.top_y}, {high, marks.top_y + marks.height}, faded(color::kBad, 0.2));
+    if (marks.style.fault != flag.fault) continue;
+    const auto draw = [&](float top_y, float bottom_y, double opacity) {
+      draw_stretch(list, marks.strip, flag.first_frame, flag.last_frame, top_y, bottom_y, faded(color::kBad, opacity));
+    };
+    draw(marks.top_y, marks.top_y + marks.height, 0.2);
     const float limit_y = std::floor(y_of(marks, flag.limit));
-    list.AddRectFilled({low, limit_y}, {high, limit_y + 1}, faded(color::kBad, 0.8));
+    draw(limit_y, limit_y + 1, 0.8);
   }
 }
 
@@ -110,8 +114,8 @@ void draw_closest(ImDrawList& list, const LaneMarks& marks) {
 void list_values(const Survey& survey, std::size_t i) {
   ImGui::BeginTable("values", 2, ImGuiTableFlags_SizingFixedFit);
   for (const LaneStyle& style : lane_styles()) {
-    if (is_of_camera(style.lane) && survey.camera.empty()) continue;
-    if (is_of_encounter(style.lane) && !survey.encounter) continue;
+    if (style.is_of_camera() && survey.camera.empty()) continue;
+    if (style.is_of_encounter() && !survey.encounter) continue;
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", style.title);
     ImGui::TableNextColumn();
@@ -122,13 +126,8 @@ void list_values(const Survey& survey, std::size_t i) {
 
 // Over a strip all that is wrong with the flight there, over a curve what belongs to it.
 std::string flags_at(const LaneMarks& marks, int frame) {
-  std::string text;
-  for (const FlightFlag& flag : marks.survey->flags) {
-    const bool is_reported_here = marks.style.kind == LaneKind::strip || belongs_to(flag.fault, marks.style.lane);
-    if (is_reported_here && frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
-      text.append(text.empty() ? "" : "\n").append(flag.text());
-  }
-  return text;
+  if (marks.style.is_strip()) return flags_text(*marks.survey, frame);
+  return marks.style.fault ? flags_text(*marks.survey, frame, marks.style.fault) : "";
 }
 
 // The coloured stretches of a strip.
@@ -161,23 +160,52 @@ void draw_encounter(ImDrawList& list, const LaneMarks& marks) {
   const WellClearVolume& volume = encounter.volumes.front().volume;
   const double limit = marks.style.lane == Lane::beside ? volume.dmod_m : volume.tau_mod_s;
   if (limit <= 0 || limit >= marks.values.scale.high) return;
-  const float y = std::floor(y_of(marks, limit));
-  list.AddRectFilled({marks.strip.left(), y}, {marks.strip.right(), y + 1}, faded(color::kBad, 0.6));
+  draw_level(list, marks.strip, y_of(marks, limit), faded(color::kBad, 0.6));
 }
 
 }  // namespace
 
+void draw_stretch(ImDrawList& list, const TimelineStrip& strip, double first_frame, double last_frame, float top_y,
+                  float bottom_y, ImU32 shade) {
+  const float low = std::max(strip.left(), strip.moment_x(first_frame));
+  const float high = std::min(strip.right(), std::max(low + scaled(2), strip.moment_x(last_frame)));
+  if (high > low) list.AddRectFilled({low, top_y}, {high, bottom_y}, shade);
+}
+
+void draw_level(ImDrawList& list, const TimelineStrip& strip, float y, ImU32 shade) {
+  list.AddRectFilled({strip.left(), std::floor(y)}, {strip.right(), std::floor(y) + 1}, shade);
+}
+
+void draw_polylines(ImDrawList& list, const std::vector<Polyline>& lines, ImU32 shade) {
+  const float thickness = std::max(1.5F, scaled(1.5));
+  std::vector<ImVec2> points;
+  for (const Polyline& line : lines) {
+    points.clear();
+    for (const glm::vec2 point : line) points.emplace_back(point.x, point.y);
+    list.AddPolyline(points.data(), static_cast<int>(points.size()), shade, ImDrawFlags_None, thickness);
+    if (points.size() == 1) list.AddCircleFilled(points.front(), thickness, shade, 8);
+  }
+}
+
+void draw_dot(ImDrawList& list, ImVec2 center, ImU32 shade) {
+  list.AddCircleFilled(center, scaled(3.5), color::kPanel, 10);
+  list.AddCircleFilled(center, scaled(2.5), shade, 10);
+}
+
+std::string flags_text(const Survey& survey, double frame, std::optional<FlightFault> fault) {
+  std::string text;
+  for (const FlightFlag& flag : survey.flags)
+    if ((!fault || flag.fault == *fault) && frame >= flag.first_frame - 1 && frame <= flag.last_frame + 1)
+      text.append(text.empty() ? "" : "\n").append(flag.text());
+  return text;
+}
+
 void draw_lane_marks(ImDrawList& list, const LaneMarks& marks) {
-  if (marks.survey == nullptr || (is_of_encounter(marks.style.lane) && !marks.survey->encounter)) {
-    draw_label(list, marks, marks.strip.left(), marks.top_y + marks.height / 2, color::kQuiet, "not known yet");
-    return;
-  }
-  if (marks.style.kind == LaneKind::strip) {
-    draw_strip(list, marks);
-    return;
-  }
+  if (marks.survey == nullptr || (marks.style.is_of_encounter() && !marks.survey->encounter))
+    return draw_label(list, marks, marks.strip.left(), marks.top_y + marks.height / 2, color::kQuiet, "not known yet");
+  if (marks.style.is_strip()) return draw_strip(list, marks);
   draw_flags(list, marks);
-  if (is_of_encounter(marks.style.lane)) draw_encounter(list, marks);
+  if (marks.style.is_of_encounter()) draw_encounter(list, marks);
   draw_curve(list, marks);
   if (marks.style.lane == Lane::distance) draw_closest(list, marks);
 }
@@ -185,9 +213,7 @@ void draw_lane_marks(ImDrawList& list, const LaneMarks& marks) {
 void draw_value_dot(ImDrawList& list, const LaneMarks& marks, int frame) {
   const std::optional<double> value = value_at(marks, frame);
   if (!value) return;
-  const ImVec2 center{marks.strip.moment_x(frame), y_of(marks, *value)};
-  list.AddCircleFilled(center, scaled(3.5), color::kPanel, 10);
-  list.AddCircleFilled(center, scaled(2.5), marks.style.color, 10);
+  draw_dot(list, {marks.strip.moment_x(frame), y_of(marks, *value)}, marks.style.color);
 }
 
 std::string lane_text_at(const LaneMarks& marks, int frame) {
@@ -215,7 +241,7 @@ void tooltip_for_lanes(const ViewContext& context, const LaneMarks& marks, int f
   const auto index = index_of(marks, frame, marks.survey == nullptr ? 0 : marks.survey->estimates.size());
   if (!index || !item_wants_tooltip()) return;
   const std::string flags = flags_at(marks, frame);
-  const bool is_strip = marks.style.kind == LaneKind::strip;
+  const bool is_strip = marks.style.is_strip();
   // Over a curve its value stands beside the mouse already.
   if (!is_strip && flags.empty()) return;
   ImGui::BeginTooltip();

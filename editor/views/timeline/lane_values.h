@@ -3,15 +3,46 @@
 
 #include <imgui.h>
 
+#include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "editor/geometry/rulers.h"
 #include "editor/preview/preview_output.h"
-#include "editor/views/timeline/lane_curve.h"
 
 namespace sigs::editor {
+
+// logarithmic: by log(1 + value), so that 0 has a place; negative values count as 0.
+enum class Scaling { linear, logarithmic };
+
+// Which values a lane shows from its lower to its upper edge.
+struct LaneScale {
+  double low = 0;
+  double high = 1;
+  Scaling scaling = Scaling::linear;
+
+  // Height of a value: 0 at low, 1 at high, clamped to them; 0.5 where low and high are equal.
+  [[nodiscard]] double share_of(double value) const;
+};
+
+// For all finite values: from 0 where they come near it, else a little more than they take; never less across than
+// min_span.
+[[nodiscard]] LaneScale scale_for(std::span<const double> values, double min_span, Scaling scaling = Scaling::linear);
+
+// Where a lane's curve is drawn.
+struct LaneBox {
+  double top_y = 0;
+  double height = 1;
+};
+
+// The values of successive frames as lines on the screen, no more points than it takes to be within a third of a pixel;
+// where several frames share a pixel both extremes show. Values that are not finite leave gaps. Frame n lies in the
+// middle of its cell.
+using Polyline = std::vector<glm::vec2>;
+[[nodiscard]] std::vector<Polyline> curve_of(std::span<const double> values, int first_frame, const TimeRuler& ruler,
+                                             const LaneScale& scale, const LaneBox& box);
 
 // What the timeline shows of the current intruder from frame to frame, and of the camera. visibility has a
 // VisibilityState a frame; distance is in metres, size in pixels, speed and climb in m/s, load in g; roll, pitch and
@@ -19,35 +50,30 @@ namespace sigs::editor {
 // clear is when well clear is lost, beside the horizontal range in metres, tau modified tau in seconds.
 enum class Lane { visibility, clear, distance, beside, tau, size, speed, load, climb, roll, pitch, yaw };
 
-// Whether a lane shows the camera, not the intruder.
-[[nodiscard]] constexpr bool is_of_camera(Lane lane) {
-  return lane == Lane::roll || lane == Lane::pitch || lane == Lane::yaw;
-}
+// Which part of a survey has a lane's values.
+enum class LaneSource { estimates, encounter, flight, camera };
 
-// Whether a lane is of the encounter: Survey::encounter has its values.
-[[nodiscard]] constexpr bool is_of_encounter(Lane lane) {
-  return lane == Lane::clear || lane == Lane::beside || lane == Lane::tau;
-}
-
-// strip: coloured stretches of frames, in a row of a line's height; each strip is drawn by a file of its own
-// (visibility_strip.h). curve: numbers on a scale; curves share the room that strips leave.
-enum class LaneKind { strip, curve };
-
-// Words, colours and limits of a lane. The texts are literals.
+// Words, colours and values of a lane. The texts are literals. A strip shows coloured stretches of frames, in a row of
+// a line's height; all others are curves: numbers on a scale, which share the room that strips leave.
 struct LaneStyle {
   Lane lane;
-  LaneKind kind;
-  // False: it is hidden until a person ticks it in the list of lanes.
-  bool shown_by_default;
+  LaneSource source;
+  bool shown_by_default = true;  // false: it is hidden until a person ticks it in the list of lanes
   const char* title;
   const char* help;
-  // Of a curve; strips have a colour for each state.
+  // Of a curve; strips have a colour for each state. NaN: nothing of it is in the image, so it has no size.
   ImU32 color = 0;
-  // Of a curve's scale, in the lane's unit: what varies less looks level.
-  double min_span = 1;
+  double (*value)(const Survey& survey, std::size_t i) = nullptr;  // i: an index of the survey's frames
+  double Attitude::*angle_rad = nullptr;                           // in place of a value, of the camera
+  std::string (*text)(double value) = nullptr;                     // of finite values: "933 m", "+2.1 m/s"
+  double min_span = 1;  // of the scale, in the lane's unit: what varies less looks level
   Scaling scaling = Scaling::linear;
-  // A line at a value that means something: level flight, no climb.
-  std::optional<double> reference = std::nullopt;
+  std::optional<double> reference = std::nullopt;   // a line at a value that means something: level flight, no climb
+  std::optional<FlightFault> fault = std::nullopt;  // that is marked in this lane
+
+  [[nodiscard]] constexpr bool is_strip() const { return value == nullptr && angle_rad == nullptr; }
+  [[nodiscard]] constexpr bool is_of_camera() const { return source == LaneSource::camera; }  // not of the intruder
+  [[nodiscard]] constexpr bool is_of_encounter() const { return source == LaneSource::encounter; }
 };
 // One for each lane, in the order in which the timeline and the list of lanes show them.
 [[nodiscard]] std::span<const LaneStyle> lane_styles();
@@ -63,12 +89,7 @@ struct LaneValues {
   double minimum = 0;
   double maximum = 0;
 };
-// Of a curve; i is an index of the survey's frames. NaN: nothing of it is in the image, so it has no size.
-[[nodiscard]] double value_in(const Survey& survey, Lane lane, std::size_t i);
 [[nodiscard]] LaneValues values_of(const Survey& survey, Lane lane);
-
-// Standard deviation of a value of a curve; NaN: not known.
-[[nodiscard]] double deviation_in(const Survey& survey, Lane lane, std::size_t i);
 
 // Of a curve: "933 m", "13.4 px", "+2.1 m/s"; "-" for what is not finite.
 [[nodiscard]] std::string value_text(Lane lane, double value);
@@ -77,9 +98,6 @@ struct LaneValues {
 // deviation that is known; yaw within 180 degrees. i is an index of the survey's frames; "-" where the
 // survey has no such frame.
 [[nodiscard]] std::string text_in(const Survey& survey, Lane lane, std::size_t i);
-
-// Whether a fault of the flight is marked in this lane.
-[[nodiscard]] bool belongs_to(FlightFault fault, Lane lane);
 
 // "in view", "partly hidden", "hidden", "out of view".
 [[nodiscard]] const char* name_of(VisibilityState visibility_state);

@@ -68,8 +68,7 @@ class RulerRow {
 
   Held held_ = Held::none;
   double scrub_x_ = 0;  // where the mouse would be if it did not go finer
-  // The frame on which the right button was pressed.
-  int menu_frame_ = 0;
+  int menu_frame_ = 0;  // the frame on which the right button was pressed
 };
 
 }  // namespace sigs::editor

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/timeline/timeline_view.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 

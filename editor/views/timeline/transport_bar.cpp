@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/transport_bar.h"
-
-#include <imgui.h>
+#include "editor/views/timeline/timeline_view.h"
 
 #include <algorithm>
 #include <charconv>
@@ -11,13 +9,9 @@
 #include <limits>
 #include <numeric>
 #include <string>
-#include <vector>
 
 #include "base/text.h"
-#include "editor/views/timeline/ruler.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -55,29 +49,11 @@ std::optional<double> time_in(std::string_view text) {
 }
 
 double nearest_in_time(double time_s, std::span<const double> times_s) {
-  const auto after = std::lower_bound(times_s.begin(), times_s.end(), time_s);
+  const auto after = std::ranges::lower_bound(times_s, time_s);
   const auto number = static_cast<double>(after - times_s.begin());
   if (after == times_s.begin()) return 0;
   return after == times_s.end() || time_s - *(after - 1) <= *after - time_s ? number - 1 : number;
 }
-
-}  // namespace
-
-std::optional<int> frame_from_entry(std::string_view entry, int playhead, std::span<const double> times_s) {
-  const std::string_view text = trimmed(entry);
-  if (text.empty()) return std::nullopt;
-  const bool is_time = text.find(':') != std::string_view::npos;
-  const bool is_relative = text.front() == '+' || text.front() == '-';
-  const std::optional<double> value = is_time ? time_in(text) : number(text.substr(is_relative ? 1 : 0));
-  if (!value || (is_time && times_s.empty())) return std::nullopt;
-  double frame = *value;
-  if (is_time) frame = nearest_in_time(*value, times_s);
-  if (is_relative) frame = text.front() == '-' ? playhead - *value : playhead + *value;
-  const double highest = times_s.empty() ? kMaxFrames : static_cast<double>(times_s.size() - 1);
-  return static_cast<int>(std::floor(std::clamp(frame, 0.0, highest)));
-}
-
-namespace {
 
 // A part of the bar. Those with a low rank are left out last.
 struct BarItem {
@@ -98,7 +74,7 @@ void draw_those_that_fit(const ViewContext& context, const Bar& bar) {
   float room = ImGui::GetContentRegionAvail().x;
   std::vector<std::size_t> order(bar.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return bar[a].rank < bar[b].rank; });
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return bar[a].rank < bar[b].rank; });
   int full_from = 1000;  // of one rank all or none
   for (const std::size_t i : order) {
     room -= bar[i].gap + bar[i].width;
@@ -119,9 +95,7 @@ void draw_those_that_fit(const ViewContext& context, const Bar& bar) {
 
 void text_in_line(const std::string& text, ImU32 shade, const char* tooltip) {
   ImGui::AlignTextToFramePadding();
-  ImGui::PushStyleColor(ImGuiCol_Text, shade);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
+  draw_text(text, shade);
   tooltip_for_item(tooltip);
 }
 
@@ -202,6 +176,20 @@ void add_marks(Bar& bar, const ViewContext& context) {
 }
 
 }  // namespace
+
+std::optional<int> frame_from_entry(std::string_view entry, int playhead, std::span<const double> times_s) {
+  const std::string_view text = trimmed(entry);
+  if (text.empty()) return std::nullopt;
+  const bool is_time = text.find(':') != std::string_view::npos;
+  const bool is_relative = text.front() == '+' || text.front() == '-';
+  const std::optional<double> value = is_time ? time_in(text) : number(text.substr(is_relative ? 1 : 0));
+  if (!value || (is_time && times_s.empty())) return std::nullopt;
+  double frame = *value;
+  if (is_time) frame = nearest_in_time(*value, times_s);
+  if (is_relative) frame = text.front() == '-' ? playhead - *value : playhead + *value;
+  const double highest = times_s.empty() ? kMaxFrames : static_cast<double>(times_s.size() - 1);
+  return static_cast<int>(std::floor(std::clamp(frame, 0.0, highest)));
+}
 
 void TransportBar::draw_frame_field(const ViewContext& context, float width) {
   const int playhead = context.document.playhead();

@@ -3,21 +3,92 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "base/pose.h"
-#include "editor/views/shown_camera.h"
-#include "editor/views/viewport/heading_marks.h"
+#include "editor/views/context.h"
 #include "editor/views/viewport/overlays.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
 namespace {
+
+constexpr double kMinNumberGap_px = 52;  // between numbers, where text is 15 px high
+constexpr double kUp_rad = 0.002;        // a small step towards the zenith
+constexpr double kHeadingMark_px = 8;
+constexpr double kMinorMark_px = 5;
+constexpr ImU32 kBright = color::kHorizon | IM_COL32_A_MASK;
+constexpr ImU32 kDark = IM_COL32(12, 13, 16, 170);
+constexpr double kMinSpeed_mps = 0.5;
+constexpr double kSpeedSpan_s = 0.1;
+
+struct HeadingSteps {
+  int number_deg;
+  int mark_deg;
+};
+constexpr std::array<HeadingSteps, 5> kHeadingSteps{{{5, 1}, {10, 5}, {30, 10}, {45, 15}, {90, 30}}};
+
+HeadingSteps steps_for(double number_gap_deg) {
+  for (const HeadingSteps& steps : kHeadingSteps)
+    if (steps.number_deg >= number_gap_deg) return steps;
+  return kHeadingSteps.back();
+}
+
+glm::dvec3 direction_at(double azimuth_rad, double elevation_rad) {
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
+          -std::sin(elevation_rad)};
+}
+
+std::optional<glm::dvec2> pixel_towards(const glm::dvec3& in_world, const FootageCamera& eye) {
+  return eye.lens.pixel(glm::conjugate(eye.world_from_camera.rotation) * in_world);
+}
+
+bool is_in(const glm::dvec2& pixel, const glm::dvec2& image_px) {
+  return pixel.x >= -0.5 && pixel.y >= -0.5 && pixel.x <= image_px.x - 0.5 && pixel.y <= image_px.y - 0.5;
+}
+
+// How many degrees near the optical axis the text of a number needs.
+double number_gap_deg_of(const ImageCanvas& canvas, const FootageCamera& eye) {
+  const glm::dvec3 ahead = {1, 0, 0};
+  const glm::dvec3 aside = {std::cos(rad_of_deg(1)), std::sin(rad_of_deg(1)), 0};
+  const std::optional<glm::dvec2> a = eye.lens.pixel(ahead);
+  const std::optional<glm::dvec2> b = eye.lens.pixel(aside);
+  const double px_per_deg = a && b ? glm::distance(*a, *b) * canvas.view.zoom : 0;
+  return scaled(kMinNumberGap_px) / std::max(px_per_deg, 1e-9);
+}
+
+void draw_mark(const ImageCanvas& canvas, const HeadingMark& mark) {
+  const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
+  const double length = scaled(mark.is_numbered ? kHeadingMark_px : kMinorMark_px);
+  const double below = mark.is_numbered ? length * 0.4 : 0;
+  const float width = scaled(mark.is_numbered ? 1.8F : 1.3F);
+  const ImVec2 foot = im(at - mark.up * below);
+  const ImVec2 tip = im(at + mark.up * length);
+  canvas.draw.AddLine(foot, tip, kDark, width + scaled(1.8));
+  canvas.draw.AddLine(foot, tip, kBright, width);
+}
+
+void draw_number(const ImageCanvas& canvas, const HeadingMark& mark, bool from_north, LabelPlacer& labels) {
+  const std::string text = heading_text(mark.heading_deg, from_north);
+  const glm::dvec2 size = label_size(text);
+  const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
+  const glm::dvec2 above = at + mark.up * static_cast<double>(scaled(kHeadingMark_px + 3)) - glm::dvec2(size.x / 2, 0);
+  const glm::dvec2 below =
+      at - mark.up * static_cast<double>(scaled(kHeadingMark_px + 3)) + glm::dvec2(-size.x / 2, size.y);
+  draw_label(canvas, labels, std::array{above, below}, text, kBright, false);
+}
+
+void draw_flight_mark(const ImageCanvas& canvas, const glm::dvec2& pixel) {
+  const glm::dvec2 at = canvas.view.screen_of(pixel);
+  const double r = scaled(5);
+  for (const auto& [shade, width] : {std::pair(kDark, 3.2F), std::pair(kBright, 1.5F)}) {
+    canvas.draw.AddCircle(im(at), static_cast<float>(r), shade, 16, scaled(width));
+    for (const glm::dvec2& wing : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, -1)})
+      canvas.draw.AddLine(im(at + wing * r), im(at + wing * r * 2.2), shade, scaled(width));
+  }
+}
 
 constexpr double kLineReach_px = 7;  // of the line, where text is 15 px high
 
@@ -82,6 +153,65 @@ void draw_text(const ImageCanvas& canvas, const HorizonGrip& grip, const std::st
 
 }  // namespace
 
+std::vector<HeadingMark> heading_marks(const FootageCamera& eye, const glm::dvec2& image_px, double reference_rad,
+                                       double number_gap_deg) {
+  const HeadingSteps steps = steps_for(number_gap_deg);
+  std::vector<HeadingMark> marks;
+  for (int heading_deg = 0; heading_deg < 360; heading_deg += steps.mark_deg) {
+    const double azimuth_rad = rad_of_deg(heading_deg) - reference_rad;
+    const std::optional<glm::dvec2> pixel = pixel_towards(direction_at(azimuth_rad, 0), eye);
+    const std::optional<glm::dvec2> higher = pixel_towards(direction_at(azimuth_rad, kUp_rad), eye);
+    if (!pixel || !higher || !is_in(*pixel, image_px) || glm::distance(*pixel, *higher) < 1e-6) continue;
+    marks.push_back({.heading_deg = static_cast<double>(heading_deg),
+                     .pixel = *pixel,
+                     .up = glm::normalize(*higher - *pixel),
+                     .is_numbered = heading_deg % steps.number_deg == 0});
+  }
+  return marks;
+}
+
+std::string heading_text(double heading_deg, bool from_north) {
+  const int whole = static_cast<int>(std::lround(heading_deg)) % 360;
+  if (!from_north) return fmt::format("{}\u00b0", whole > 180 ? whole - 360 : whole);
+  if (whole % 90 == 0) return std::string(1, "NESW"[whole / 90]);
+  return fmt::format("{:03}", whole);
+}
+
+HeadingReference heading_reference(const ViewContext& context) {
+  if (!context.shown.scene || !context.shown.scene->project) return {};
+  const Scene& scene = context.shown.scene->draft.scene;
+  const GeoSettings& geo = context.shown.scene->project->geo;
+  // Without a heading and without a log the world's X axis is taken to be north.
+  const bool is_known = geo.heading_deg || scene.motion.path;
+  if (!scene.earth || !is_known) return {};
+  return {.heading_of_x_rad = scene.earth->heading_rad(), .is_north = true};
+}
+
+std::optional<glm::dvec3> flight_direction(const ViewContext& context, int frame) {
+  const double time_s = time_of(context, frame);
+  const glm::dvec3 before_m = camera_pose_at(context, time_s - kSpeedSpan_s / 2).translation_m;
+  const glm::dvec3 way_m = camera_pose_at(context, time_s + kSpeedSpan_s / 2).translation_m - before_m;
+  if (glm::length(way_m) < kMinSpeed_mps * kSpeedSpan_s) return std::nullopt;
+  return glm::normalize(way_m);
+}
+
+void draw_heading_marks(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye,
+                        LabelPlacer& labels) {
+  const glm::dvec2 image_px{canvas.image_px.width, canvas.image_px.height};
+  const HeadingReference reference = heading_reference(context);
+  const std::vector<HeadingMark> marks =
+      heading_marks(eye, image_px, reference.heading_of_x_rad, number_gap_deg_of(canvas, eye));
+  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
+  for (const HeadingMark& mark : marks) {
+    draw_mark(canvas, mark);
+    if (mark.is_numbered) draw_number(canvas, mark, reference.is_north, labels);
+  }
+  if (const std::optional<glm::dvec3> ahead = flight_direction(context, eye.frame))
+    if (const std::optional<glm::dvec2> pixel = pixel_towards(*ahead, eye); pixel && is_in(*pixel, image_px))
+      draw_flight_mark(canvas, *pixel);
+  canvas.draw.PopClipRect();
+}
+
 void keep_horizon(const ViewContext& context) {
   put_tilt(context, tilt_of(context.project()), {});
 }
@@ -99,10 +229,7 @@ bool HorizonTool::press(const ToolContext& tool) {
 
 void HorizonTool::drag(const ToolContext& tool) {
   Taken& taken = *taken_;
-  if (taken.gesture.is_lost(tool.context) || taken.gesture.cancelled_by_key(tool.context)) {
-    taken_.reset();
-    return;
-  }
+  if (taken.gesture.is_lost(tool.context) || taken.gesture.cancelled_by_key(tool.context)) return taken_.reset();
   taken.gesture.is_moving = taken.gesture.is_moving || taken.gesture.has_left_press(tool.mouse);
   if (!taken.gesture.is_moving) return;
   const glm::dvec2 pixel = tool.canvas.view.image_of(tool.mouse) + taken.offset_px;

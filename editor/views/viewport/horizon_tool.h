@@ -1,13 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "editor/geometry/lens_projection.h"
 #include "editor/views/viewport/waypoint_tool.h"
+#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
+
+// A mark across the horizon at a heading, through the lens.
+struct HeadingMark {
+  double heading_deg = 0;  // 0 <= h < 360, from the reference to the right
+  glm::dvec2 pixel{0, 0};  // of the image, on the horizon
+  glm::dvec2 up{0, -1};    // unit vector of the image from there to the zenith
+  bool is_numbered = false;
+};
+
+// The marks that the image shows.
+//   reference_rad  heading of world X against the reference that is counted from
+//   number_gap_deg  numbers stand at least so far apart: 5, 10, 30, 45 or 90 degrees
+[[nodiscard]] std::vector<HeadingMark> heading_marks(const FootageCamera& eye, const glm::dvec2& image_px,
+                                                     double reference_rad, double number_gap_deg);
+
+// "0", "45", "350" against world X; "N", "045", "350" against true north.
+[[nodiscard]] std::string heading_text(double heading_deg, bool from_north);
+
+// What headings count from: true north where the scene knows it.
+struct HeadingReference {
+  double heading_of_x_rad = 0;
+  bool is_north = false;
+};
+[[nodiscard]] HeadingReference heading_reference(const ViewContext& context);
+
+// Where the camera flies to, as a direction of the world; none where it hangs in the air, below 0.5 m/s.
+[[nodiscard]] std::optional<glm::dvec3> flight_direction(const ViewContext& context, int frame);
+
+// Marks with numbers along the horizon, and a circle with wings in the direction of flight.
+void draw_heading_marks(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye,
+                        LabelPlacer& labels);
 
 // Accepts the line where it lies: writes the camera's present roll and pitch into the project.
 void keep_horizon(const ViewContext& context);

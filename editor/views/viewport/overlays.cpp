@@ -6,14 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
-#include "editor/geometry/screen_marks.h"
+#include "editor/geometry/image_view.h"
 #include "editor/views/own_body/own_body_images.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "scene/scene_at.h"
 
 namespace sigs::editor {
@@ -23,10 +20,6 @@ namespace {
 constexpr double kMark_px = 6;  // half a diamond
 constexpr int kMaxLabels = 120;
 constexpr double kMinSeen_px = 0.5;  // a smaller silhouette leaves no trace
-
-ScreenRect on_screen(const ImageCanvas& canvas, const Box& box) {
-  return {canvas.view.screen_of({box.x, box.y}), canvas.view.screen_of({box.x + box.width, box.y + box.height})};
-}
 
 Box edges_of(const cv::Rect& pixels) {
   return {pixels.x - 0.5, pixels.y - 0.5, static_cast<double>(pixels.width), static_cast<double>(pixels.height)};
@@ -44,11 +37,11 @@ void draw_box(const ImageCanvas& canvas, const ViewContext& context, const Intru
   const bool selected = intruder && selection.intruder == *intruder &&
                         (selection.kind == Selected::intruder || selection.kind == Selected::waypoint);
   if (truth.amodal_box)
-    draw_outline(canvas, on_screen(canvas, *truth.amodal_box), faded(color::kBox, truth.visible_box ? 0.6 : 0.8), true);
-  if (truth.visible_box) draw_outline(canvas, on_screen(canvas, edges_of(*truth.visible_box)), color::kBox, false);
+    draw_outline(canvas, canvas.on_screen(*truth.amodal_box), faded(color::kBox, truth.visible_box ? 0.6 : 0.8), true);
+  if (truth.visible_box) draw_outline(canvas, canvas.on_screen(edges_of(*truth.visible_box)), color::kBox, false);
   if (!truth.visible_box && !truth.amodal_box) return;
   const ScreenRect outer =
-      on_screen(canvas, truth.amodal_box.value_or(truth.visible_box ? edges_of(*truth.visible_box) : Box()));
+      canvas.on_screen(truth.amodal_box.value_or(truth.visible_box ? edges_of(*truth.visible_box) : Box()));
   const bool in_sight = outer.high.x >= canvas.rect.low.x && outer.high.y >= canvas.rect.low.y &&
                         outer.low.x <= canvas.rect.high.x && outer.low.y <= canvas.rect.high.y;
   if (!in_sight) return;
@@ -121,7 +114,7 @@ double around_intruder_px(const ImageCanvas& canvas, const ViewContext& context,
   if (!context.shown.image) return 0;
   for (const IntruderTruth& truth : context.shown.image->truth.intruders) {
     if (!truth.visible_box || project_intruder(context, truth.id) != intruder) continue;
-    const glm::dvec2 size = on_screen(canvas, edges_of(*truth.visible_box)).size();
+    const glm::dvec2 size = canvas.on_screen(edges_of(*truth.visible_box)).size();
     const double half = (size.x + size.y) / 2 + scaled(4);
     return half <= scaled(kMaxSize_px) ? half : 0;
   }

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/viewport/readout.h"
+#include "editor/views/viewport/viewport_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
-#include "editor/widgets/icons.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
 
@@ -33,25 +25,13 @@ double mebibytes(std::size_t bytes) {
   return static_cast<double>(bytes) / (1 << 20);
 }
 
-}  // namespace
-
-PatchedImage watched_image(const ViewContext& context, bool of_footage) {
-  if (of_footage) return {.ground = context.shown.footage ? *context.shown.footage : cv::Mat()};
-  return context.shown.image ? context.shown.image->bgr : PatchedImage();
-}
-
-namespace {
-
 void add_pixel(std::vector<Part>& parts, const ViewContext& context, const ViewportReadout& readout) {
   const PatchedImage image = watched_image(context, readout.of_footage);
   if (!readout.pixel || !cv::Rect({0, 0}, image.size()).contains(*readout.pixel)) return;
   const cv::Point at = *readout.pixel;
   parts.push_back({fmt::format("x {:4}  y {:4}", at.x, at.y), "x 00000  y 00000", 0, color::kText});
   parts.push_back({pixel_text(image, at), "000 000 000", 0, color::kText, image.bgr_at(at)});
-  if (readout.of_footage) {
-    parts.push_back({"footage", "covered 100.0%", 1});
-    return;
-  }
+  if (readout.of_footage) return parts.push_back({"footage", "covered 100.0%", 1});
   const cv::Mat& mask = context.shown.image->mask;
   const bool masked = mask.type() == CV_8UC1 && cv::Rect({0, 0}, mask.size()).contains(at);
   const double covered = masked ? mask.at<uchar>(at) / 2.55 : 0;
@@ -112,7 +92,22 @@ void draw_part(ImDrawList& draw, const Part& part, ImVec2 at) {
   draw.AddText(font(Font::mono), font(Font::mono)->FontSize, at, part.color, part.text.c_str());
 }
 
+constexpr std::size_t kMaxProblemLines = 4;
+
+float padding() {
+  return scaled(8);
+}
+
+float icon_side() {
+  return ImGui::GetFontSize();
+}
+
 }  // namespace
+
+PatchedImage watched_image(const ViewContext& context, bool of_footage) {
+  if (of_footage) return {.ground = context.shown.footage ? *context.shown.footage : cv::Mat()};
+  return context.shown.image ? context.shown.image->bgr : PatchedImage();
+}
 
 float readout_height() {
   return std::ceil(font(Font::mono)->FontSize + scaled(9));
@@ -144,26 +139,11 @@ void draw_readout(const ViewContext& context, const ViewportReadout& readout) {
   ImGui::Dummy(size);
 }
 
-namespace {
-
-constexpr std::size_t kMaxShown = 4;
-
-float padding() {
-  return scaled(8);
-}
-
-float icon_side() {
-  return ImGui::GetFontSize();
-}
-
-}  // namespace
-
 std::vector<std::string> problems_of(const ViewContext& context, const PreviewImage* image) {
   std::vector<std::string> problems;
   const auto add = [&](const std::string& problem) {
     std::string shown = shortened(problem, 400);
-    if (!shown.empty() && std::find(problems.begin(), problems.end(), shown) == problems.end())
-      problems.push_back(std::move(shown));
+    if (!shown.empty() && std::ranges::find(problems, shown) == problems.end()) problems.push_back(std::move(shown));
   };
   if (context.shown.scene) {
     const OpenedScene& scene = *context.shown.scene;
@@ -185,9 +165,11 @@ void ProblemBanner::lay_out(const ScreenRect& rect) {
   const float room = std::max(scaled(60), maximum_width - indent - padding());
   std::vector<std::string> texts{count_text(std::ssize(problems_), "problem")};
   if (!folded_) {
-    texts.assign(problems_.begin(), problems_.begin() + static_cast<long>(std::min(kMaxShown, problems_.size())));
-    if (problems_.size() > kMaxShown)
-      texts.push_back(fmt::format("and {} more, at their fields in the inspector", problems_.size() - kMaxShown));
+    texts.assign(problems_.begin(),
+                 problems_.begin() + static_cast<long>(std::min(kMaxProblemLines, problems_.size())));
+    if (problems_.size() > kMaxProblemLines)
+      texts.push_back(
+          fmt::format("and {} more, at their fields in the inspector", problems_.size() - kMaxProblemLines));
   }
   glm::dvec2 size(0, 2 * padding() - scaled(3));
   for (const std::string& text : texts) {
@@ -225,11 +207,11 @@ void ProblemBanner::draw(ImDrawList& draw) const {
   const float text_x = left + icon_side() + padding();
   float y = static_cast<float>(plate_.low.y) + padding();
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (i < kMaxShown)
+    if (i < kMaxProblemLines)
       draw_icon(draw, Icon::warning, {left + icon_side() / 2, y + icon_side() / 2}, icon_side(), color::kPartly);
     const float room = static_cast<float>(plate_.high.x) - text_x - padding() + 1;
-    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {text_x, y}, i < kMaxShown ? color::kText : color::kQuiet,
-                 lines_[i].text.c_str(), nullptr, room);
+    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {text_x, y},
+                 i < kMaxProblemLines ? color::kText : color::kQuiet, lines_[i].text.c_str(), nullptr, room);
     y += lines_[i].height;
   }
   draw.PopClipRect();

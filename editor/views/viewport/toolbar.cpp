@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/viewport/toolbar.h"
+#include "editor/views/viewport/viewport_view.h"
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
-#include "editor/widgets/icons.h"
-#include "editor/widgets/theme.h"
 #include "editor/widgets/toolbar.h"
 
 namespace sigs::editor {
@@ -25,6 +21,16 @@ void draw_handle(ImDrawList& draw, const glm::dvec2& middle, ImU32 color) {
     draw.AddTriangleFilled(im(middle + side * glm::dvec2(0.65 * r, 0)),
                            im(middle + side * glm::dvec2(0.2 * r, 0.38 * r)),
                            im(middle + side * glm::dvec2(0.2 * r, -0.38 * r)), color);
+}
+
+ImageGrid next(ImageGrid grid) {
+  if (grid == ImageGrid::none) return ImageGrid::thirds;
+  return grid == ImageGrid::thirds ? ImageGrid::eighths : ImageGrid::none;
+}
+
+const char* label_of(ImageGrid grid) {
+  if (grid == ImageGrid::none) return "Grid";
+  return grid == ImageGrid::thirds ? "Grid 3 x 3" : "Grid 8 x 6";
 }
 
 }  // namespace
@@ -68,20 +74,6 @@ void ViewportWipe::draw_line(const ImageCanvas& canvas, bool highlighted) const 
   if (canvas.rect.high.x - x > width + scaled(40))
     draw_label(canvas, {x + scaled(8), bottom}, "composite", color::kText);
 }
-
-namespace {
-
-ImageGrid next(ImageGrid grid) {
-  if (grid == ImageGrid::none) return ImageGrid::thirds;
-  return grid == ImageGrid::thirds ? ImageGrid::eighths : ImageGrid::none;
-}
-
-const char* label_of(ImageGrid grid) {
-  if (grid == ImageGrid::none) return "Grid";
-  return grid == ImageGrid::thirds ? "Grid 3 x 3" : "Grid 8 x 6";
-}
-
-}  // namespace
 
 void draw_viewport_toolbar(const ViewportSwitches& switches) {
   OverlayChoice& overlays = switches.overlays;

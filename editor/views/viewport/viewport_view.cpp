@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/viewport/viewport_view.h"
 
-#include <imgui.h>
-
 #include <cmath>
 
 #include "editor/views/results/results_view.h"
-#include "editor/views/viewport/readout.h"
-#include "editor/views/viewport/toolbar.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
 #include "editor/widgets/toolbar.h"
 
 namespace sigs::editor {
@@ -178,10 +171,7 @@ void ViewportView::handle_mouse(const ViewContext& context, const ImageCanvas& c
 void ViewportView::drag_lit_box(const ViewContext& context, const ImageCanvas& canvas, bool down) {
   context.needs.own_escape = true;
   if (hovered_) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-  if (pressed(Key::escape)) {
-    lit_box_.reset();
-    return;
-  }
+  if (pressed(Key::escape)) return lit_box_.reset();
   if (grip_ != Grip::lit_box) return;
   lit_box_->to_px = canvas.view.image_of(dv(ImGui::GetMousePos()));
   if (down) return;
@@ -209,10 +199,8 @@ void ViewportView::handle_double_click(const ViewContext& context, const ImageCa
   if (lit_box_ || grip_ == Grip::line || grip_ == Grip::horizon || (tool != nullptr && waypoint_at(*tool) != nullptr))
     return;
   const glm::dvec2 mouse = dv(ImGui::GetMousePos());
-  if (tool == nullptr || !overlays_.waypoints || !current_intruder(context) || !canvas.pixel_at(mouse)) {
-    look_.fit();
-    return;
-  }
+  if (tool == nullptr || !overlays_.waypoints || !current_intruder(context) || !canvas.pixel_at(mouse))
+    return look_.fit();
   tool_.release(context);
   add_waypoint_at(*tool, canvas.view.image_of(mouse));
 }
@@ -263,8 +251,8 @@ void ViewportView::draw_image_menu(const ViewContext& context, const ToolContext
   if (ImGui::MenuItem("Add waypoint here", "double click", false, can_add)) add_waypoint_at(*tool, menu_pixel_);
   if (intruders.empty() && ImGui::MenuItem("Add intruder")) add_intruder(context);
   ImGui::Separator();
-  if (ImGui::MenuItem("Lit like something here...")) ask_for_lit_box();
-  context.ui_probe.note_item("viewport/menu/lit like");
+  if (context.ui_probe.noted(ImGui::MenuItem("Lit like something here..."), "viewport/menu/lit like"))
+    ask_for_lit_box();
   if (ImGui::MenuItem("Wipe against the footage", nullptr, wipe_.is_on())) wipe_.toggle();
   if (ImGui::MenuItem("Fit", "F")) look_.fit();
 }

@@ -2,16 +2,96 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "editor/geometry/image_view.h"
 #include "editor/views/context.h"
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/viewport/overlays.h"
-#include "editor/views/viewport/readout.h"
-#include "editor/views/viewport/toolbar.h"
 #include "editor/views/viewport/waypoint_tool.h"
 #include "editor/widgets/zoomable_image.h"
 
 namespace sigs::editor {
+
+// The untouched footage left of a line that is dragged, or, while a key is held, everywhere.
+class ViewportWipe {
+ public:
+  [[nodiscard]] bool is_on() const { return on_; }
+  void toggle() { on_ = !on_; }
+
+  // Whether a press there takes hold of the line. Points are on the screen.
+  [[nodiscard]] bool is_at(const ImageCanvas& canvas, const glm::dvec2& mouse) const;
+  // Whether the untouched footage is shown there, while it is on.
+  [[nodiscard]] bool is_left_of_line(const ImageCanvas& canvas, const glm::dvec2& mouse) const;
+  // Moves the line to the mouse, but not out of sight.
+  void drag_to(const ImageCanvas& canvas, const glm::dvec2& mouse);
+
+  // The footage over the image; asks for it in the context's needs.
+  void draw_footage(const ImageCanvas& canvas, const ViewContext& context, bool everywhere);
+  void draw_line(const ImageCanvas& canvas, bool highlighted) const;
+
+ private:
+  [[nodiscard]] double line_x(const ImageCanvas& canvas) const;
+
+  bool on_ = false;
+  // Where the line is, of the width of the canvas: it stays there while the image is zoomed and panned.
+  double share_ = 0.5;
+};
+
+// What the toolbar above the image switches; it is changed while drawing.
+struct ViewportSwitches {
+  OverlayChoice& overlays;
+  ViewportWipe& wipe;
+  ZoomableImage& look;
+};
+
+// One row: labels where they have room, else icons alone; what still has no room is in a popup at the end of the row.
+void draw_viewport_toolbar(const ViewportSwitches& switches);
+
+// The line below the image: what the mouse is over, and what the image is.
+struct ViewportReadout {
+  std::optional<cv::Point> pixel;  // the pixel under the mouse; none: beside the image
+  bool of_footage = false;         // its colour is the untouched footage's, not the composited image's
+  double zoom = 1;                 // screen pixels for each pixel of the image
+};
+
+// The image whose pixels are named: the composited one, or the untouched footage. Empty: it is not there yet.
+[[nodiscard]] PatchedImage watched_image(const ViewContext& context, bool of_footage);
+
+// In screen pixels, for the fonts that are loaded.
+[[nodiscard]] float readout_height();
+// At the cursor, as wide as the window. Where there is little room, the less important parts are left out.
+void draw_readout(const ViewContext& context, const ViewportReadout& readout);
+
+// What is missing or wrong with what is shown, in sentences, each once: the footage, what was replaced by a
+// placeholder, else the problem of the image itself. image: may be null.
+[[nodiscard]] std::vector<std::string> problems_of(const ViewContext& context, const PreviewImage* image);
+
+// These problems, over the upper left of an image, without hiding much of it. A click folds it up; other problems
+// unfold it.
+class ProblemBanner {
+ public:
+  // To be called before the image takes the mouse: what lies on top comes first. No problems: nothing is shown.
+  void handle_mouse(const ScreenRect& rect, std::vector<std::string> problems);
+  // After the image was drawn.
+  void draw(ImDrawList& draw) const;
+
+ private:
+  // A text and the height that it has when wrapped, in screen pixels.
+  struct Line {
+    std::string text;
+    float height = 0;
+  };
+  void lay_out(const ScreenRect& rect);
+
+  std::vector<std::string> problems_;
+  std::vector<Line> lines_;
+  // What the banner covers on the screen.
+  ScreenRect plate_;
+  bool folded_ = false;
+  bool hovered_ = false;
+};
 
 // The view of the composited frame at the playhead. The user zooms and pans it, switches overlays, compares it with the
 // untouched footage (wipe), and moves waypoints and the horizon over it. A waypoint drag goes through handle_mouse to
@@ -72,17 +152,13 @@ class ViewportView {
   ProblemBanner banner_;
 
   bool hovered_ = false;
-  // The key that shows the footage alone is held.
-  bool footage_alone_ = false;
+  bool footage_alone_ = false;  // the key that shows the footage alone is held
   // What the mouse is at is the untouched footage.
   bool over_footage_ = false;
   Grip grip_ = Grip::nothing;
-  // While one is asked for.
-  std::optional<LitBox> lit_box_;
-  // Where the mouse was pressed, on the screen.
-  glm::dvec2 grip_mouse_{0, 0};
-  // Under the mouse; none: beside the image.
-  std::optional<cv::Point> pixel_;
+  std::optional<LitBox> lit_box_;   // while one is asked for
+  glm::dvec2 grip_mouse_{0, 0};     // where the mouse was pressed, on the screen
+  std::optional<cv::Point> pixel_;  // under the mouse; none: beside the image
   // What the menu was opened on: a waypoint, an intruder by its index in the project, and the pixel of the image.
   std::optional<WaypointMark> menu_waypoint_;
   std::optional<int> menu_intruder_;

@@ -3,15 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "editor/document/waypoint_edits.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
-#include "editor/widgets/theme.h"
-#include "editor/widgets/zoomable_image.h"
 #include "project/places.h"
 #include "scene/scene_at.h"
 
@@ -21,7 +16,7 @@ namespace {
 
 constexpr double kReach_px = 9;    // of a waypoint, where text is 15 px high
 constexpr double kMinBox_px = 16;  // a distant intruder is larger for the mouse than for the eye
-constexpr double kUsualDistance_m = 300;
+constexpr double kNewWaypointDistance_m = 300;
 
 std::optional<glm::dvec3> waypoint_position(const ViewContext& context, int intruder, int waypoint) {
   const std::vector<IntruderSettings>& intruders = context.project().intruders;
@@ -124,7 +119,7 @@ void add_waypoint_at(const ToolContext& tool, const glm::dvec2& pixel) {
   const std::optional<int> intruder = current_intruder(tool.context);
   if (!intruder) return;
   const std::optional<glm::dvec3> now_m = position_of(tool.context, *intruder, tool.eye.frame);
-  const double distance_m = now_m ? tool.eye.distance_m(*now_m) : kUsualDistance_m;
+  const double distance_m = now_m ? tool.eye.distance_m(*now_m) : kNewWaypointDistance_m;
   const std::optional<glm::dvec3> there_m = point_behind(pixel, distance_m, tool.eye.world_from_camera, tool.eye.lens);
   if (there_m)
     add_waypoint(tool.context, *intruder, tool.eye.frame, *there_m);
@@ -189,10 +184,7 @@ bool WaypointTool::begin(const ToolContext& tool) {
 }
 
 void WaypointTool::drag(const ToolContext& tool) {
-  if (!is_still_there(tool.context)) {
-    taken_.reset();
-    return;
-  }
+  if (!is_still_there(tool.context)) return taken_.reset();
   if (taken_->gesture.cancelled_by_key(tool.context)) {
     if (taken_->gesture.is_moving) selected_again_ = taken_->selected_before;
     taken_.reset();

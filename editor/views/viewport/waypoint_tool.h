@@ -5,7 +5,6 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "editor/geometry/lens_projection.h"
@@ -36,10 +35,8 @@ struct FootageCamera {
 struct WaypointMark {
   int intruder = 0;
   int waypoint = 0;
-  // The waypoint's moment; not whole where frames are spread evenly.
-  double frame = 0;
-  // In the world.
-  glm::dvec3 position_m{0, 0, 0};
+  double frame = 0;                // the waypoint's moment; not whole where frames are spread evenly
+  glm::dvec3 position_m{0, 0, 0};  // in the world
   // Of the image, pixel centres at whole numbers. It may lie outside of the image.
   glm::dvec2 pixel{0, 0};
 };
@@ -69,8 +66,7 @@ struct ToolContext {
   const ImageCanvas& canvas;
   const FootageCamera& eye;
   std::span<const WaypointMark> marks;
-  // On the screen.
-  glm::dvec2 mouse{0, 0};
+  glm::dvec2 mouse{0, 0};  // on the screen
 };
 
 // The waypoint within 9 px of the mouse (where text is 15 px high): the selected one if it is there, else the nearest;

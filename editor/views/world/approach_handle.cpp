@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/world/approach_handle.h"
+#include "editor/views/world/world_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 
@@ -86,10 +83,7 @@ void ApproachHandle::press(const ViewContext& context, int intruder) {
 }
 
 void ApproachHandle::drag(const ViewContext& context, const WorldCanvas& canvas, double snap_m) {
-  if (gesture_.is_lost(context) || gesture_.cancelled_by_key(context)) {
-    start_.reset();
-    return;
-  }
+  if (gesture_.is_lost(context) || gesture_.cancelled_by_key(context)) return start_.reset();
   const glm::dvec2 mouse = dv(ImGui::GetMousePos());
   gesture_.is_moving = gesture_.is_moving || gesture_.has_left_press(mouse);
   if (gesture_.is_moving && ImGui::IsMousePosValid()) {
@@ -108,10 +102,7 @@ void ApproachHandle::drag(const ViewContext& context, const WorldCanvas& canvas,
 void ApproachHandle::update(const WorldContext& world, const WorldCanvas& canvas, bool mouse_is_free, double snap_m) {
   const ViewContext& context = world.context;
   is_hovered_ = false;
-  if (start_) {
-    drag(context, canvas, snap_m);
-    return;
-  }
+  if (start_) return drag(context, canvas, snap_m);
   const std::optional<int> intruder = current_intruder(context);
   const std::optional<PresentApproach> now = intruder && mouse_is_free ? shown(context) : std::nullopt;
   const std::optional<glm::dvec2> at = now ? canvas.in_sight(now->intruder.position_m, 8) : std::nullopt;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/world/bodies.h"
+#include "editor/views/world/scene.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
 
-#include "editor/widgets/texts.h"
+#include "editor/preview/preview_output.h"
+#include "scene/encounter_tracks.h"
 #include "scene/scene_light.h"
 
 namespace sigs::editor {
@@ -93,7 +94,7 @@ void draw_faces(WorldCanvas& canvas, const CoarseMesh& mesh, const Drawing& draw
   for (const CoarseMesh::Face& face : mesh.faces)
     if (const std::optional<ScreenFace> on_screen = visible_face(canvas, face, corners, drawing))
       drawn.push_back(*on_screen);
-  std::sort(drawn.begin(), drawn.end(), [](const ScreenFace& a, const ScreenFace& b) { return a.depth_m > b.depth_m; });
+  std::ranges::sort(drawn, [](const ScreenFace& a, const ScreenFace& b) { return a.depth_m > b.depth_m; });
   // Soft edges would let what lies behind shine through between neighbours.
   ImDrawList& list = canvas.list();
   const ImDrawListFlags flags = list.Flags;
@@ -162,6 +163,59 @@ void draw_arrow_to_light(WorldCanvas& canvas, const glm::dvec2& at, const glm::d
   canvas.label(at + glm::dvec2(aside, std::abs(direction.y) > 0.7 ? 0 : scaled(18)), text, color::kQuiet);
 }
 
+constexpr int kPoints = 96;  // of a circle
+constexpr int kUprights = 12;
+
+bool is_lost_to_any(const WorldContext& world, const WellClearVolume& volume) {
+  if (!world.context.shown.scene) return false;
+  const Scene& scene = world.context.shown.scene->draft.scene;
+  const AircraftState own = encounter_track_of_camera(scene).at(world.moment.time_s);
+  for (std::size_t i = 0; i < scene.intruders.size(); ++i) {
+    const AircraftState intruder = encounter_track_of_intruder(scene, i).at(world.moment.time_s);
+    if (has_lost_well_clear(relative_state(own, intruder), volume)) return true;
+  }
+  return false;
+}
+
+glm::dvec3 on_circle(const glm::dvec3& center_m, double radius_m, int point, int points) {
+  const double angle = 2 * std::numbers::pi * point / points;
+  return center_m + radius_m * glm::dvec3(std::cos(angle), std::sin(angle), 0);
+}
+
+void draw_circle(WorldCanvas& canvas, const glm::dvec3& center_m, double radius_m, ImU32 shade, double width) {
+  std::vector<glm::dvec3> points_m;
+  for (int i = 0; i <= kPoints; ++i) points_m.push_back(on_circle(center_m, radius_m, i, kPoints));
+  canvas.polyline(points_m, shade, width);
+}
+
+// At the first place of the upper edge, from the camera's right on, that has room.
+void draw_label(WorldCanvas& canvas, const glm::dvec3& center_m, double radius_m, const std::string& text,
+                ImU32 shade) {
+  for (int i = 0; i < kPoints; i += 4)
+    if (const std::optional<glm::dvec2> at =
+            canvas.in_sight(on_circle(center_m, radius_m, (kPoints / 4 + i) % kPoints, kPoints), -scaled(12)))
+      if (canvas.label_beside(*at, scaled(9), text, shade)) return;
+}
+
+void draw_volume(WorldCanvas& canvas, const WorldContext& world, const WellClearVolume& volume) {
+  const bool is_lost = is_lost_to_any(world, volume);
+  const ImU32 shade = is_lost ? color::kBad : color::kGood;
+  const double radius_m = std::max(volume.dmod_m, volume.hmd_m);
+  const glm::dvec3 up_m{0, 0, -volume.zthr_m};
+  const glm::dvec3& center_m = world.moment.world_from_camera.translation_m;
+  for (const glm::dvec3& level_m : {center_m + up_m, center_m - up_m})
+    draw_circle(canvas, level_m, radius_m, faded(shade, is_lost ? 0.85 : 0.6), is_lost ? 1.8 : 1.3);
+  draw_circle(canvas, center_m, radius_m, faded(shade, 0.22), 1);
+  for (int i = 0; i < kUprights; ++i) {
+    const glm::dvec3 foot_m = on_circle(center_m, radius_m, i, kUprights);
+    canvas.line(foot_m - up_m, foot_m + up_m, faded(shade, 0.28), 1);
+  }
+  draw_label(canvas, center_m + up_m, radius_m,
+             fmt::format("{}  {}, \u00b1{}{}", volume.name, distance_text(radius_m), distance_text(volume.zthr_m),
+                         is_lost ? ", lost" : ""),
+             shade);
+}
+
 }  // namespace
 
 const CoarseMesh& BodyShapes::of(const std::shared_ptr<const Model>& model) {
@@ -172,7 +226,7 @@ const CoarseMesh& BodyShapes::of(const std::shared_ptr<const Model>& model) {
 
 void BodyShapes::keep_only(const std::vector<WorldBody>& bodies) {
   std::erase_if(shapes_, [&](const auto& entry) {
-    return std::none_of(bodies.begin(), bodies.end(), [&](const WorldBody& body) { return body.model == entry.first; });
+    return std::ranges::none_of(bodies, [&](const WorldBody& body) { return body.model == entry.first; });
   });
 }
 
@@ -181,7 +235,7 @@ void draw_bodies(WorldCanvas& canvas, const WorldContext& world, BodyShapes& sha
   for (const WorldBody& body : world.moment.bodies)
     if (body.model) far_to_near.push_back(&body);
   const glm::dvec3 forward = canvas.eye().forward();
-  std::stable_sort(far_to_near.begin(), far_to_near.end(), [&](const WorldBody* a, const WorldBody* b) {
+  std::ranges::stable_sort(far_to_near, [&](const WorldBody* a, const WorldBody* b) {
     return glm::dot(a->world_from_body.translation_m - b->world_from_body.translation_m, forward) > 0;
   });
   const Selection& selection = world.context.document.selection();
@@ -227,6 +281,10 @@ void draw_light(WorldCanvas& canvas, const WorldContext& world, const Selection&
     draw_drop_line(canvas, light_m, color);
   }
   draw_sun(canvas.list(), at, color);
+}
+
+void draw_volumes(WorldCanvas& canvas, const WorldContext& world) {
+  for (const WellClearVolume& volume : shown_volumes(world.context.project())) draw_volume(canvas, world, volume);
 }
 
 }  // namespace sigs::editor

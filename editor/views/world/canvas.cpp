@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/world/canvas.h"
+#include "editor/views/world/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +15,6 @@ bool holds(const ScreenRect& outer, const ScreenRect& inner) {
          inner.high.y <= outer.high.y;
 }
 
-glm::dvec2 size_of(const std::string& text, Font which) {
-  ImFont* face = font(which);
-  const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, text.c_str());
-  return {size.x, size.y};
-}
-
 }  // namespace
 
 std::optional<glm::dvec2> WorldCanvas::in_sight(const glm::dvec3& p_in_world, double margin_px) const {
@@ -29,24 +23,9 @@ std::optional<glm::dvec2> WorldCanvas::in_sight(const glm::dvec3& p_in_world, do
   return at;
 }
 
-// Liang and Barsky 1984.
 std::optional<std::array<glm::dvec2, 2>> WorldCanvas::within_rect(const glm::dvec3& a_m, const glm::dvec3& b_m) const {
   const auto line = screen_line(eye_, rect_, a_m, b_m);
-  if (!line) return std::nullopt;
-  const glm::dvec2 from = (*line)[0];
-  const glm::dvec2 along = (*line)[1] - from;
-  double first = 0;
-  double last = 1;
-  for (int axis = 0; axis < 2; ++axis) {
-    if (along[axis] == 0 && (from[axis] < rect_.low[axis] || from[axis] > rect_.high[axis])) return std::nullopt;
-    if (along[axis] == 0) continue;
-    const double to_low = (rect_.low[axis] - from[axis]) / along[axis];
-    const double to_high = (rect_.high[axis] - from[axis]) / along[axis];
-    first = std::max(first, std::min(to_low, to_high));
-    last = std::min(last, std::max(to_low, to_high));
-  }
-  if (!(first < last)) return std::nullopt;
-  return std::array{from + along * first, from + along * last};
+  return line ? line_within(*line, rect_) : std::nullopt;
 }
 
 void WorldCanvas::line(const glm::dvec3& a_m, const glm::dvec3& b_m, ImU32 color, double width) {
@@ -92,7 +71,7 @@ void WorldCanvas::polyline(std::span<const glm::dvec3> points_m, ImU32 color, do
 
 bool WorldCanvas::put(const glm::dvec2& low, const std::string& text, ImU32 color, Font which) {
   ImFont* face = font(which);
-  const ScreenRect place{low, low + size_of(text, which)};
+  const ScreenRect place{low, low + text_size(text, which)};
   if (!holds(rect_, place) || !labels_.place({&place, 1})) return false;
   const ImVec2 corner{std::round(static_cast<float>(place.low.x)), std::round(static_cast<float>(place.low.y))};
   list_.AddText(face, face->FontSize, {corner.x + 1, corner.y + 1}, IM_COL32(0, 0, 0, 160), text.c_str());
@@ -101,12 +80,12 @@ bool WorldCanvas::put(const glm::dvec2& low, const std::string& text, ImU32 colo
 }
 
 bool WorldCanvas::label(const glm::dvec2& at, const std::string& text, ImU32 color, Side side, Font which) {
-  const glm::dvec2 size = size_of(text, which);
+  const glm::dvec2 size = text_size(text, which);
   return put(at - size * glm::dvec2(side == Side::right ? 0 : 0.5, 0.5), text, color, which);
 }
 
 bool WorldCanvas::label_beside(const glm::dvec2& at, double gap_px, const std::string& text, ImU32 color) {
-  const glm::dvec2 size = size_of(text, Font::small);
+  const glm::dvec2 size = text_size(text, Font::small);
   const glm::dvec2 slanted = glm::dvec2(gap_px, 0.25 * gap_px);
   const glm::dvec2 half = size / 2.0;
   for (const glm::dvec2 side : {glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, -1), glm::dvec2(-1, 1)})

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <numbers>
 #include <queue>
 
 #include "editor/geometry/rulers.h"
@@ -36,7 +35,7 @@ std::vector<double> first_parameters(double first, double last, std::span<const 
     at.push_back(std::lerp(first, last, static_cast<double>(i) / static_cast<double>(pieces)));
   for (const double parameter : through.first(std::min(through.size(), maximum / 2)))
     if (parameter > first && parameter < last) at.push_back(parameter);
-  std::sort(at.begin(), at.end());
+  std::ranges::sort(at);
   at.erase(std::unique(at.begin(), at.end()), at.end());
   return at;
 }
@@ -48,58 +47,6 @@ Piece piece_between(const std::function<glm::dvec3(double)>& curve, double first
   piece.off_chord_m = glm::distance(piece.middle_m, (first_m + last_m) / 2.0);
   return piece;
 }
-
-}  // namespace
-
-CurveSamples sampled_curve(const std::function<glm::dvec3(double)>& curve, double first, double last,
-                           std::span<const double> through, double tolerance_m, std::size_t maximum) {
-  if (!(last > first)) return {{first}, {curve(first)}};
-  std::map<double, glm::dvec3> points;
-  for (const double at : first_parameters(first, last, through, maximum)) points.emplace(at, curve(at));
-  std::priority_queue<Piece> pieces;
-  for (auto end = std::next(points.begin()); end != points.end(); ++end) {
-    const auto begin = std::prev(end);
-    pieces.push(piece_between(curve, begin->first, begin->second, end->first, end->second));
-  }
-  while (points.size() < maximum && !pieces.empty() && pieces.top().off_chord_m > tolerance_m) {
-    const Piece piece = pieces.top();
-    pieces.pop();
-    const double middle = piece.middle();
-    if (!(middle > piece.first && middle < piece.last)) continue;  // neighbours among the doubles
-    points.emplace(middle, piece.middle_m);
-    pieces.push(piece_between(curve, piece.first, points.at(piece.first), middle, piece.middle_m));
-    pieces.push(piece_between(curve, middle, piece.middle_m, piece.last, points.at(piece.last)));
-  }
-  CurveSamples samples;
-  for (const auto& [at, point_m] : points) {
-    samples.at.push_back(at);
-    samples.points_m.push_back(point_m);
-  }
-  return samples;
-}
-
-glm::dvec3 CurveSamples::point_at(double parameter) const {
-  const auto after = std::upper_bound(at.begin(), at.end(), parameter);
-  if (after == at.begin()) return points_m.front();
-  if (after == at.end()) return points_m.back();
-  const auto next = static_cast<std::size_t>(after - at.begin());
-  const double share = (parameter - at[next - 1]) / (at[next] - at[next - 1]);
-  return glm::mix(points_m[next - 1], points_m[next], share);
-}
-
-std::vector<glm::dvec3> stretch(const CurveSamples& samples, double from, double to) {
-  if (samples.at.empty()) return {};
-  from = std::max(from, samples.at.front());
-  to = std::min(to, samples.at.back());
-  if (!(from < to)) return {};
-  std::vector<glm::dvec3> points_m{samples.point_at(from)};
-  for (std::size_t i = 0; i < samples.at.size(); ++i)
-    if (samples.at[i] > from && samples.at[i] < to) points_m.push_back(samples.points_m[i]);
-  points_m.push_back(samples.point_at(to));
-  return points_m;
-}
-
-namespace {
 
 constexpr std::size_t kMaxPoints = 400;   // of a trajectory
 constexpr std::size_t kMaxTicks = 300;    // of a trajectory
@@ -179,19 +126,76 @@ std::optional<glm::dvec3> ray_towards(const Lens& lens, const glm::dvec2& middle
 }
 
 void make_flat_if_ahead(ImageBorder& border) {
-  const bool ahead =
-      std::all_of(border.rays.begin(), border.rays.end(), [](const glm::dvec3& ray) { return ray.x > kFlatImageX; });
+  const bool ahead = std::ranges::all_of(border.rays, [](const glm::dvec3& ray) { return ray.x > kFlatImageX; });
   if (!ahead) return;
   for (glm::dvec3& ray : border.rays) ray /= ray.x;
 }
 
 std::shared_ptr<const Model> shared_model(const Scene& scene, const Model* model) {
-  const auto found = std::find_if(scene.models.begin(), scene.models.end(),
-                                  [&](const std::shared_ptr<const Model>& held) { return held.get() == model; });
+  const auto found =
+      std::ranges::find_if(scene.models, [&](const std::shared_ptr<const Model>& held) { return held.get() == model; });
   return found == scene.models.end() ? nullptr : *found;
 }
 
+CurveSamples camera_path_of(const Scene& scene) {
+  const auto place = [&](double frame) {
+    return camera_at(scene.motion, time_of_frame_s(scene.footage, frame)).translation_m;
+  };
+  std::vector<glm::dvec3> rough_m;
+  for (int i = 0; i <= 8; ++i) rough_m.push_back(place(std::lerp(scene.first_frame, scene.last_frame, i / 8.0)));
+  const double tolerance_m = std::max(1e-3, kToleranceShare * extent_m(rough_m));
+  return sampled_curve(place, scene.first_frame, scene.last_frame, {}, tolerance_m, kMaxPoints);
+}
+
 }  // namespace
+
+CurveSamples sampled_curve(const std::function<glm::dvec3(double)>& curve, double first, double last,
+                           std::span<const double> through, double tolerance_m, std::size_t maximum) {
+  if (!(last > first)) return {{first}, {curve(first)}};
+  std::map<double, glm::dvec3> points;
+  for (const double at : first_parameters(first, last, through, maximum)) points.emplace(at, curve(at));
+  std::priority_queue<Piece> pieces;
+  for (auto end = std::next(points.begin()); end != points.end(); ++end) {
+    const auto begin = std::prev(end);
+    pieces.push(piece_between(curve, begin->first, begin->second, end->first, end->second));
+  }
+  while (points.size() < maximum && !pieces.empty() && pieces.top().off_chord_m > tolerance_m) {
+    const Piece piece = pieces.top();
+    pieces.pop();
+    const double middle = piece.middle();
+    if (!(middle > piece.first && middle < piece.last)) continue;  // neighbours among the doubles
+    points.emplace(middle, piece.middle_m);
+    pieces.push(piece_between(curve, piece.first, points.at(piece.first), middle, piece.middle_m));
+    pieces.push(piece_between(curve, middle, piece.middle_m, piece.last, points.at(piece.last)));
+  }
+  CurveSamples samples;
+  for (const auto& [at, point_m] : points) {
+    samples.at.push_back(at);
+    samples.points_m.push_back(point_m);
+  }
+  return samples;
+}
+
+glm::dvec3 CurveSamples::point_at(double parameter) const {
+  const auto after = std::ranges::upper_bound(at, parameter);
+  if (after == at.begin()) return points_m.front();
+  if (after == at.end()) return points_m.back();
+  const auto next = static_cast<std::size_t>(after - at.begin());
+  const double share = (parameter - at[next - 1]) / (at[next] - at[next - 1]);
+  return glm::mix(points_m[next - 1], points_m[next], share);
+}
+
+std::vector<glm::dvec3> stretch(const CurveSamples& samples, double from, double to) {
+  if (samples.at.empty()) return {};
+  from = std::max(from, samples.at.front());
+  to = std::min(to, samples.at.back());
+  if (!(from < to)) return {};
+  std::vector<glm::dvec3> points_m{samples.point_at(from)};
+  for (std::size_t i = 0; i < samples.at.size(); ++i)
+    if (samples.at[i] > from && samples.at[i] < to) points_m.push_back(samples.points_m[i]);
+  points_m.push_back(samples.point_at(to));
+  return points_m;
+}
 
 ImageBorder image_border(const Camera& camera) {
   const glm::dvec2 low{-0.5, -0.5};
@@ -210,20 +214,6 @@ ImageBorder image_border(const Camera& camera) {
   make_flat_if_ahead(border);
   return border;
 }
-
-namespace {
-
-CurveSamples camera_path_of(const Scene& scene) {
-  const auto place = [&](double frame) {
-    return camera_at(scene.motion, time_of_frame_s(scene.footage, frame)).translation_m;
-  };
-  std::vector<glm::dvec3> rough_m;
-  for (int i = 0; i <= 8; ++i) rough_m.push_back(place(std::lerp(scene.first_frame, scene.last_frame, i / 8.0)));
-  const double tolerance_m = std::max(1e-3, kToleranceShare * extent_m(rough_m));
-  return sampled_curve(place, scene.first_frame, scene.last_frame, {}, tolerance_m, kMaxPoints);
-}
-
-}  // namespace
 
 WorldModel world_model(const OpenedScene& opened) {
   const Scene& scene = opened.draft.scene;
@@ -270,7 +260,7 @@ std::vector<glm::dvec3> points_of_interest(const ViewContext& context, const Wor
     points_m.insert(points_m.end(), flown_m.begin(), flown_m.end());
   }
   // A camera that hangs in the air, alone.
-  if (std::all_of(points_m.begin(), points_m.end(), [&](const glm::dvec3& p) { return p == points_m.front(); }))
+  if (std::ranges::all_of(points_m, [&](const glm::dvec3& p) { return p == points_m.front(); }))
     points_m.push_back(points_m.front() + glm::dvec3(100, 0, 0));
   return points_m;
 }

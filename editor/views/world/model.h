@@ -5,14 +5,12 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "editor/geometry/lens_projection.h"
 #include "editor/preview/preview_output.h"
 #include "editor/views/context.h"
-#include "editor/views/shown_camera.h"
 
 namespace sigs::editor {
 
@@ -66,8 +64,7 @@ struct WorldModel {
   std::uint64_t revision = 0;
   std::vector<WorldCurve> curves;
   ImageBorder border;
-  // Of the camera over the scene's range, by frame.
-  CurveSamples camera_path;
+  CurveSamples camera_path;  // of the camera over the scene's range, by frame
   // Distance of the farthest intruder from the camera, over the range; 0: there is none.
   double farthest_m = 0;
 };
@@ -80,7 +77,7 @@ struct WorldBody {
   Pose<frame::World, frame::Body> world_from_body;
   std::shared_ptr<const Model> model;
 };
-// The playhead's moment, with the camera of views/shown_camera.h.
+// The playhead's moment, with the camera of views/context.h.
 struct WorldMoment {
   double time_s = 0;
   CameraPose world_from_camera;

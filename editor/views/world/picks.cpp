@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "editor/geometry/screen_marks.h"
+#include "editor/geometry/image_view.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/views/world/bodies.h"
 
 namespace sigs::editor {
 

@@ -21,9 +21,8 @@ struct WorldPick {
 // A point of the world that a handle moves, and how.
 struct Movable {
   Selection what;
-  std::string title;  // "Waypoint at frame 150"
-  // In the world.
-  glm::dvec3 at_m{0, 0, 0};
+  std::string title;         // "Waypoint at frame 150"
+  glm::dvec3 at_m{0, 0, 0};  // in the world
 };
 // What is selected, if it can be moved: a waypoint, the light, the camera (where it is at the
 // playhead), unless its log says where it is (movable_axes()).

@@ -4,14 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
 
 #include "editor/geometry/rulers.h"
-#include "editor/geometry/screen_marks.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 
@@ -21,7 +17,6 @@ constexpr double kEdgeOn_rad = 0.03;
 constexpr double kLabelledReach = 1.5;  // times the eye's distance: beyond, the lines are too close to each other
 constexpr ImU32 kLine = IM_COL32(255, 255, 255, 15);
 constexpr ImU32 kBoldLine = IM_COL32(255, 255, 255, 34);
-constexpr std::array<ImU32, 3> kAxisColors{color::kAxisX, color::kAxisY, color::kAxisZ};
 
 bool is_edge_on(const OrbitCamera& eye) {
   return std::abs(eye.elevation_rad) < kEdgeOn_rad;
@@ -60,59 +55,9 @@ void draw_edge_on(WorldCanvas& canvas, const GroundGrid& grid, double text_px) {
       canvas.label(*foot + glm::dvec2(0, text_px * 1.3), text_of(line),
                    faded(along_x ? color::kAxisX : color::kAxisY, 0.75), WorldCanvas::Side::centre);
   }
-  const auto across =
-      std::find_if(grid.lines.begin(), grid.lines.end(), [&](const GridLine& line) { return line.is_of_x != along_x; });
+  const auto across = std::ranges::find_if(grid.lines, [&](const GridLine& line) { return line.is_of_x != along_x; });
   if (across != grid.lines.end()) canvas.line(across->ends_m[0], across->ends_m[1], faded(color::kQuiet, 0.6));
 }
-
-}  // namespace
-
-void draw_ground(WorldCanvas& canvas) {
-  const GroundGrid grid = ground_grid(canvas.eye(), canvas.rect());
-  const double text_px = font(Font::small)->FontSize;
-  if (is_edge_on(canvas.eye())) {
-    draw_edge_on(canvas, grid, text_px);
-    return;
-  }
-  for (const GridLine& line : grid.lines)
-    if (const auto ends = canvas.within_rect(line.ends_m[0], line.ends_m[1]))
-      canvas.list().AddLine(im((*ends)[0]), im((*ends)[1]), line.bold ? kBoldLine : kLine);
-}
-
-void draw_ground_labels(WorldCanvas& canvas) {
-  if (is_edge_on(canvas.eye())) return;
-  const GroundGrid grid = ground_grid(canvas.eye(), canvas.rect());
-  const double text_px = font(Font::small)->FontSize;
-  for (const bool bold : {true, false})
-    for (const GridLine& line : grid.lines)
-      if (line.bold == bold && std::llround(line.at_m / grid.step_m) % 5 == 0) draw_label(canvas, line, text_px);
-}
-
-void draw_axes(WorldCanvas& canvas) {
-  const double reach = scaled(24);
-  const ScreenRect& rect = canvas.rect();
-  const glm::dvec2 origin{rect.low.x + reach * 1.6, rect.high.y - reach * 1.6};
-  const OrbitCamera& eye = canvas.eye();
-  std::array<std::size_t, 3> order{0, 1, 2};  // far to near
-  const auto depth = [&](std::size_t axis) { return eye.forward()[static_cast<int>(axis)]; };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth(a) > depth(b); });
-  ImFont* face = font(Font::small);
-  for (const std::size_t axis : order) {
-    const auto i = static_cast<int>(axis);
-    const glm::dvec2 direction{eye.right()[i], -eye.up()[i]};
-    const glm::dvec2 tip = origin + direction * reach;
-    canvas.list().AddLine(im(origin), im(tip), kAxisColors[axis], scaled(1.8));
-    const char name[2] = {static_cast<char>('X' + i), 0};
-    const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, name);
-    const double length = glm::length(direction);
-    if (length < 0.25) continue;  // the axis points at the eye
-    const glm::dvec2 middle = tip + direction / length * (0.7 * face->FontSize);
-    canvas.list().AddText(face, face->FontSize, im(middle - glm::dvec2(size.x, size.y) / 2.0), kAxisColors[axis], name);
-  }
-  canvas.keep_free({origin - reach * 1.5, origin + reach * 1.5});
-}
-
-namespace {
 
 constexpr double kCamera_px = 13;      // of the little camera, along its axis
 constexpr double kCameraAxes_px = 24;  // of its axes
@@ -155,11 +100,10 @@ void draw_camera_icon(WorldCanvas& canvas, const CameraPose& pose, ImU32 color) 
 // Forward, right and down of the camera, in the colours of the world's X, Y and Z.
 void draw_camera_axes(WorldCanvas& canvas, const CameraPose& pose) {
   const double length_m = scaled(kCameraAxes_px) / canvas.eye().pixels_per_metre(pose.translation_m, canvas.rect());
-  constexpr std::array<ImU32, 3> kColors{color::kAxisX, color::kAxisY, color::kAxisZ};
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 tip{0, 0, 0};
     tip[axis] = length_m;
-    canvas.line(pose.translation_m, pose * tip, kColors[static_cast<std::size_t>(axis)], 1.4);
+    canvas.line(pose.translation_m, pose * tip, color::kAxes[static_cast<std::size_t>(axis)], 1.4);
   }
 }
 
@@ -192,12 +136,6 @@ void draw_ticks(WorldCanvas& canvas, const WorldCurve& curve, ImU32 color) {
   }
 }
 
-const Survey* survey_of(const ViewContext& context, int intruder) {
-  const auto& surveys = context.shown.surveys;
-  const auto index = static_cast<std::size_t>(intruder);
-  return index < surveys.size() ? surveys[index].get() : nullptr;
-}
-
 // Wider than the curve, to be seen beside one of any colour.
 void draw_flagged(WorldCanvas& canvas, const WorldCurve& curve, const Survey* survey) {
   if (survey == nullptr) return;
@@ -214,10 +152,52 @@ void draw_control_lines(WorldCanvas& canvas, const TrajectoryPlan& plan, ImU32 c
 
 }  // namespace
 
+void draw_ground(WorldCanvas& canvas) {
+  const GroundGrid grid = ground_grid(canvas.eye(), canvas.rect());
+  const double text_px = font(Font::small)->FontSize;
+  if (is_edge_on(canvas.eye())) return draw_edge_on(canvas, grid, text_px);
+  for (const GridLine& line : grid.lines)
+    if (const auto ends = canvas.within_rect(line.ends_m[0], line.ends_m[1]))
+      canvas.list().AddLine(im((*ends)[0]), im((*ends)[1]), line.bold ? kBoldLine : kLine);
+}
+
+void draw_ground_labels(WorldCanvas& canvas) {
+  if (is_edge_on(canvas.eye())) return;
+  const GroundGrid grid = ground_grid(canvas.eye(), canvas.rect());
+  const double text_px = font(Font::small)->FontSize;
+  for (const bool bold : {true, false})
+    for (const GridLine& line : grid.lines)
+      if (line.bold == bold && std::llround(line.at_m / grid.step_m) % 5 == 0) draw_label(canvas, line, text_px);
+}
+
+void draw_axes(WorldCanvas& canvas) {
+  const double reach = scaled(24);
+  const ScreenRect& rect = canvas.rect();
+  const glm::dvec2 origin{rect.low.x + reach * 1.6, rect.high.y - reach * 1.6};
+  const OrbitCamera& eye = canvas.eye();
+  std::array<std::size_t, 3> order{0, 1, 2};  // far to near
+  const auto depth = [&](std::size_t axis) { return eye.forward()[static_cast<int>(axis)]; };
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return depth(a) > depth(b); });
+  ImFont* face = font(Font::small);
+  for (const std::size_t axis : order) {
+    const auto i = static_cast<int>(axis);
+    const glm::dvec2 direction{eye.right()[i], -eye.up()[i]};
+    const glm::dvec2 tip = origin + direction * reach;
+    canvas.list().AddLine(im(origin), im(tip), color::kAxes[axis], scaled(1.8));
+    const char name[2] = {static_cast<char>('X' + i), 0};
+    const ImVec2 size = face->CalcTextSizeA(face->FontSize, 1e6F, 0, name);
+    const double length = glm::length(direction);
+    if (length < 0.25) continue;  // the axis points at the eye
+    const glm::dvec2 middle = tip + direction / length * (0.7 * face->FontSize);
+    canvas.list().AddText(face, face->FontSize, im(middle - glm::dvec2(size.x, size.y) / 2.0), color::kAxes[axis],
+                          name);
+  }
+  canvas.keep_free({origin - reach * 1.5, origin + reach * 1.5});
+}
+
 double view_depth_m(const WorldModel& model) {
   // A curved edge bulges around the camera and would hide what is within.
-  const bool is_curved = std::any_of(model.border.rays.begin(), model.border.rays.end(),
-                                     [](const glm::dvec3& ray) { return ray.x < 0.999; });
+  const bool is_curved = std::ranges::any_of(model.border.rays, [](const glm::dvec3& ray) { return ray.x < 0.999; });
   return model.farthest_m > 0 ? std::clamp(model.farthest_m * (is_curved ? 0.35 : 1.05), 20.0, 5000.0) : 200;
 }
 
@@ -247,7 +227,7 @@ void draw_trajectories(WorldCanvas& canvas, const WorldContext& world) {
     const bool current = is_current(world.context, curve.intruder);
     const ImU32 color = faded(intruder_color(curve.intruder), current ? 1 : 0.6);
     draw_control_lines(canvas, project.intruders[index].trajectory, color);
-    draw_flagged(canvas, curve, survey_of(world.context, curve.intruder));
+    draw_flagged(canvas, curve, survey_of(world.context, curve.intruder).get());
     canvas.polyline(stretch(curve.samples, -1e300, curve.range_first), faded(color, 0.3), 1.2);
     canvas.polyline(stretch(curve.samples, curve.range_last, 1e300), faded(color, 0.3), 1.2);
     canvas.polyline(stretch(curve.samples, curve.range_first, curve.range_last), color, current ? 2.2 : 1.6);
@@ -289,7 +269,7 @@ void draw_waypoints(WorldCanvas& canvas, const WorldContext& world, const Select
 
 void draw_closest_approaches(WorldCanvas& canvas, const WorldContext& world) {
   for (const WorldCurve& curve : world.model.curves) {
-    const Survey* survey = survey_of(world.context, curve.intruder);
+    const std::shared_ptr<const Survey> survey = survey_of(world.context, curve.intruder);
     if (survey == nullptr || !(survey->closest.distance_m > 0)) continue;
     const ClosestApproach& closest = survey->closest;
     const glm::dvec3 camera_m = camera_pose_at(world.context, closest.time_s).translation_m;

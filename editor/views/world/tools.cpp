@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/world/tools.h"
+#include "editor/views/world/world_view.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string>
 #include <vector>
 
 #include "editor/geometry/rulers.h"
 #include "editor/views/waypoint_actions.h"
-#include "editor/widgets/keys.h"
-#include "editor/widgets/texts.h"
 
 namespace sigs::editor {
 
@@ -53,14 +48,43 @@ void draw_place_items(const WorldContext& world, const std::optional<glm::dvec3>
     return;
   }
   const std::string frame = std::to_string(context.document.playhead());
-  const bool add =
-      ImGui::MenuItem(("Add a waypoint here at frame " + frame).c_str(), nullptr, false, place_m.has_value());
-  context.ui_probe.note_item("world/menu/add waypoint");
+  const bool add = context.ui_probe.noted(
+      ImGui::MenuItem(("Add a waypoint here at frame " + frame).c_str(), nullptr, false, place_m.has_value()),
+      "world/menu/add waypoint");
   if (add) add_waypoint_here(context, place_m);
   if (!place_m) return;
   const double distance_m = glm::distance(*place_m, world.moment.world_from_camera.translation_m);
   ImGui::TextDisabled("%s from the camera, %s high", distance_text(distance_m).c_str(),
                       distance_text(std::max(0.0, -place_m->z)).c_str());
+}
+
+constexpr double kClick_px = 4;     // a press that goes no farther is a click
+constexpr double kZoomStep = 1.18;  // a notch of the wheel
+
+double snap_now_m(const WorldCanvas& canvas, const WorldViewState& look, const glm::dvec3& at_m) {
+  return look.snap != ImGui::GetIO().KeyCtrl ? snap_step_m(canvas.eye(), at_m, canvas.rect()) : 0;
+}
+
+std::string coordinates(const glm::dvec3& p_m, double step_m) {
+  const int digits = step_m >= 1 ? 0 : step_m >= 0.1 || step_m == 0 ? 1 : 3;
+  return fmt::format("X {:.{}f}   Y {:.{}f}   Z {:.{}f}", p_m.x, digits, p_m.y, digits, p_m.z, digits);
+}
+
+void draw_plate(WorldCanvas& canvas, const std::vector<std::string>& lines) {
+  ImFont* face = font(Font::small);
+  double width = 0;
+  for (const std::string& line : lines)
+    width = std::max<double>(width, face->CalcTextSizeA(face->FontSize, 1e6F, 0, line.c_str()).x);
+  const double line_px = face->FontSize * 1.25;
+  const double pad = scaled(8);
+  const glm::dvec2 size{width + 2 * pad, line_px * static_cast<double>(lines.size()) + pad};
+  const ScreenRect& rect = canvas.rect();
+  const glm::dvec2 low{std::round((rect.low.x + rect.high.x - size.x) / 2),
+                       std::round(rect.high.y - size.y - scaled(8))};
+  canvas.list().AddRectFilled(im(low), im(low + size), IM_COL32(24, 26, 31, 225), scaled(5));
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    canvas.list().AddText(face, face->FontSize, im(low + glm::dvec2(pad, pad / 2 + line_px * static_cast<double>(i))),
+                          i == 0 ? color::kText : color::kQuiet, lines[i].c_str());
 }
 
 }  // namespace
@@ -117,39 +141,6 @@ std::optional<Selection> WorldMenu::draw(const WorldContext& world) {
   return numbers_for;
 }
 
-namespace {
-
-constexpr double kClick_px = 4;     // a press that goes no farther is a click
-constexpr double kZoomStep = 1.18;  // a notch of the wheel
-
-double snap_now_m(const WorldCanvas& canvas, const WorldViewState& look, const glm::dvec3& at_m) {
-  return look.snap != ImGui::GetIO().KeyCtrl ? snap_step_m(canvas.eye(), at_m, canvas.rect()) : 0;
-}
-
-std::string coordinates(const glm::dvec3& p_m, double step_m) {
-  const int digits = step_m >= 1 ? 0 : step_m >= 0.1 || step_m == 0 ? 1 : 3;
-  return fmt::format("X {:.{}f}   Y {:.{}f}   Z {:.{}f}", p_m.x, digits, p_m.y, digits, p_m.z, digits);
-}
-
-void draw_plate(WorldCanvas& canvas, const std::vector<std::string>& lines) {
-  ImFont* face = font(Font::small);
-  double width = 0;
-  for (const std::string& line : lines)
-    width = std::max<double>(width, face->CalcTextSizeA(face->FontSize, 1e6F, 0, line.c_str()).x);
-  const double line_px = face->FontSize * 1.25;
-  const double pad = scaled(8);
-  const glm::dvec2 size{width + 2 * pad, line_px * static_cast<double>(lines.size()) + pad};
-  const ScreenRect& rect = canvas.rect();
-  const glm::dvec2 low{std::round((rect.low.x + rect.high.x - size.x) / 2),
-                       std::round(rect.high.y - size.y - scaled(8))};
-  canvas.list().AddRectFilled(im(low), im(low + size), IM_COL32(24, 26, 31, 225), scaled(5));
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    canvas.list().AddText(face, face->FontSize, im(low + glm::dvec2(pad, pad / 2 + line_px * static_cast<double>(i))),
-                          i == 0 ? color::kText : color::kQuiet, lines[i].c_str());
-}
-
-}  // namespace
-
 void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, WorldViewState& look) {
   const bool over = ImGui::IsItemHovered();
   hovered_ = {};
@@ -184,10 +175,7 @@ void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canva
   moved_to_.reset();
   if (handle_.dragging() && gesture_.is_lost(world.context)) handle_.abandon_drag();
   const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
-  if (!target) {
-    handle_.abandon_drag();
-    return;
-  }
+  if (!target) return handle_.abandon_drag();
   const bool was_dragging = handle_.dragging();
   const GizmoInput input{.camera = canvas.eye(),
                          .rect = canvas.rect(),

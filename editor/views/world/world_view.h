@@ -3,13 +3,167 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 
+#include "editor/geometry/gizmo.h"
+#include "editor/geometry/lens_projection.h"
+#include "editor/geometry/orbit_camera.h"
 #include "editor/views/context.h"
-#include "editor/views/world/bodies.h"
-#include "editor/views/world/tools.h"
-#include "editor/views/world/view_presets.h"
+#include "editor/views/encounter/approach_edit.h"
+#include "editor/views/world/picks.h"
+#include "editor/views/world/scene.h"
+#include "editor/widgets/gizmo_handle.h"
 
 namespace sigs::editor {
+
+// Where the world view looks from: from behind and above, straight from above, from the right-hand side, or from behind
+// the project's camera.
+enum class WorldViewPreset { orbit, top, side, camera };
+
+// The camera of the world view and its switches. Not part of the project.
+struct WorldViewState {
+  OrbitCamera eye;
+  WorldViewPreset preset = WorldViewPreset::orbit;
+  bool snap = false;     // drags go in round steps; holding Ctrl turns it round
+  bool volumes = false;  // the volumes of well clear are drawn around the camera
+  // The user has moved the camera since the project was opened: it is not framed anew by itself.
+  bool touched = false;
+};
+
+// What a preset is taken from.
+struct WorldViewTargets {
+  // What is to be in sight, in the world.
+  std::span<const glm::dvec3> points_m;
+  CameraPose world_from_camera;
+  double view_depth_m = 200;  // how far the camera's field of view is drawn
+};
+
+// From behind, above or the right-hand side with all points in sight; or from behind the camera, looking as it does.
+[[nodiscard]] WorldViewState with_preset(const WorldViewState& look, WorldViewPreset preset,
+                                         const WorldViewTargets& targets, const ScreenRect& rect);
+
+// The same direction, all points in sight; behind the camera, that preset again.
+[[nodiscard]] WorldViewState with_all_in_view(const WorldViewState& look, const WorldViewTargets& targets,
+                                              const ScreenRect& rect);
+
+// What the user asked for with a button in this update. Projection and snapping are switched in the state itself.
+struct WorldToolbarResult {
+  std::optional<WorldViewPreset> preset;
+  bool frame_all = false;
+};
+
+// One row over the world view, at the cursor.
+[[nodiscard]] WorldToolbarResult draw_world_toolbar(WorldViewState& look, UiProbe& ui_probe);
+
+// The handle of the closest approach, a diamond where the current intruder is then. Dragged, it moves the miss sideways
+// and in height, perpendicular to the horizontal relative motion: speed, bearing and time stay. One undo step; Escape
+// takes it back. A double click goes to its frame.
+class ApproachHandle {
+ public:
+  // Once per update, before anything is picked.
+  //   mouse_is_free  over the canvas, nothing else has it or is nearer to it
+  //   snap_m         > 0: misses are rounded to multiples of it
+  void update(const WorldContext& world, const WorldCanvas& canvas, bool mouse_is_free, double snap_m);
+  // The mouse is over it, or drags it: presses are its own.
+  [[nodiscard]] bool has_mouse() const { return is_hovered_ || is_dragging(); }
+  [[nodiscard]] bool is_dragging() const { return start_.has_value(); }
+  // While it is dragged, under the view: the misses, or why there is no such encounter.
+  [[nodiscard]] std::vector<std::string> readout() const;
+  void draw(WorldCanvas& canvas, const WorldContext& world);
+
+ private:
+  // What is drawn, as dragged; none: there is no closest approach.
+  [[nodiscard]] std::optional<PresentApproach> shown(const ViewContext& context);
+  void press(const ViewContext& context, int intruder);
+  void drag(const ViewContext& context, const WorldCanvas& canvas, double snap_m);
+
+  PresentApproachMemory memory_;
+  bool is_hovered_ = false;
+  // Since the press: what the drag starts from, and in which plane it moves.
+  std::optional<ApproachStart> start_;
+  PlaneDrag plane_;
+  DragGesture gesture_;
+  PlannedApproach wish_;  // where the mouse has brought it
+  std::string reason_;    // why the last step could not be done
+  // The wish of a drag that is over, until the scene shows it.
+  std::optional<PresentApproach> left_;
+};
+
+// The menu of the right button, for what was under the mouse when it was clicked.
+class WorldMenu {
+ public:
+  // place_m: where a new waypoint would be, in the world; nothing where the mouse is beside the plane for waypoints.
+  void open(const WorldPick& pick, const std::optional<glm::dvec3>& place_m);
+  // Once per update. Returns what the user wants to type a position for, in the update in which that is chosen; what
+  // else is chosen goes into the context's edits.
+  [[nodiscard]] std::optional<Selection> draw(const WorldContext& world);
+
+ private:
+  enum class State { closed, asked, open };
+
+  [[nodiscard]] std::optional<Selection> draw_items(const WorldContext& world) const;
+
+  State state_ = State::closed;
+  // What was under the mouse when it was opened.
+  WorldPick pick_;
+  std::optional<glm::dvec3> place_m_;
+};
+
+// The mouse in the world view. Drags beside everything orbit or pan the camera of the view, the wheel zooms, a click
+// selects, a drag of the selected point's handle moves it in the project (one undo step; Escape takes it back), and the
+// right button opens a menu.
+class WorldTools {
+ public:
+  // Once per update, right after the canvas' ImGui item and before anything is drawn. Changes `look` (camera, preset).
+  void update(const WorldContext& world, const WorldCanvas& canvas, WorldViewState& look);
+  // Before labels are drawn: keeps the handle's area free of them.
+  void keep_handle_free(WorldCanvas& canvas, const WorldContext& world) const;
+  // After the world: draws the handle, the field for typed coordinates and the menu.
+  void draw(WorldCanvas& canvas, const WorldContext& world, const WorldViewState& look);
+
+  // What is under the mouse while nothing is held; the views draw it highlighted.
+  [[nodiscard]] const WorldPick& hovered() const { return hovered_; }
+  // Whether the project's camera is being dragged.
+  [[nodiscard]] bool moves_camera() const { return handle_.dragging() && dragged_.kind == Selected::camera; }
+
+ private:
+  // What a press beside the handle has become: orbiting or panning the view, or a menu when it is let go.
+  enum class Holding { nothing, orbit, pan, menu };
+
+  // The closest approach takes the mouse where no waypoint is nearer.
+  void move_approach(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
+  // Lets the handle of what is selected take the mouse, and moves that point.
+  void move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
+  void begin_drag(const WorldContext& world, const Movable& moved);
+  // A press on a waypoint: selects it and begins a drag in the plane of the screen.
+  void take_waypoint(const WorldContext& world, const Movable& waypoint);
+  void press(const WorldContext& world, const WorldCanvas& canvas);
+  void hold(const ScreenRect& rect, WorldViewState& look);
+  void release(const WorldContext& world, const WorldCanvas& canvas);
+  // Goes to the frame of the selected waypoint.
+  void handle_double_click(const WorldContext& world);
+  // Opens the field for typed coordinates, where `what` can be moved.
+  void enter_position(const WorldContext& world, const Selection& what);
+  void draw_entry(const WorldContext& world);
+  void draw_readout(WorldCanvas& canvas, const Movable& moved, double snap_m) const;
+
+  GizmoHandle handle_;
+  ApproachHandle approach_;
+  // What the handle moves while it is dragged.
+  Selection dragged_;
+  DragGesture gesture_;
+  // Where it was moved to in this update, in the world: the document has it only in the next.
+  std::optional<glm::dvec3> moved_to_;
+  PointEntry entry_;
+  // What a position is typed for.
+  Selection entered_;
+  WorldMenu menu_;
+  Holding holding_ = Holding::nothing;
+  // How far the mouse has gone since the press, in screen pixels: a short way is a click.
+  double held_px_ = 0;
+  WorldPick hovered_;
+};
 
 // The world from outside: camera path, view frustum, intruders, trajectories, light; waypoints, the light and the
 // camera are moved with a handle. It shows the newest scene that is open, with the document's camera.
@@ -36,8 +190,7 @@ class WorldView {
   WorldTools tools_;
   // Number of the first revision of the project that is looked at; 0: none.
   std::uint64_t opened_revision_ = 0;
-  // It has been framed with all its trajectories known.
-  bool framed_with_scene_ = false;
+  bool framed_with_scene_ = false;  // it has been framed with all its trajectories known
   // Where the project's camera was in the update before, in the world.
   std::optional<glm::dvec3> camera_m_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/app/input_queue.h"
+#include "editor/app/window.h"
 
 #include <doctest/doctest.h>
 

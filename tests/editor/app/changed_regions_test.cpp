@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/app/changed_regions.h"
+#include "editor/app/window_canvas.h"
 
 #include <doctest/doctest.h>
 #include <imgui.h>

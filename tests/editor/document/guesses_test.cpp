@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/document/guesses.h"
+#include "editor/document/document.h"
 
 #include <doctest/doctest.h>
 

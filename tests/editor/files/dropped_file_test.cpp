@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/document/dropped_file.h"
+#include "editor/document/project_paths.h"
 
 #include <doctest/doctest.h>
 

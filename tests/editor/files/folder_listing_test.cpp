@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/widgets/folder_listing.h"
+#include "editor/widgets/file_browser.h"
 
 #include <doctest/doctest.h>
 

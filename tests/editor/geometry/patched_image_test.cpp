@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/geometry/patched_image.h"
+#include "editor/geometry/image_view.h"
 
 #include <doctest/doctest.h>
 

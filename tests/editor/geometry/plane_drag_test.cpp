@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/geometry/plane_drag.h"
+#include "editor/geometry/gizmo.h"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "editor/geometry/screen_marks.h"
+#include "editor/geometry/image_view.h"
 
 namespace sigs::editor {
 

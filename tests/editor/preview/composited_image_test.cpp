@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/composited_image.h"
+#include "editor/preview/opened_footage.h"
 
 #include <doctest/doctest.h>
 

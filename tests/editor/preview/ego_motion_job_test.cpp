@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/ego_motion_job.h"
+#include "editor/preview/jobs.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/first_project_job.h"
+#include "editor/preview/jobs.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/preview/truth_builder.h"
+#include "editor/preview/scoring.h"
 
 #include <doctest/doctest.h>
 

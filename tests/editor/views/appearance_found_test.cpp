@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/inspector/appearance_found.h"
+#include "editor/views/inspector/inspector_view.h"
 
 #include <doctest/doctest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/clear_strip.h"
+#include "editor/views/timeline/lane_marks.h"
 
 #include <doctest/doctest.h>
 #include <imgui.h>
 
-#include "editor/preview/encounter_survey.h"
+#include "editor/preview/preview_output.h"
 #include "editor/widgets/theme.h"
 #include "scene/scene_parts.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/ego_motion/ego_motion_session.h"
+#include "editor/views/estimate_session.h"
 
 #include <doctest/doctest.h>
 

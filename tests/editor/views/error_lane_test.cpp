@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/error_lane.h"
+#include "editor/views/timeline/timeline_view.h"
 
 #include <doctest/doctest.h>
 

@@ -16,13 +16,11 @@ class SpeedSession : public EstimateSession<int, double> {
  public:
   SpeedSession(Edits& edits, Work work)
       : EstimateSession(
-            edits, [] {}, std::move(work), "No speed was found") {}
+            edits, [] {}, std::move(work), "No speed was found",
+            [&edits](const std::shared_ptr<const double>& found) {
+              edits.change("set the speed", [found](Project& project) { project.camera.speed_mps = *found; });
+            }) {}
   void start(const Document& document) { begin(document, 7); }
-
- private:
-  void use(const Document&, const std::shared_ptr<const double>& found) override {
-    edits().change("set the speed", [found](Project& project) { project.camera.speed_mps = *found; });
-  }
 };
 
 Result<double> thrice(int request, const JobControl&) {

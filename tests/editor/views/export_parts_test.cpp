@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/export_parts.h"
+#include "editor/views/export_view.h"
 
 #include <doctest/doctest.h>
 

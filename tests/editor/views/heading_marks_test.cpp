@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/viewport/heading_marks.h"
+#include "editor/views/viewport/horizon_tool.h"
 
 #include <doctest/doctest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/shown_camera.h"
+#include "editor/views/context.h"
 
 #include <doctest/doctest.h>
 
 #include <memory>
 
 #include "base/pose.h"
-#include "editor/views/inspector/camera_log.h"
+#include "editor/views/inspector/inspector_view.h"
 #include "editor/views/view_fixture.h"
 #include "editor/views/world/picks.h"
 #include "scene/scene_parts.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "editor/views/stages/stage_grid.h"
+#include "editor/views/stages/stages_view.h"
 
 using namespace sigs::editor;
 

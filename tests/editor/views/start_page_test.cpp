@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "editor/views/toasts.h"
+#include "editor/views/dialogs.h"
 #include "project/json.h"
 #include "support/test_data.h"
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/clear_strip.h"
+#include "editor/views/timeline/lane_marks.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "editor/widgets/theme.h"
 
 namespace sigs::editor {
 
@@ -20,27 +17,25 @@ ImU32 color_of_loss(const WellClearVolume& volume) {
   return volume.name == nmac_volume().name ? IM_COL32(255, 60, 110, 255) : color::kBad;
 }
 
-struct Bar {
+struct VolumeBar {
   float top_y = 0;
   float height = 0;
 };
 
-Bar bar_of(std::size_t volume, std::size_t count, float top_y, float height) {
+VolumeBar bar_of(std::size_t volume, std::size_t count, float top_y, float height) {
   const float inset = scaled(count > 2 ? 2 : 4);
   const float each = (height - 2 * inset) / static_cast<float>(std::max<std::size_t>(1, count));
   const float gap = count > 1 ? 1 : 0;
   return {top_y + inset + each * static_cast<float>(volume), std::max(1.0F, each - gap)};
 }
 
-// From one moment to another, both in the middle of frames, cut to the strip and at least 2 px wide.
-void draw_stretch(ImDrawList& list, const TimelineStrip& strip, const LossStretch& loss, const Bar& bar, ImU32 shade) {
-  const float low = std::max(strip.left(), strip.moment_x(loss.first_frame));
-  const float high = std::min(strip.right(), std::max(low + scaled(2), strip.moment_x(loss.last_frame)));
-  if (high > low) list.AddRectFilled({low, bar.top_y}, {high, bar.top_y + bar.height}, shade);
+void draw_loss(ImDrawList& list, const TimelineStrip& strip, const LossStretch& loss, const VolumeBar& bar,
+               ImU32 shade) {
+  draw_stretch(list, strip, loss.first_frame, loss.last_frame, bar.top_y, bar.top_y + bar.height, shade);
 }
 
 // An entry is a bracket that opens to the right, an exit one that opens to the left.
-void draw_bracket(ImDrawList& list, const TimelineStrip& strip, const EncounterMark& mark, const Bar& bar) {
+void draw_bracket(ImDrawList& list, const TimelineStrip& strip, const EncounterMark& mark, const VolumeBar& bar) {
   const float x = std::floor(strip.moment_x(mark.frame));
   const float side = scaled(4) * (mark.kind == EncounterMark::Kind::entry ? 1.0F : -1.0F);
   const float low = bar.top_y - 1;
@@ -56,6 +51,23 @@ void draw_diamond(ImDrawList& list, ImVec2 center, float side, ImU32 shade) {
   };
   diamond(side + scaled(1.5), IM_COL32(0, 0, 0, 170));
   diamond(side, shade);
+}
+
+// A line of a tooltip: what is drawn in a square of the font's size, and what it means.
+template <class Draw>
+void list_mark(const std::string& meaning, const Draw& draw) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float side = ImGui::GetFontSize();
+  ImGui::Dummy({side, side});
+  draw(*ImGui::GetWindowDrawList(), at, side);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", meaning.c_str());
+}
+
+void list_color(const std::string& meaning, ImU32 shade) {
+  list_mark(meaning, [shade](ImDrawList& list, ImVec2 at, float side) {
+    list.AddRectFilled({at.x, at.y + side * 0.25F}, {at.x + side * 0.8F, at.y + side * 0.85F}, shade);
+  });
 }
 
 }  // namespace
@@ -79,7 +91,7 @@ std::vector<EncounterMark> encounter_marks(const EncounterSurvey& survey) {
                    fmt::format("closest approach at {:.3f} s: {:.1f} m beside, {:.1f} m {}", survey.nearest.time_s,
                                survey.nearest.horizontal_m, std::abs(survey.nearest.vertical_m),
                                survey.nearest.vertical_m < 0 ? "below" : "above")});
-  std::stable_sort(marks.begin(), marks.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
+  std::ranges::stable_sort(marks, {}, &EncounterMark::frame);
   return marks;
 }
 
@@ -102,10 +114,10 @@ void draw_clear_strip(ImDrawList& list, const TimelineStrip& strip, const Encoun
   const LossStretch whole{.first_frame = static_cast<double>(survey.first_frame),
                           .last_frame = survey.first_frame + frames - 1};
   for (std::size_t i = 0; i < count; ++i) {
-    const Bar bar = bar_of(i, count, top_y, height);
-    draw_stretch(list, strip, whole, bar, faded(color::kGood, 0.35));
+    const VolumeBar bar = bar_of(i, count, top_y, height);
+    draw_loss(list, strip, whole, bar, faded(color::kGood, 0.35));
     const ImU32 shade = color_of_loss(survey.volumes[i].volume);
-    for (const LossStretch& loss : survey.volumes[i].losses) draw_stretch(list, strip, loss, bar, faded(shade, 0.9));
+    for (const LossStretch& loss : survey.volumes[i].losses) draw_loss(list, strip, loss, bar, faded(shade, 0.9));
   }
   for (const EncounterMark& mark : encounter_marks(survey)) {
     if (!strip.shows(mark.frame)) continue;
@@ -131,22 +143,9 @@ std::string clear_lines(const EncounterSurvey& survey, int frame) {
 }
 
 void list_clear_colors() {
-  const auto line = [](const char* text, auto draw) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float side = ImGui::GetFontSize();
-    ImGui::Dummy({side, side});
-    draw(*ImGui::GetWindowDrawList(), at, side);
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s", text);
-  };
-  const auto box = [](ImU32 shade) {
-    return [shade](ImDrawList& list, ImVec2 at, float side) {
-      list.AddRectFilled({at.x, at.y + side * 0.25F}, {at.x + side * 0.8F, at.y + side * 0.85F}, shade);
-    };
-  };
-  line("well clear", box(faded(color::kGood, 0.35)));
-  line("lost; a bracket at entry and exit", box(faded(color::kBad, 0.9)));
-  line("closest approach", [](ImDrawList& list, ImVec2 at, float side) {
+  list_color("well clear", faded(color::kGood, 0.35));
+  list_color("lost; a bracket at entry and exit", faded(color::kBad, 0.9));
+  list_mark("closest approach", [](ImDrawList& list, ImVec2 at, float side) {
     draw_diamond(list, {at.x + side * 0.4F, at.y + side * 0.55F}, scaled(4), color::kPartly);
   });
   ImGui::TextDisabled("A click on a mark goes to its frame.");
@@ -156,7 +155,52 @@ void draw_loss_ground(ImDrawList& list, const TimelineStrip& strip, const Encoun
                       float height) {
   if (survey.volumes.empty()) return;
   for (const LossStretch& loss : survey.volumes.front().losses)
-    draw_stretch(list, strip, loss, {top_y, height}, faded(color::kBad, 0.16));
+    draw_loss(list, strip, loss, {top_y, height}, faded(color::kBad, 0.16));
+}
+
+ImU32 color_of(VisibilityState visibility_state) {
+  switch (visibility_state) {
+    case VisibilityState::in_view:
+      return color::kGood;
+    case VisibilityState::partly_occluded:
+      return color::kPartly;
+    case VisibilityState::occluded:
+      return faded(color::kOwnBody, 1);
+    case VisibilityState::out_of_view:
+      return IM_COL32(84, 88, 98, 255);
+  }
+  return color::kQuiet;
+}
+
+void draw_visibility_strip(ImDrawList& list, const TimelineStrip& strip, const Survey& survey, float top_y,
+                           float height) {
+  const std::vector<VisibilityEstimate>& estimates = survey.estimates;
+  const TimeRuler& ruler = strip.ruler;
+  const auto size = static_cast<double>(estimates.size());
+  const double first = survey.first_frame;
+  const auto from = static_cast<std::size_t>(std::clamp(std::floor(ruler.first) - first, 0.0, size));
+  const auto to = static_cast<std::size_t>(std::clamp(std::ceil(ruler.first + ruler.count) - first, 0.0, size));
+  const auto stride = static_cast<std::size_t>(std::max(1.0, std::floor(ruler.count / std::max(1.0, ruler.width))));
+  const float inset = scaled(4);
+  for (std::size_t i = from; i < to;) {
+    std::size_t end = i + stride;
+    while (end < to && estimates[end].visibility_state == estimates[i].visibility_state) end += stride;
+    end = std::min(end, to);
+    list.AddRectFilled({strip.edge_x(first + static_cast<double>(i)), top_y + inset},
+                       {strip.edge_x(first + static_cast<double>(end)), top_y + height - inset},
+                       faded(color_of(estimates[i].visibility_state), 0.85));
+    i = end;
+  }
+}
+
+void list_visibility_colors() {
+  for (const VisibilityState visibility_state : {VisibilityState::in_view, VisibilityState::partly_occluded,
+                                                 VisibilityState::occluded, VisibilityState::out_of_view}) {
+    const bool is_hidden =
+        visibility_state == VisibilityState::partly_occluded || visibility_state == VisibilityState::occluded;
+    list_color(name_of(visibility_state) + std::string(is_hidden ? " by the own body" : ""),
+               color_of(visibility_state));
+  }
 }
 
 }  // namespace sigs::editor

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/shown_camera.h"
+#include "editor/views/context.h"
 
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
