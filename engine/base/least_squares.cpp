@@ -10,6 +10,11 @@ namespace sigs {
 NormalEquations::NormalEquations(int unknowns)
     : size_(unknowns), values_(static_cast<std::size_t>(unknowns) * stride(), 0.0) {}
 
+NormalEquations::NormalEquations(const cv::Mat_<double>& matrix) : NormalEquations(matrix.rows) {
+  for (int i = 0; i < size_; ++i)
+    for (int j = i; j < size_; ++j) row(i)[j] = matrix(i, j);
+}
+
 void NormalEquations::add(std::span<const double> slopes, double residual, double weight) {
   ENSURE(static_cast<int>(slopes.size()) == size_ && eliminated_ == 0);
   for (int i = 0; i < size_; ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 #include <span>
@@ -16,11 +17,12 @@ namespace sigs {
 // Unknowns that each appear in a part of the residuals alone, as the pose of a board in one image, come first in the
 // equations of that part, from which they are eliminated; what is left is added to the equations of the others (Triggs
 // et al., Bundle Adjustment - A Modern Synthesis, 1999, section 6):
-//   NormalEquations part(own + common);  part.add(...);  part.eliminate(own);  all.add(part, places of the common ones);
-//   const std::vector<double> changes = all.solved();    part.eliminated(changes) are those of the part's own
+//   NormalEquations part(own + common);  part.add(...);  part.eliminate(own);  all.add(part, places of the common
+//   ones); const std::vector<double> changes = all.solved();    part.eliminated(changes) are those of the part's own
 class NormalEquations {
  public:
   explicit NormalEquations(int unknowns = 0);
+  explicit NormalEquations(const cv::Mat_<double>& matrix);  // symmetric; with a right side of 0
 
   [[nodiscard]] int size() const { return size_; }
 
@@ -62,9 +64,18 @@ class NormalEquations {
 
   int size_ = 0;
   int eliminated_ = 0;
-  std::vector<double> values_;  // rows of the upper triangle, each followed by its right side; once a row is eliminated,
-                                // that of Cholesky's U = D L^T (Golub, Van Loan: Matrix Computations, section 4.1.2)
+  std::vector<double>
+      values_;  // rows of the upper triangle, each followed by its right side; once a row is eliminated,
+                // that of Cholesky's U = D L^T (Golub, Van Loan: Matrix Computations, section 4.1.2)
 };
+
+// Three rows and columns of a symmetric matrix, from number `first` on.
+[[nodiscard]] inline glm::dmat3 block_of(const cv::Mat_<double>& symmetric, int first) {
+  glm::dmat3 block;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) block[i][j] = symmetric(first + i, first + j);
+  return block;
+}
 
 // Weight by Geman and McClure of a residual: 1 at 0, a quarter at the scale, falling with the fourth power beyond.
 [[nodiscard]] inline double geman_mcclure(double squared, double scale_squared) {
@@ -74,6 +85,16 @@ class NormalEquations {
 
 // The standard deviation in one direction of normal errors in two, whose median length is 1.
 constexpr double kSigmaOfMedianLength = 0.8493218;  // 1 / sqrt(2 ln 2)
+
+// The square of a vector's length; whether all of its numbers are finite.
+template <glm::length_t N>
+[[nodiscard]] double squared_length(const glm::vec<N, double>& v) {
+  return glm::dot(v, v);
+}
+template <glm::length_t N>
+[[nodiscard]] bool is_finite(const glm::vec<N, double>& v) {
+  return std::isfinite(squared_length(v));
+}
 
 // Eigenvalues of a symmetric matrix, rising, with their unit vectors: the first is the normal of the plane through
 // points whose outer products were summed up.

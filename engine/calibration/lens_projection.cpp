@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "calibration/lens_projection.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 namespace sigs {
@@ -14,39 +16,40 @@ constexpr int kVariables = 3 + kMostIntrinsics;  // of the point, of the lens
 // A number with its derivatives by all variables (forward differentiation).
 struct Jet {
   double value = 0;
-  Eigen::Matrix<double, kVariables, 1> by = Eigen::Matrix<double, kVariables, 1>::Zero();
+  std::array<double, kVariables> by{};
 
   Jet() = default;
   Jet(double number) : value(number) {}
-  static Jet variable(double number, int index) {
+  static Jet variable(double number, std::size_t index) {
     Jet jet(number);
     jet.by[index] = 1;
     return jet;
   }
 };
 
-Jet with(double value, const Eigen::Matrix<double, kVariables, 1>& by) {
+// The value of a function with its slopes by both arguments.
+Jet with(double value, const Jet& a, double by_a, const Jet& b, double by_b) {
   Jet jet(value);
-  jet.by = by;
+  for (std::size_t i = 0; i < jet.by.size(); ++i) jet.by[i] = by_a * a.by[i] + by_b * b.by[i];
   return jet;
 }
 Jet operator+(const Jet& a, const Jet& b) {
-  return with(a.value + b.value, a.by + b.by);
+  return with(a.value + b.value, a, 1, b, 1);
 }
 Jet operator*(const Jet& a, const Jet& b) {
-  return with(a.value * b.value, a.by * b.value + b.by * a.value);
+  return with(a.value * b.value, a, b.value, b, a.value);
 }
 Jet operator/(const Jet& a, const Jet& b) {
   const double quotient = a.value / b.value;
-  return with(quotient, (a.by - b.by * quotient) / b.value);
+  return with(quotient, a, 1 / b.value, b, -quotient / b.value);
 }
 Jet sqrt(const Jet& a) {
   const double root = std::sqrt(a.value);
-  return with(root, a.by / (2 * root));
+  return with(root, a, 1 / (2 * root), a, 0);
 }
 Jet atan2(const Jet& y, const Jet& x) {
   const double squares = y.value * y.value + x.value * x.value;
-  return with(std::atan2(y.value, x.value), (y.by * x.value - x.by * y.value) / squares);
+  return with(std::atan2(y.value, x.value), y, x.value / squares, x, -y.value / squares);
 }
 double value_of(double number) {
   return number;
@@ -148,34 +151,37 @@ LensParameters lens_of(FitModel model, const Intrinsics& intrinsics) {
           .fy = intrinsics[1],
           .cx = intrinsics[2],
           .cy = intrinsics[3],
-          .coefficients = std::vector<double>(intrinsics.data() + 4, intrinsics.data() + intrinsics.size())};
+          .coefficients = std::vector<double>(intrinsics.begin() + 4, intrinsics.end())};
 }
 
-std::optional<ProjectedPoint> projected(FitModel model, const Intrinsics& intrinsics,
-                                        const Eigen::Vector3d& p_in_optical) {
+std::optional<ProjectedPoint> projected(FitModel model, const Intrinsics& intrinsics, const glm::dvec3& p_in_optical) {
   std::array<Jet, kMostIntrinsics> lens;
-  const int count = intrinsic_count(model);
-  for (int i = 0; i < count; ++i) lens[i] = Jet::variable(intrinsics[i], 3 + i);
+  const std::size_t count = intrinsics.size();
+  for (std::size_t i = 0; i < count; ++i) lens[i] = Jet::variable(intrinsics[i], 3 + i);
   std::array<Jet, 3> point;
-  for (int i = 0; i < 3; ++i) point[i] = Jet::variable(p_in_optical[i], i);
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    point[k] = Jet::variable(p_in_optical[i], k);
+  }
   const auto at = pixel<Jet>(model, std::span<const Jet>(lens).first(count), point);
   if (!at) return std::nullopt;
-  ProjectedPoint result;
-  result.at_px = {at->x.value, at->y.value};
-  result.by_point << at->x.by.head<3>().transpose(), at->y.by.head<3>().transpose();
-  result.by_intrinsics << at->x.by.tail<kMostIntrinsics>().transpose(), at->y.by.tail<kMostIntrinsics>().transpose();
-  if (!result.at_px.allFinite() || !result.by_point.allFinite() || !result.by_intrinsics.allFinite())
-    return std::nullopt;
+  ProjectedPoint result{.at_px = {at->x.value, at->y.value}};
+  double sum = at->x.value + at->y.value;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::array<double, kVariables>& by = axis == 0 ? at->x.by : at->y.by;
+    result.by_point[axis] = {by[0], by[1], by[2]};
+    std::copy(by.begin() + 3, by.end(), result.by_intrinsics[axis].begin());
+    sum = std::accumulate(by.begin(), by.end(), sum);
+  }
+  if (!std::isfinite(sum)) return std::nullopt;
   return result;
 }
 
-std::optional<Eigen::Vector2d> pixel_of(FitModel model, const Intrinsics& intrinsics,
-                                        const Eigen::Vector3d& p_in_optical) {
+std::optional<glm::dvec2> pixel_of(FitModel model, const Intrinsics& intrinsics, const glm::dvec3& p_in_optical) {
   const std::array<double, 3> point{p_in_optical[0], p_in_optical[1], p_in_optical[2]};
-  const std::span<const double> lens(intrinsics.data(), static_cast<std::size_t>(intrinsic_count(model)));
-  const auto at = pixel<double>(model, lens, point);
+  const auto at = pixel<double>(model, intrinsics, point);
   if (!at || !std::isfinite(at->x) || !std::isfinite(at->y)) return std::nullopt;
-  return Eigen::Vector2d(at->x, at->y);
+  return glm::dvec2(at->x, at->y);
 }
 
 }  // namespace sigs

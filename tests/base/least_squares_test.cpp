@@ -73,6 +73,7 @@ TEST_CASE("the inverse is the covariance, also of what is left after elimination
   NormalEquations equations = equations_of(random_rows(3, 30));
   const cv::Mat_<double> matrix = equations.matrix(), inverse = equations.inverse();
   CHECK(cv::norm(matrix * inverse, cv::Mat_<double>::eye(kUnknowns, kUnknowns)) < 1e-12);
+  CHECK(cv::norm(NormalEquations(matrix).inverse(), inverse) < 1e-15);
   equations.eliminate(3);
   const cv::Rect left(3, 3, kUnknowns - 3, kUnknowns - 3);
   CHECK(cv::norm(equations.inverse(), inverse(left)) < 1e-12);
