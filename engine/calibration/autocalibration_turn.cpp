@@ -31,7 +31,7 @@ constexpr double kLastField_rad = 2.6;
 constexpr int kTurnRounds = 12;
 constexpr double kTurnLeastRelative = 0.01;  // the lens is not quite of this model, its centre not quite the image's
 constexpr double kFreer = 1.3;               // a homography that misses by so much less is another motion
-constexpr double kLargest_px = 0.8;          // of the reduced image; larger misses are no rotation
+constexpr double kLargestMiss_px = 0.8;          // of the reduced image; larger misses are no rotation
 constexpr double kTooOpen = 0.2;             // uncertainty of the focal length
 
 struct Pair {
@@ -295,7 +295,7 @@ LensAnswer lens_by_turn(const PixelTracks& tracks, const DistortionPrior& prior)
   TurnFit fit(tracks, std::move(pairs), prior);
   if (!fit.solve()) return {.fit = std::nullopt, .reason = "the image does not move as that of a turning camera"};
   const TurnFit::Misses misses = fit.misses();
-  if (misses.turned_px > kLargest_px * tracks.step_px)
+  if (misses.turned_px > kLargestMiss_px * tracks.step_px)
     return {.fit = std::nullopt,
             .reason = fmt::format("the image does not move as that of a turning camera (rotations miss by {:.1f} px)",
                                   misses.turned_px)};

@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "base/text.h"
-#include "telemetry/plot_axes.h"
+#include "plot/plot.h"
 
 namespace sigs {
 
@@ -104,68 +103,36 @@ CalibrationText calibration_text_of(const BoardCalibration& calibration, const C
 
 namespace {
 
-constexpr int kPanelWidth_px = 620;
-constexpr int kPanelHeight_px = 480;
-constexpr int kLeft_px = 64;
-constexpr int kRight_px = 20;
-constexpr int kTop_px = 50;
-constexpr int kBottom_px = 44;
+constexpr int kPanel_px = 720;  // wide; two are as wide as a diagram of module plot
+constexpr int kMargin_px = 24;
+constexpr int kTop_px = 56;
 constexpr int kCells = 16;  // of the image's width
 const cv::Scalar kInk(60, 60, 60);
 const cv::Scalar kFaint(150, 150, 150);
 const cv::Scalar kArrow(170, 80, 20);
 const cv::Scalar kOut(60, 60, 220);
-const std::array<cv::Scalar, 4> kModelInks{cv::Scalar(150, 150, 150), cv::Scalar(200, 90, 20), cv::Scalar(40, 140, 40),
-                                           cv::Scalar(30, 100, 220)};
 
-// A panel with its axes: from values to pixels.
-class Chart {
+// A panel that shows the image's area, as wide as fits.
+class ImagePanel {
  public:
-  Chart(cv::Mat image, cv::Rect2d range, bool is_downwards)
-      : image_(image),
-        range_(range),
-        is_downwards_(is_downwards),
-        frame_(kLeft_px, kTop_px, kPanelWidth_px - kLeft_px - kRight_px, kPanelHeight_px - kTop_px - kBottom_px) {}
-
-  // The same scale in both directions, as large as fits.
-  void keep_shape() {
-    const double scale = std::min(frame_.width / range_.width, frame_.height / range_.height);
-    frame_.width = cvRound(range_.width * scale);
-    frame_.height = cvRound(range_.height * scale);
-  }
-  [[nodiscard]] double px_per_unit() const { return frame_.width / range_.width; }
-
-  [[nodiscard]] cv::Point2d at(double x, double y) const {
-    const double down = (y - range_.y) / range_.height;
-    return {frame_.x + (x - range_.x) / range_.width * frame_.width,
-            frame_.y + (is_downwards_ ? down : 1 - down) * frame_.height};
+  ImagePanel(cv::Size size_px, const std::string& title, const std::string& remark)
+      : scale_((kPanel_px - 2.0 * kMargin_px) / size_px.width),
+        panel_(kTop_px + cvRound(size_px.height * scale_) + kMargin_px, kPanel_px, CV_8UC3, cv::Scalar::all(255)) {
+    cv::putText(panel_, title, {kMargin_px, 22}, cv::FONT_HERSHEY_SIMPLEX, 0.55, kInk, 1, cv::LINE_AA);
+    cv::putText(panel_, remark, {kMargin_px, 44}, cv::FONT_HERSHEY_SIMPLEX, 0.5, kFaint, 1, cv::LINE_AA);
+    cv::rectangle(panel_, {kMargin_px - 1, kTop_px - 1}, {kPanel_px - kMargin_px, panel_.rows - kMargin_px}, kFaint);
   }
 
-  void draw_frame(const std::string& title, const std::string& remark, const std::string& x_title) {
-    std::vector<PlacedTick> x;
-    for (const Tick& tick : ticks_between(range_.x, range_.x + range_.width, tick_step(range_.width)))
-      x.push_back({tick, cvRound(at(tick.value, range_.y).x)});
-    std::vector<PlacedTick> y;
-    for (const Tick& tick : ticks_between(range_.y, range_.y + range_.height, tick_step(range_.height)))
-      y.push_back({tick, cvRound(at(range_.x, tick.value).y)});
-    draw_axes(image_, frame_.tl(), frame_.br(), x, y, {.ink = kInk});
-    draw_text(image_, title, {kLeft_px, 20}, kInk);
-    draw_text(image_, remark, {kLeft_px, 39}, kFaint);
-    draw_text_until(image_, x_title, {frame_.br().x, frame_.br().y + 36}, kInk);
+  [[nodiscard]] cv::Point at(double x_px, double y_px) const {
+    return {kMargin_px + cvRound((x_px + 0.5) * scale_), kTop_px + cvRound((y_px + 0.5) * scale_)};
   }
 
-  cv::Mat& image() { return image_; }
+  cv::Mat& image() { return panel_; }
 
  private:
-  cv::Mat image_;
-  cv::Rect2d range_;
-  bool is_downwards_;
-  cv::Rect frame_;
+  double scale_;
+  cv::Mat panel_;
 };
-
-cv::Rect2d image_range(cv::Size size_px) {
-  return {-0.5, -0.5, static_cast<double>(size_px.width), static_cast<double>(size_px.height)};
-}
 
 // Sums over square cells of the image.
 struct Cell {
@@ -206,58 +173,50 @@ double arrow_factor(const std::vector<Cell>& cells, double cell_px) {
   return most >= 5 * power ? 5 * power : most >= 2 * power ? 2 * power : power;
 }
 
-void draw_arrows(cv::Mat image, const BoardCalibration& calibration) {
+cv::Mat arrows_panel(const BoardCalibration& calibration) {
   const CalibratedModel& best = calibration.best();
-  Chart chart(image, image_range(calibration.size_px), true);
-  chart.keep_shape();
   const std::vector<Cell> cells = cells_of(best, calibration.size_px);
   const double factor = arrow_factor(cells, static_cast<double>(calibration.size_px.width) / kCells);
-  chart.draw_frame(std::string("residuals of ") + name_of(best.model) + ", means of cells",
+  ImagePanel panel(calibration.size_px, std::string("residuals of ") + name_of(best.model) + ", means of cells",
                    "arrows " + short_number_text(factor) + " times as long; error " + fixed_text(best.rms_px, 3) +
-                       " px, held out " + fixed_text(best.held_out_px, 3) + " px",
-                   "x [px]");
+                       " px, held out " + fixed_text(best.held_out_px, 3) + " px");
   for (const CornerResidual& corner : best.residuals)
-    cv::circle(chart.image(), chart.at(corner.at_px.x, corner.at_px.y), 1, {215, 215, 215}, cv::FILLED);
+    cv::circle(panel.image(), panel.at(corner.at_px.x, corner.at_px.y), 1, {215, 215, 215}, cv::FILLED);
   for (const Cell& cell : cells)
     if (cell.count > 0)
-      cv::arrowedLine(chart.image(), chart.at(cell.at.x, cell.at.y),
-                      chart.at(cell.at.x + factor * cell.off.x, cell.at.y + factor * cell.off.y), kArrow, 1,
+      cv::arrowedLine(panel.image(), panel.at(cell.at.x, cell.at.y),
+                      panel.at(cell.at.x + factor * cell.off.x, cell.at.y + factor * cell.off.y), kArrow, 1,
                       cv::LINE_AA, 0, 0.3);
-  const cv::Point middle = chart.at(best.lens.cx, best.lens.cy);
-  cv::drawMarker(chart.image(), middle, kOut, cv::MARKER_CROSS, 12);
+  cv::drawMarker(panel.image(), panel.at(best.lens.cx, best.lens.cy), kOut, cv::MARKER_CROSS, 12);
+  return panel.image();
 }
 
-void draw_coverage(cv::Mat image, const BoardCalibration& calibration) {
-  Chart chart(image, image_range(calibration.size_px), true);
-  chart.keep_shape();
+cv::Mat coverage_panel(const BoardCalibration& calibration) {
   const int rows = cell_rows(calibration.size_px);
   const std::vector<Cell> cells = cells_of(calibration.best(), calibration.size_px);
   int most = 1;
-  int bare = 0;
-  for (const Cell& cell : cells) {
-    most = std::max(most, cell.count);
-    bare += cell.count == 0 ? 1 : 0;
-  }
+  for (const Cell& cell : cells) most = std::max(most, cell.count);
+  const auto bare = std::ranges::count(cells, 0, &Cell::count);
+  ImagePanel panel(calibration.size_px, "corners seen, from 1 (pale) to " + std::to_string(most) + " (dark) a cell",
+                   std::to_string(bare) + " of " + std::to_string(cells.size()) + " cells bare (red); " +
+                       count_text(calibration.views_used(), "view"));
+  const auto edge = [&](int column, int row) {
+    return panel.at(static_cast<double>(column) * calibration.size_px.width / kCells - 0.5,
+                    static_cast<double>(row) * calibration.size_px.height / rows - 0.5);
+  };
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < kCells; ++x) {
       const int count = cells[static_cast<std::size_t>(y * kCells + x)].count;
       const double share = std::sqrt(static_cast<double>(count) / most);
       const cv::Scalar color =
           count == 0 ? cv::Scalar(215, 215, 250) : cv::Scalar(250 - 60 * share, 240 - 140 * share, 225 - 185 * share);
-      const auto edge = [&](int column, int row) {
-        return chart.at(static_cast<double>(column) * calibration.size_px.width / kCells - 0.5,
-                        static_cast<double>(row) * calibration.size_px.height / rows - 0.5);
-      };
-      cv::rectangle(chart.image(), cv::Rect(cv::Point(edge(x, y)), cv::Point(edge(x + 1, y + 1))), color, cv::FILLED);
+      cv::rectangle(panel.image(), cv::Rect(edge(x, y), edge(x + 1, y + 1)), color, cv::FILLED);
     }
-  chart.draw_frame("corners seen, from 1 (pale) to " + std::to_string(most) + " (dark) a cell",
-                   std::to_string(bare) + " of " + std::to_string(cells.size()) + " cells bare (red); " +
-                       count_text(calibration.views_used(), "view"),
-                   "x [px]");
+  return panel.image();
 }
 
 // Root mean squares of rings around the principal point, of equal widths.
-std::vector<cv::Point2d> rings_of(const CalibratedModel& model, double largest_px) {
+std::vector<PlotPoint> rings_of(const CalibratedModel& model, double largest_px) {
   constexpr int kRings = 20;
   std::vector<double> squares(kRings, 0);
   std::vector<int> counts(kRings, 0);
@@ -267,66 +226,58 @@ std::vector<cv::Point2d> rings_of(const CalibratedModel& model, double largest_p
     squares[ring] += corner.off_px.ddot(corner.off_px);
     ++counts[ring];
   }
-  std::vector<cv::Point2d> line;
+  std::vector<PlotPoint> line;
   for (int i = 0; i < kRings; ++i)
     if (counts[static_cast<std::size_t>(i)] >= 5)
-      line.emplace_back((i + 0.5) / kRings * largest_px,
-                        std::sqrt(squares[static_cast<std::size_t>(i)] / counts[static_cast<std::size_t>(i)]));
+      line.push_back({(i + 0.5) / kRings * largest_px,
+                      std::sqrt(squares[static_cast<std::size_t>(i)] / counts[static_cast<std::size_t>(i)])});
   return line;
 }
 
-void draw_by_radius(cv::Mat image, const BoardCalibration& calibration) {
+Plot radius_plot(const BoardCalibration& calibration) {
   const double largest_px = std::hypot(calibration.size_px.width, calibration.size_px.height) / 2;
-  double most = 0;
-  std::vector<std::vector<cv::Point2d>> lines;
-  for (const CalibratedModel& model : calibration.models) {
-    lines.push_back(rings_of(model, largest_px));
-    for (const cv::Point2d& point : lines.back()) most = std::max(most, point.y);
+  Plot plot{.title = "Residuals by their place",
+            .x_label = "distance from the principal point [px]",
+            .y_label = "rms of the residuals [px]",
+            .x_range = {0, largest_px}};
+  for (std::size_t i = 0; i < calibration.models.size(); ++i) {
+    const std::string name = name_of(calibration.models[i].model);
+    plot.series.push_back({.title = i == calibration.chosen ? name + ", chosen" : name,
+                           .runs = {rings_of(calibration.models[i], largest_px)}});
+    for (const PlotPoint& point : plot.series.back().runs.front())
+      plot.y_range.last = std::max(plot.y_range.last, 1.1 * point.y);
   }
   // A model that misses by much would press the others to the axis.
-  most = std::clamp(1.1 * most, 1e-3, 3 * std::max(calibration.best().rms_px, 1e-3));
-  Chart chart(image, {0, 0, largest_px, most}, false);
-  chart.draw_frame("rms of the residuals [px]", "", "distance from the principal point [px]");
-  int x = kLeft_px;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const cv::Scalar& ink = kModelInks[static_cast<std::size_t>(calibration.models[i].model)];
-    std::vector<cv::Point> points;
-    for (const cv::Point2d& point : lines[i]) points.emplace_back(chart.at(point.x, std::min(point.y, most)));
-    cv::polylines(chart.image(), points, false, ink, i == calibration.chosen ? 2 : 1, cv::LINE_AA);
-    const std::string name = std::string(i == calibration.chosen ? "* " : "") + name_of(calibration.models[i].model);
-    draw_text(chart.image(), name, {x, 39}, ink);
-    x += 20 + cv::getTextSize(name, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, nullptr).width;
-  }
+  plot.y_range.last = std::clamp(plot.y_range.last, 1e-3, 3 * std::max(calibration.best().rms_px, 1e-3));
+  return plot;
 }
 
-void draw_views(cv::Mat image, const BoardCalibration& calibration) {
+Plot views_plot(const BoardCalibration& calibration) {
   double largest = 1e-3;
   for (const CalibratedView& view : calibration.views)
     if (view.is_used) largest = std::max(largest, view.error_px);
   const double most = 2.5 * largest;
-  const auto count = static_cast<double>(calibration.views.size());
-  Chart chart(image, {0, 0, count, most}, false);
-  chart.draw_frame("error of each view [px]", "blue: used; red: not used, cut off where larger", "view");
+  Plot plot{.title = "Error of each view; of those not used, at the upper border where it is larger",
+            .x_label = "view",
+            .y_label = "error [px]",
+            .x_range = {-1, static_cast<double>(calibration.views.size())},
+            .y_range = {0, 1.05 * most},
+            .series = {{.title = "used", .runs = {{}}, .is_scatter = true},
+                       {.title = "not used", .runs = {{}}, .is_scatter = true}}};
   for (std::size_t i = 0; i < calibration.views.size(); ++i) {
     const CalibratedView& view = calibration.views[i];
-    const double error = std::isfinite(view.error_px) ? std::min(view.error_px, most) : most;
-    const auto left = static_cast<double>(i);
-    cv::rectangle(chart.image(), cv::Rect(cv::Point(chart.at(left + 0.15, error)), cv::Point(chart.at(left + 0.85, 0))),
-                  view.is_used ? kArrow : kOut, cv::FILLED);
+    const double error_px = std::isfinite(view.error_px) ? std::min(view.error_px, most) : most;
+    plot.series[view.is_used ? 0 : 1].runs.front().push_back({static_cast<double>(i), error_px});
   }
+  return plot;
 }
 
 }  // namespace
 
 cv::Mat board_plot(const BoardCalibration& calibration) {
-  cv::Mat page(2 * kPanelHeight_px, 2 * kPanelWidth_px, CV_8UC3, cv::Scalar::all(255));
-  const auto panel = [&](int column, int row) {
-    return page(cv::Rect(column * kPanelWidth_px, row * kPanelHeight_px, kPanelWidth_px, kPanelHeight_px));
-  };
-  draw_arrows(panel(0, 0), calibration);
-  draw_coverage(panel(1, 0), calibration);
-  draw_by_radius(panel(0, 1), calibration);
-  draw_views(panel(1, 1), calibration);
+  cv::Mat panels, page;
+  cv::hconcat(arrows_panel(calibration), coverage_panel(calibration), panels);
+  cv::vconcat(std::vector{panels, image_of(radius_plot(calibration)), image_of(views_plot(calibration))}, page);
   return page;
 }
 
