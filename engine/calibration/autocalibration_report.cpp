@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <string>
 #include <utility>
@@ -13,12 +12,11 @@
 
 #include "base/pose.h"
 #include "plot/plot.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json fit_json(const LensEstimate& fit) {
   return {{"horizontal_field_deg", deg_of_rad(fit.lens.horizontal_field_rad())},

@@ -5,18 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "base/text.h"
 #include "plot/plot.h"
+#include "project/json_reading.h"
 
 namespace sigs {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const char* kind_name(BoardKind kind) {
   return kind == BoardKind::charuco ? "charuco" : "chessboard";
