@@ -54,11 +54,11 @@ Command add_calibrate_command(CLI::App& program) {
   command->add_option("--json", options->json, "write all that was found as JSON")
       ->option_text("FILE")
       ->check(output_path());
-  add_rough_options(*command, *options);
+  add_autocalibration_options(*command, *options);
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);
   command->footer(kCalibrateFooter);
-  return [options] { return options->board.empty() ? calibrate_roughly(*options) : calibrate_with_board(*options); };
+  return [options] { return options->board.empty() ? autocalibrate(*options) : calibrate_with_board(*options); };
 }
 
 }  // namespace sigs::cli

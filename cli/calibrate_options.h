@@ -35,8 +35,8 @@ struct CalibrateOptions {
 // With a board (calibrate_board.cpp).
 [[nodiscard]] Result<void> calibrate_with_board(const CalibrateOptions& options);
 
-// Without one, from the footage itself (calibrate_rough.cpp), and the options that only this has.
-[[nodiscard]] Result<void> calibrate_roughly(const CalibrateOptions& options);
-void add_rough_options(CLI::App& command, CalibrateOptions& options);
+// Without one, from the footage itself (autocalibrate.cpp), and the options that only this has.
+[[nodiscard]] Result<void> autocalibrate(const CalibrateOptions& options);
+void add_autocalibration_options(CLI::App& command, CalibrateOptions& options);
 
 }  // namespace sigs::cli

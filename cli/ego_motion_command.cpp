@@ -17,7 +17,6 @@
 #include "cli/output_files.h"
 #include "cli/process.h"
 #include "cli/progress.h"
-#include "ego_motion/attitude_plot.h"
 #include "ego_motion/ego_motion.h"
 #include "ego_motion/project_motion.h"
 #include "project/json.h"

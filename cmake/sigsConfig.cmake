@@ -1,7 +1,7 @@
 # find_package(sigs): target sigs::sigs. What the engine is built upon is looked for with the same names as in its build.
 include(CMakeFindDependencyMacro)
 find_dependency(OpenCV 4.6 COMPONENTS core imgproc imgcodecs calib3d video tracking)
-foreach(library glm tl-expected fmt nlohmann_json pugixml yaml-cpp Threads Eigen3)
+foreach(library glm tl-expected fmt nlohmann_json pugixml yaml-cpp Threads)
   find_dependency(${library})
 endforeach()
 list(APPEND CMAKE_MODULE_PATH /usr/share/cmake/geographiclib)

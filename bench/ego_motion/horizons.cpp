@@ -79,7 +79,7 @@ void judge(const cv::Mat& luma, const std::string& kind, const Level& level, con
   }
   const glm::dvec3 up = up_of(camera, level.left_row, level.right_row);
   if (line) {
-    const double off_deg = degrees_between({line->up.x(), line->up.y(), line->up.z()}, up);
+    const double off_deg = degrees_between(line->up, up);
     if (off_deg > kWrong_deg) {
       ++tally.wrong;
       fmt::print(stderr, "{}: a line {:.1f} degrees off\n", where, off_deg);

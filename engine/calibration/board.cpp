@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "base/statistics.h"
 #include "base/text.h"
 
 namespace sigs {
@@ -257,13 +258,6 @@ double edge_width_px(const cv::Mat& luma, cv::Point2d a, cv::Point2d b, double r
   return rise_px(std::move(profile), kStep_px);
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Of edges along rows or along columns.
 double median_edge_px(const cv::Mat& luma, const BoardView& view, const CalibrationBoard& board, cv::Size step) {
   const CornerGrid grid(view, board);
@@ -275,7 +269,7 @@ double median_edge_px(const cv::Mat& luma, const BoardView& view, const Calibrat
         edge_width_px(luma, view.at_px[i], view.at_px[static_cast<std::size_t>(other)], 0.75 * free_around(board));
     if (width_px > 0) widths_px.push_back(width_px);
   }
-  return median_of(std::move(widths_px));
+  return widths_px.empty() ? 0 : median(std::move(widths_px));
 }
 
 }  // namespace

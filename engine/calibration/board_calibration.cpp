@@ -158,9 +158,9 @@ std::optional<FittedModel> fitted_model(FitModel model, std::span<const FitView>
   LensFit fit{.model = model, .poses = reference.poses};
   double angle_rad = 0;
   for (std::size_t v = 0; v < counting.size(); ++v)
-    for (const Eigen::Vector3d& on_board : counting[v].on_board_m) {
-      const Eigen::Vector3d p = reference.poses[v] * on_board;
-      angle_rad = std::max(angle_rad, std::atan2(p.head<2>().norm(), p.z()));
+    for (const glm::dvec3& on_board : counting[v].on_board_m) {
+      const glm::dvec3 p = reference.poses[v] * on_board;
+      angle_rad = std::max(angle_rad, std::atan2(glm::length(glm::dvec2(p)), p.z));
     }
   fit.intrinsics = converted(reference, model, angle_rad);
   fit = refined(counting, std::move(fit), all_free(model), {.iterations = 100});
@@ -169,15 +169,13 @@ std::optional<FittedModel> fitted_model(FitModel model, std::span<const FitView>
   fitted.model.model = model;
   fitted.model.lens = lens_of(model, fit.intrinsics);
   fitted.squares = held_out_squares(counting, fit);
-  const Eigen::VectorXd sd = standard_deviations(counting, fit);
-  fitted.model.sd.assign(sd.begin(), sd.end());
+  fitted.model.sd = standard_deviations(counting, fit);
   fitted.model.held_out_px = held_out_px(fitted.squares);
-  std::vector<Eigen::Vector2d> all;
+  std::vector<glm::dvec2> all;
   for (std::size_t v = 0; v < counting.size(); ++v) {
-    const std::vector<Eigen::Vector2d> off = residuals_px(model, fit.intrinsics, fit.poses[v], counting[v]);
+    const std::vector<glm::dvec2> off = residuals_px(model, fit.intrinsics, fit.poses[v], counting[v]);
     for (std::size_t i = 0; i < off.size(); ++i)
-      fitted.model.residuals.push_back(
-          {{counting[v].at_px[i].x(), counting[v].at_px[i].y()}, {off[i].x(), off[i].y()}});
+      fitted.model.residuals.push_back({{counting[v].at_px[i].x, counting[v].at_px[i].y}, {off[i].x, off[i].y}});
     all.insert(all.end(), off.begin(), off.end());
   }
   fitted.model.rms_px = rms_px(all);
@@ -204,7 +202,7 @@ std::size_t choice(std::span<const FittedModel> fitted) {
 CalibratedView view_of(const BoardView& seen, const FitView& view, const RobustFit& reference, std::size_t v,
                        const LensFit& chosen, const BoardPose& pose) {
   const auto left_out = std::ranges::count(reference.agreement.corner[v], false);
-  const double facing = std::abs((pose.turn * Eigen::Vector3d::UnitZ()).z());
+  const double facing = std::abs((pose.turn * glm::dvec3(0, 0, 1)).z);
   FitView counting;
   for (std::size_t i = 0; i < view.size(); ++i) {
     if (reference.agreement.view[v] && !reference.agreement.corner[v][i]) continue;
@@ -218,7 +216,7 @@ CalibratedView view_of(const BoardView& seen, const FitView& view, const RobustF
           .error_px = rms_px(residuals_px(chosen.model, chosen.intrinsics, pose, counting)),
           .edge_px = seen.edge_px,
           .tilt_deg = deg_of_rad(std::acos(std::min(1.0, facing))),
-          .distance_m = pose.at_m.norm()};
+          .distance_m = glm::length(pose.at_m)};
 }
 
 std::vector<CalibratedView> views_of(const std::vector<BoardView>& seen, std::span<const FitView> views,

@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "calibration/board.h"
+#include "calibration/calibration_file.h"
 #include "calibration/lens_projection.h"
 #include "camera/lens.h"
 
@@ -65,5 +66,21 @@ struct BoardCalibration {
 [[nodiscard]] Result<BoardCalibration> calibrate_views(const std::vector<BoardView>& views,
                                                        const CalibrationBoard& board, cv::Size size_px,
                                                        ModelWanted wanted = ModelWanted::automatic);
+
+// A calibration with a board for people, for programs, and as a file.
+
+// A table of the models with errors and standard deviations, the one chosen marked.
+[[nodiscard]] std::string board_report_text(const BoardCalibration& calibration);
+
+// The same with all numbers and all views, as JSON (docs/calibrating.md lists the members).
+[[nodiscard]] std::string board_report_json(const BoardCalibration& calibration, const CalibrationBoard& board);
+
+// The chosen lens with its errors and standard deviations.
+[[nodiscard]] CalibrationText calibration_text_of(const BoardCalibration& calibration, const CalibrationBoard& board);
+
+// Two panels and two diagrams below them, BGR, 8 bits: the residuals of the chosen model as arrows where they are in the image, means of cells;
+// how many corners were seen in each cell of the image; the residuals by their distance from the principal point, for
+// each model; the error of each view, used and not used.
+[[nodiscard]] cv::Mat board_plot(const BoardCalibration& calibration);
 
 }  // namespace sigs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/board_report.h"
+#include "calibration/board_calibration.h"
 
 #include <fmt/format.h>
 

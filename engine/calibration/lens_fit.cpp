@@ -1,36 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "calibration/lens_fit.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <limits>
+#include <numeric>
+#include <opencv2/core.hpp>
 
+#include "base/least_squares.h"
 #include "base/pose.h"
+#include "ego_motion/rotation_fit.h"
 
 namespace sigs {
 
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kOfPose = 6;  // unknowns: a small rotation about the board's origin, a small shift
 
-// The rotation by a vector: its direction is the axis, its length the angle (Rodrigues).
-Eigen::Matrix3d turn_by(const Eigen::Vector3d& vector_rad) {
-  const double angle_rad = vector_rad.norm();
-  if (angle_rad < 1e-300) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle_rad, vector_rad / angle_rad).toRotationMatrix();
-}
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  return (Eigen::Matrix3d() << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0).finished();
-}
-
-// The pose moved by a small rotation about the board's origin and a small shift.
-BoardPose moved(const BoardPose& pose, const Vector6& by) {
-  const Eigen::Matrix3d turn = turn_by(by.head<3>()) * pose.turn;
-  return {Eigen::Quaterniond(turn).normalized().toRotationMatrix(), pose.at_m + by.tail<3>()};
+BoardPose moved(const BoardPose& pose, std::span<const double> by) {
+  const glm::dquat turn = turn_of({by[0], by[1], by[2]}) * glm::dquat(pose.turn);
+  return {glm::mat3_cast(glm::normalize(turn)), pose.at_m + glm::dvec3(by[3], by[4], by[5])};
 }
 
 double huber_cost(double squared_px, double huber_px) {
@@ -48,85 +41,64 @@ double cost_of(std::span<const FitView> views, const LensFit& fit, double huber_
     for (std::size_t i = 0; i < views[v].size(); ++i) {
       const auto at = pixel_of(fit.model, fit.intrinsics, fit.poses[v] * views[v].on_board_m[i]);
       if (!at) return kInfinity;
-      cost += huber_cost((views[v].at_px[i] - *at).squaredNorm(), huber_px);
+      cost += huber_cost(squared_length(views[v].at_px[i] - *at), huber_px);
     }
   return cost;
 }
 
-// The normal equations of one view.
-struct ViewEquations {
-  Matrix6 pose = Matrix6::Zero();
-  Vector6 pose_right = Vector6::Zero();
-  Eigen::MatrixXd mixed;  // 6 x free intrinsics
-  Eigen::MatrixXd lens;
-  Eigen::VectorXd lens_right;
+int count_of(const FreeIntrinsics& free) {
+  return free.empty() ? 0 : *std::ranges::max_element(free) + 1;
+}
 
-  void damp(double lambda) {
-    pose.diagonal() = pose.diagonal() * (1 + lambda) + Vector6::Constant(1e-12);
-    lens.diagonal() *= 1 + lambda;
-  }
-};
-
-ViewEquations equations_of(const FitView& view, const LensFit& fit, const BoardPose& pose, const FreeIntrinsics& free,
-                           double huber_px) {
-  const auto count = free.cols();
-  ViewEquations sums{.mixed = Eigen::MatrixXd::Zero(6, count),
-                     .lens = Eigen::MatrixXd::Zero(count, count),
-                     .lens_right = Eigen::VectorXd::Zero(count)};
+// The equations of one view: of its pose, then of the free intrinsics.
+NormalEquations equations_of(const FitView& view, const LensFit& fit, const BoardPose& pose, const FreeIntrinsics& free,
+                             double huber_px) {
+  NormalEquations sums(kOfPose + count_of(free));
+  std::vector<double> slopes;
   for (std::size_t i = 0; i < view.size(); ++i) {
-    const Eigen::Vector3d turned = pose.turn * view.on_board_m[i];
+    const glm::dvec3 turned = pose.turn * view.on_board_m[i];
     const auto seen = projected(fit.model, fit.intrinsics, turned + pose.at_m);
     if (!seen) continue;
-    const Eigen::Vector2d residual = view.at_px[i] - seen->at_px;
-    const double weight = huber_weight(residual.squaredNorm(), huber_px);
-    Eigen::Matrix<double, 2, 6> by_pose;
-    by_pose << seen->by_point * -cross_matrix(turned), seen->by_point;
-    const Eigen::MatrixXd by_lens = seen->by_intrinsics.leftCols(free.rows()) * free;
-    sums.pose += weight * by_pose.transpose() * by_pose;
-    sums.pose_right += weight * by_pose.transpose() * residual;
-    sums.mixed += weight * by_pose.transpose() * by_lens;
-    sums.lens += weight * by_lens.transpose() * by_lens;
-    sums.lens_right += weight * by_lens.transpose() * residual;
+    const glm::dvec2 residual = view.at_px[i] - seen->at_px;
+    const double weight = huber_weight(squared_length(residual), huber_px);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const glm::dvec3& by_shift = seen->by_point[axis];
+      const glm::dvec3 by_turn = glm::cross(turned, by_shift);
+      slopes.assign({by_turn.x, by_turn.y, by_turn.z, by_shift.x, by_shift.y, by_shift.z});
+      slopes.resize(static_cast<std::size_t>(sums.size()), 0);
+      for (std::size_t k = 0; k < free.size(); ++k)
+        if (free[k] >= 0) slopes[static_cast<std::size_t>(kOfPose + free[k])] += seen->by_intrinsics[axis][k];
+      sums.add(slopes, residual[static_cast<int>(axis)], weight);
+    }
   }
   return sums;
 }
 
-std::vector<ViewEquations> all_equations(std::span<const FitView> views, const LensFit& fit, const FreeIntrinsics& free,
-                                         double huber_px) {
-  std::vector<ViewEquations> all;
-  for (std::size_t v = 0; v < views.size(); ++v)
-    all.push_back(equations_of(views[v], fit, fit.poses[v], free, huber_px));
-  return all;
-}
-
-// The fit after one damped step. The poses are eliminated: S x = b of the intrinsics alone is solved first.
-LensFit stepped(const LensFit& fit, std::vector<ViewEquations> all, const FreeIntrinsics& free, double lambda) {
-  const auto count = free.cols();
-  Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(count, count);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
-  std::vector<Eigen::LDLT<Matrix6>> solved;
-  for (ViewEquations& view : all) {
-    view.damp(lambda);
-    solved.emplace_back(view.pose);
-    reduced += view.lens - view.mixed.transpose() * solved.back().solve(view.mixed);
-    right += view.lens_right - view.mixed.transpose() * solved.back().solve(view.pose_right);
+// The fit after one damped step. The poses are eliminated: the equations of the intrinsics alone are solved first.
+LensFit stepped(const LensFit& fit, std::vector<NormalEquations> views, const FreeIntrinsics& free, double lambda) {
+  NormalEquations lens(count_of(free));
+  for (NormalEquations& view : views) {
+    view.damp(lambda, 1e-12);
+    view.eliminate(kOfPose);
+    lens.add(view);
   }
-  const Eigen::VectorXd step = count > 0 ? Eigen::VectorXd(reduced.ldlt().solve(right)) : Eigen::VectorXd(0);
+  const std::vector<double> step = lens.solved();
   LensFit next = fit;
-  next.intrinsics += free * step;
-  for (std::size_t v = 0; v < all.size(); ++v)
-    next.poses[v] = moved(fit.poses[v], solved[v].solve(all[v].pose_right - all[v].mixed * step));
+  for (std::size_t k = 0; k < free.size(); ++k)
+    if (free[k] >= 0) next.intrinsics[k] += step[static_cast<std::size_t>(free[k])];
+  for (std::size_t v = 0; v < views.size(); ++v) next.poses[v] = moved(fit.poses[v], views[v].eliminated(step));
   return next;
 }
 
 bool is_sane(const LensFit& fit) {
-  return fit.intrinsics.allFinite() && fit.intrinsics[0] > 0 && fit.intrinsics[1] > 0;
+  return std::ranges::all_of(fit.intrinsics, [](double i) { return std::isfinite(i); }) && fit.intrinsics[0] > 0 &&
+         fit.intrinsics[1] > 0;
 }
 
 // Directions of the corners by the lens, with where they are on the board, of those that have one.
 struct SeenRays {
-  std::vector<Eigen::Vector3d> rays;
-  std::vector<Eigen::Vector2d> on_board_m;
+  std::vector<glm::dvec3> rays;
+  std::vector<glm::dvec2> on_board_m;
 };
 
 SeenRays rays_of(FitModel model, const Intrinsics& intrinsics, const FitView& view) {
@@ -134,52 +106,59 @@ SeenRays rays_of(FitModel model, const Intrinsics& intrinsics, const FitView& vi
   const Result<Lens> lens = Lens::make(lens_of(model, intrinsics));
   if (!lens) return seen;
   for (std::size_t i = 0; i < view.size(); ++i) {
-    const auto ray = lens->ray({view.at_px[i].x(), view.at_px[i].y()});
+    const auto ray = lens->ray(view.at_px[i]);
     if (!ray) continue;
-    const glm::dvec3 optical = optical_of(*ray);
-    seen.rays.emplace_back(optical.x, optical.y, optical.z);
-    seen.on_board_m.push_back(view.on_board_m[i].head<2>());
+    seen.rays.push_back(optical_of(*ray));
+    seen.on_board_m.emplace_back(view.on_board_m[i]);
   }
   return seen;
 }
 
+// By the singular values (Kabsch 1976); nothing where that is a mirror image.
+std::optional<glm::dmat3> nearest_rotation(const glm::dmat3& m) {
+  cv::Matx33d u, vt;
+  cv::Vec3d strengths;
+  cv::SVD::compute(cv::Matx33d(glm::value_ptr(m)), strengths, u, vt);  // of the transpose: glm stores columns
+  const glm::dmat3 rotation = glm::make_mat3((u * vt).val);
+  return glm::determinant(rotation) > 0 ? std::optional(rotation) : std::nullopt;
+}
+
 // The homography that takes (X, Y, 1) on the board to a multiple of its ray, up to its factor: ray x (H p) = 0.
-Eigen::Matrix3d homography_of(const SeenRays& seen, const Eigen::Vector2d& middle_m, double unit_m) {
-  Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
+glm::dmat3 homography_of(const SeenRays& seen, const glm::dvec2& middle_m, double unit_m) {
+  NormalEquations equations(9);
   for (std::size_t i = 0; i < seen.rays.size(); ++i) {
-    const Eigen::Vector2d on_board = (seen.on_board_m[i] - middle_m) / unit_m;
-    const Eigen::Matrix3d cross = cross_matrix(seen.rays[i]);
-    Eigen::Matrix<double, 3, 9> rows;
-    rows << cross * on_board.x(), cross * on_board.y(), cross;
-    normal += rows.transpose() * rows;
+    const glm::dvec2 on_board = (seen.on_board_m[i] - middle_m) / unit_m;
+    const glm::dmat3 cross = glm::transpose(cross_matrix(seen.rays[i]));
+    for (int axis = 0; axis < 3; ++axis) {
+      const glm::dvec3& row = cross[axis];
+      const glm::dvec3 by_x = row * on_board.x;
+      const glm::dvec3 by_y = row * on_board.y;
+      equations.add(std::array{by_x.x, by_x.y, by_x.z, by_y.x, by_y.y, by_y.z, row.x, row.y, row.z}, 0);
+    }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
-  const Eigen::Matrix<double, 9, 1> h = solver.eigenvectors().col(0);
-  return Eigen::Map<const Eigen::Matrix3d>(h.data());
+  cv::Mat_<double> values, vectors;  // rows, by falling value
+  cv::eigen(equations.matrix(), values, vectors);
+  return glm::make_mat3(vectors[8]);
 }
 
 std::optional<BoardPose> first_pose(const SeenRays& seen) {
   constexpr std::size_t kFewest = 6;
   if (seen.rays.size() < kFewest) return std::nullopt;
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& p : seen.on_board_m) middle += p / static_cast<double>(seen.on_board_m.size());
+  glm::dvec2 middle(0);
+  for (const glm::dvec2& p : seen.on_board_m) middle += p / static_cast<double>(seen.on_board_m.size());
   double unit = 0;
-  for (const Eigen::Vector2d& p : seen.on_board_m) unit = std::max(unit, (p - middle).norm());
+  for (const glm::dvec2& p : seen.on_board_m) unit = std::max(unit, glm::length(p - middle));
   if (!(unit > 0)) return std::nullopt;
-  Eigen::Matrix3d h = homography_of(seen, middle, unit);
+  glm::dmat3 h = homography_of(seen, middle, unit);
   double before = 0;
   for (std::size_t i = 0; i < seen.rays.size(); ++i)
-    before += seen.rays[i].dot(h * ((seen.on_board_m[i] - middle) / unit).homogeneous());
+    before += glm::dot(seen.rays[i], h * glm::dvec3((seen.on_board_m[i] - middle) / unit, 1));
   if (before < 0) h = -h;
-  const double scale = (h.col(0).norm() + h.col(1).norm()) / 2;
+  const double scale = (glm::length(h[0]) + glm::length(h[1])) / 2;
   if (!(scale > 1e-12)) return std::nullopt;
-  Eigen::Matrix3d axes;
-  axes << h.col(0), h.col(1), h.col(0).cross(h.col(1)) / scale;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  BoardPose pose{.turn = svd.matrixU() * svd.matrixV().transpose(), .at_m = h.col(2) / scale * unit};
-  if (pose.turn.determinant() < 0) return std::nullopt;
-  pose.at_m -= pose.turn * Eigen::Vector3d(middle.x(), middle.y(), 0);
-  return pose;
+  const std::optional<glm::dmat3> turn = nearest_rotation({h[0], h[1], glm::cross(h[0], h[1]) / scale});
+  if (!turn) return std::nullopt;
+  return BoardPose{.turn = *turn, .at_m = h[2] / scale * unit - *turn * glm::dvec3(middle, 0)};
 }
 
 }  // namespace
@@ -195,17 +174,19 @@ FitView fit_view_of(const BoardView& view, const CalibrationBoard& board) {
 }
 
 FreeIntrinsics all_free(FitModel model) {
-  return FreeIntrinsics::Identity(intrinsic_count(model), intrinsic_count(model));
+  FreeIntrinsics free(static_cast<std::size_t>(intrinsic_count(model)));
+  std::iota(free.begin(), free.end(), 0);
+  return free;
 }
 
 FreeIntrinsics focal_length_alone(FitModel model) {
-  FreeIntrinsics free = FreeIntrinsics::Zero(intrinsic_count(model), 1);
-  free(0, 0) = free(1, 0) = 1;
+  FreeIntrinsics free = none_free(model);
+  free[0] = free[1] = 0;
   return free;
 }
 
 FreeIntrinsics none_free(FitModel model) {
-  return FreeIntrinsics::Zero(intrinsic_count(model), 0);
+  return FreeIntrinsics(static_cast<std::size_t>(intrinsic_count(model)), -1);
 }
 
 LensFit refined(std::span<const FitView> views, LensFit start, const FreeIntrinsics& free, const FitLimits& limits) {
@@ -214,7 +195,9 @@ LensFit refined(std::span<const FitView> views, LensFit start, const FreeIntrins
   start.cost = cost_of(views, start, limits.huber_px);
   double lambda = 1e-3;
   for (int i = 0; i < limits.iterations && lambda < kMostDamping && std::isfinite(start.cost); ++i) {
-    const std::vector<ViewEquations> equations = all_equations(views, start, free, limits.huber_px);
+    std::vector<NormalEquations> equations;
+    for (std::size_t v = 0; v < views.size(); ++v)
+      equations.push_back(equations_of(views[v], start, start.poses[v], free, limits.huber_px));
     double gain = -1;
     for (; gain < 0 && lambda < kMostDamping; lambda *= 10) {
       LensFit next = stepped(start, equations, free, lambda);
@@ -239,46 +222,46 @@ std::optional<BoardPose> pose_seen(FitModel model, const Intrinsics& intrinsics,
   return fit.poses.front();
 }
 
-std::vector<Eigen::Vector2d> residuals_px(FitModel model, const Intrinsics& intrinsics, const BoardPose& pose,
-                                          const FitView& view) {
-  std::vector<Eigen::Vector2d> residuals;
+std::vector<glm::dvec2> residuals_px(FitModel model, const Intrinsics& intrinsics, const BoardPose& pose,
+                                     const FitView& view) {
+  std::vector<glm::dvec2> residuals;
   for (std::size_t i = 0; i < view.size(); ++i) {
     const auto at = pixel_of(model, intrinsics, pose * view.on_board_m[i]);
-    residuals.push_back(at ? Eigen::Vector2d(view.at_px[i] - *at) : Eigen::Vector2d::Constant(kInfinity));
+    residuals.push_back(at ? view.at_px[i] - *at : glm::dvec2(kInfinity));
   }
   return residuals;
 }
 
-double rms_px(std::span<const Eigen::Vector2d> residuals_px) {
+double rms_px(std::span<const glm::dvec2> residuals_px) {
   if (residuals_px.empty()) return 0;
   double sum = 0;
-  for (const Eigen::Vector2d& residual : residuals_px) sum += residual.squaredNorm();
+  for (const glm::dvec2& residual : residuals_px) sum += squared_length(residual);
   return std::sqrt(sum / static_cast<double>(residuals_px.size()));
 }
 
-Eigen::VectorXd standard_deviations(std::span<const FitView> views, const LensFit& fit) {
+std::vector<double> standard_deviations(std::span<const FitView> views, const LensFit& fit) {
   const FreeIntrinsics free = all_free(fit.model);
-  const auto count = free.cols();
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(count, count);
-  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(count, count);  // of the views' own gradients
+  NormalEquations information(count_of(free));
+  cv::Mat_<double> scatter(information.size(), information.size(), 0.0);  // of the views' gradients
   double squares = 0;
-  double freedom = -static_cast<double>(count);
+  double freedom = -information.size();
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const ViewEquations view = equations_of(views[v], fit, fit.poses[v], free, 0);
-    const Eigen::LDLT<Matrix6> pose(view.pose);
-    information += view.lens - view.mixed.transpose() * pose.solve(view.mixed);
-    const Eigen::VectorXd gradient = view.lens_right - view.mixed.transpose() * pose.solve(view.pose_right);
-    scatter += gradient * gradient.transpose();
-    for (const Eigen::Vector2d& residual : residuals_px(fit.model, fit.intrinsics, fit.poses[v], views[v]))
-      squares += residual.squaredNorm();
+    NormalEquations view = equations_of(views[v], fit, fit.poses[v], free, 0);
+    view.eliminate(kOfPose);
+    information.add(view);
+    scatter += view.right() * view.right().t();
+    for (const glm::dvec2& residual : residuals_px(fit.model, fit.intrinsics, fit.poses[v], views[v]))
+      squares += squared_length(residual);
     freedom += 2.0 * static_cast<double>(views[v].size()) - 6;
   }
-  const Eigen::MatrixXd inverse = information.completeOrthogonalDecomposition().pseudoInverse();
+  const cv::Mat_<double> inverse = information.inverse();
   const double variance = freedom > 0 ? squares / freedom : kInfinity;
   const double few_views = static_cast<double>(views.size()) / std::max(1.0, static_cast<double>(views.size()) - 1);
-  const Eigen::VectorXd by_corners = inverse.diagonal() * variance;
-  const Eigen::VectorXd by_views = (inverse * scatter * inverse).diagonal() * few_views;
-  return by_corners.cwiseMax(by_views).cwiseMax(0).cwiseSqrt();
+  const cv::Mat_<double> by_views = cv::Mat(inverse * scatter * inverse * few_views);
+  std::vector<double> deviations;
+  for (int i = 0; i < information.size(); ++i)
+    deviations.push_back(std::sqrt(std::max({inverse(i, i) * variance, by_views(i, i), 0.0})));
+  return deviations;
 }
 
 }  // namespace sigs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
+#include <glm/glm.hpp>
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <span>
@@ -17,16 +17,16 @@ namespace sigs {
 
 // Where the board is: p_in_optical = turn * p_on_board + at_m.
 struct BoardPose {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d at_m = {0, 0, 1};
+  glm::dmat3 turn{1};
+  glm::dvec3 at_m{0, 0, 1};
 
-  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& p_on_board) const { return turn * p_on_board + at_m; }
+  [[nodiscard]] glm::dvec3 operator*(const glm::dvec3& p_on_board) const { return turn * p_on_board + at_m; }
 };
 
 // The corners of a view that count.
 struct FitView {
-  std::vector<Eigen::Vector3d> on_board_m;
-  std::vector<Eigen::Vector2d> at_px;  // as many
+  std::vector<glm::dvec3> on_board_m;
+  std::vector<glm::dvec2> at_px;  // as many
 
   [[nodiscard]] std::size_t size() const { return at_px.size(); }
 };
@@ -40,11 +40,10 @@ struct LensFit {
   double cost = 0;  // sum of squared distances, px^2; with a threshold, of Huber's function of them
 };
 
-// What of the intrinsics may change, as d intrinsics / d free parameters: a column for each.
-using FreeIntrinsics = Eigen::MatrixXd;
+// What of the intrinsics may change: for each the number of the free parameter that is added to it, -1 where none is.
+using FreeIntrinsics = std::vector<int>;
 [[nodiscard]] FreeIntrinsics all_free(FitModel model);
-[[nodiscard]] FreeIntrinsics focal_length_alone(
-    FitModel model);  // fx and fy by the same factor, as long as they are equal
+[[nodiscard]] FreeIntrinsics focal_length_alone(FitModel model);  // fx and fy together
 [[nodiscard]] FreeIntrinsics none_free(FitModel model);
 
 struct FitLimits {
@@ -63,16 +62,16 @@ struct FitLimits {
                                                  const FitLimits& limits);
 
 // Distance of each corner from where the fit has it, measured minus projected; infinite where it has no pixel.
-[[nodiscard]] std::vector<Eigen::Vector2d> residuals_px(FitModel model, const Intrinsics& intrinsics,
-                                                        const BoardPose& pose, const FitView& view);
+[[nodiscard]] std::vector<glm::dvec2> residuals_px(FitModel model, const Intrinsics& intrinsics, const BoardPose& pose,
+                                                   const FitView& view);
 
 // Root of the mean square of the lengths.
-[[nodiscard]] double rms_px(std::span<const Eigen::Vector2d> residuals_px);
+[[nodiscard]] double rms_px(std::span<const glm::dvec2> residuals_px);
 
 // Covariance of the free intrinsics: the larger, for each parameter, of that from the residuals' variance and of the
 // one that lets errors within a view depend on each other (White 1980, by views). It is not smaller than what the
 // corners' own scatter says.
-[[nodiscard]] Eigen::VectorXd standard_deviations(std::span<const FitView> views, const LensFit& fit);
+[[nodiscard]] std::vector<double> standard_deviations(std::span<const FitView> views, const LensFit& fit);
 
 // A first lens from views of which up to half may be wrong, and the views and corners that agree with it.
 

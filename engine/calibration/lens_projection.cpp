@@ -3,113 +3,86 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 namespace sigs {
 
 namespace {
 
-constexpr int kVariables = 3 + kMostIntrinsics;  // of the point, of the lens
-
-// A number with its derivatives by all variables (forward differentiation).
-struct Jet {
-  double value = 0;
-  Eigen::Matrix<double, kVariables, 1> by = Eigen::Matrix<double, kVariables, 1>::Zero();
-
-  Jet() = default;
-  Jet(double number) : value(number) {}
-  static Jet variable(double number, int index) {
-    Jet jet(number);
-    jet.by[index] = 1;
-    return jet;
-  }
+// A point on the plane one focal length ahead, as the lens distorts it.
+struct Distorted {
+  glm::dvec2 at;
+  std::array<glm::dvec3, 2> by_point;
+  std::array<std::array<double, 8>, 2> by_coefficients{};
 };
-
-Jet with(double value, const Eigen::Matrix<double, kVariables, 1>& by) {
-  Jet jet(value);
-  jet.by = by;
-  return jet;
-}
-Jet operator+(const Jet& a, const Jet& b) {
-  return with(a.value + b.value, a.by + b.by);
-}
-Jet operator*(const Jet& a, const Jet& b) {
-  return with(a.value * b.value, a.by * b.value + b.by * a.value);
-}
-Jet operator/(const Jet& a, const Jet& b) {
-  const double quotient = a.value / b.value;
-  return with(quotient, (a.by - b.by * quotient) / b.value);
-}
-Jet sqrt(const Jet& a) {
-  const double root = std::sqrt(a.value);
-  return with(root, a.by / (2 * root));
-}
-Jet atan2(const Jet& y, const Jet& x) {
-  const double squares = y.value * y.value + x.value * x.value;
-  return with(std::atan2(y.value, x.value), (y.by * x.value - x.by * y.value) / squares);
-}
-double value_of(double number) {
-  return number;
-}
-double value_of(const Jet& number) {
-  return number.value;
-}
-
-template <class T>
-struct Plane {
-  T x, y;
-};
-
-// a0 + a1 x + a2 x^2 + ...
-template <class T>
-T polynomial(std::span<const T> a, const T& x) {
-  T sum = a.back();
-  for (std::size_t i = a.size() - 1; i-- > 0;) sum = a[i] + x * sum;
-  return sum;
-}
 
 // OpenCV's distortion with k1 k2 p1 p2 k3 and, where there are eight, k4 k5 k6. Nothing behind the camera.
-template <class T>
-std::optional<Plane<T>> brown_conrady(std::span<const T> k, const std::array<T, 3>& p) {
-  if (!(value_of(p[2]) > 1e-9)) return std::nullopt;
-  const T x = p[0] / p[2];
-  const T y = p[1] / p[2];
-  if (k.empty()) return Plane<T>{x, y};
-  const T r2 = x * x + y * y;
-  T radial = polynomial<T>(std::array<T, 4>{T(1), k[0], k[1], k[4]}, r2);
-  if (k.size() == 8) {
-    const T denominator = polynomial<T>(std::array<T, 4>{T(1), k[5], k[6], k[7]}, r2);
-    if (!(value_of(denominator) > 1e-6)) return std::nullopt;
-    radial = radial / denominator;
+std::optional<Distorted> brown_conrady(std::span<const double> k, const glm::dvec3& p) {
+  if (!(p.z > 1e-9)) return std::nullopt;
+  const double x = p.x / p.z, y = p.y / p.z;
+  Distorted d{.at = {x, y}};
+  double by_x = 1, by_y = 1, mixed = 0;  // of the first by x, of the second by y, of either by the other
+  if (!k.empty()) {
+    const double r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+    const double denominator = k.size() == 8 ? 1 + k[5] * r2 + k[6] * r4 + k[7] * r6 : 1;
+    if (!(denominator > 1e-6)) return std::nullopt;
+    const double radial = (1 + k[0] * r2 + k[1] * r4 + k[4] * r6) / denominator;
+    const double slope_above = k[0] + 2 * k[1] * r2 + 3 * k[4] * r4;
+    const double slope_below = k.size() == 8 ? k[5] + 2 * k[6] * r2 + 3 * k[7] * r4 : 0;
+    const double by_r2 = (slope_above - radial * slope_below) / denominator;
+    const double p1 = k[2], p2 = k[3];
+    d.at = {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x), y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
+    by_x = radial + 2 * x * x * by_r2 + 2 * p1 * y + 6 * p2 * x;
+    by_y = radial + 2 * y * y * by_r2 + 6 * p1 * y + 2 * p2 * x;
+    mixed = 2 * x * y * by_r2 + 2 * p1 * x + 2 * p2 * y;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double above = (axis == 0 ? x : y) / denominator, below = -above * radial;
+      d.by_coefficients[axis] = {above * r2,
+                                 above * r4,
+                                 axis == 0 ? 2 * x * y : r2 + 2 * y * y,
+                                 axis == 0 ? r2 + 2 * x * x : 2 * x * y,
+                                 above * r6,
+                                 below * r2,
+                                 below * r4,
+                                 below * r6};
+    }
   }
-  const T two_xy = T(2) * x * y;
-  return Plane<T>{x * radial + k[2] * two_xy + k[3] * (r2 + T(2) * x * x),
-                  y * radial + k[2] * (r2 + T(2) * y * y) + k[3] * two_xy};
+  d.by_point = {glm::dvec3(by_x, mixed, -by_x * x - mixed * y) / p.z,
+                glm::dvec3(mixed, by_y, -mixed * x - by_y * y) / p.z};
+  return d;
 }
 
 // OpenCV's fisheye model. The angle goes up to 180 degrees.
-template <class T>
-std::optional<Plane<T>> kannala_brandt(std::span<const T> k, const std::array<T, 3>& p) {
-  using std::atan2;
-  using std::sqrt;
-  const T r2 = p[0] * p[0] + p[1] * p[1];
-  if (value_of(r2) < 1e-18 * value_of(p[2]) * value_of(p[2])) {
-    if (!(value_of(p[2]) > 0)) return std::nullopt;
-    return Plane<T>{p[0] / p[2], p[1] / p[2]};
+std::optional<Distorted> kannala_brandt(std::span<const double> k, const glm::dvec3& p) {
+  const double r2 = p.x * p.x + p.y * p.y;
+  if (r2 < 1e-18 * p.z * p.z) return brown_conrady({}, p);
+  if (!(r2 > 0)) return std::nullopt;
+  const double r = std::sqrt(r2), angle = std::atan2(r, p.z), a2 = angle * angle;
+  const double distorted = angle * (1 + a2 * (k[0] + a2 * (k[1] + a2 * (k[2] + a2 * k[3]))));
+  const double by_angle = 1 + a2 * (3 * k[0] + a2 * (5 * k[1] + a2 * (7 * k[2] + a2 * 9 * k[3])));
+  const double distance2 = r2 + p.z * p.z;
+  const double scale = distorted / r;
+  const double scale_by_r = (by_angle * p.z / distance2 - scale) / r;
+  const double scale_by_z = -by_angle / distance2;
+  Distorted d{.at = {p.x * scale, p.y * scale}};
+  for (int i = 0; i < 2; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    d.by_point[axis] = p[i] * glm::dvec3(scale_by_r * p.x / r, scale_by_r * p.y / r, scale_by_z);
+    d.by_point[axis][i] += scale;
+    double power = angle;
+    for (std::size_t n = 0; n < 4; ++n) d.by_coefficients[axis][n] = p[i] / r * (power *= a2);
   }
-  if (!(value_of(r2) > 0)) return std::nullopt;
-  const T r = sqrt(r2);
-  const T angle = atan2(r, p[2]);
-  const T scale = angle * polynomial<T>(std::array<T, 5>{T(1), k[0], k[1], k[2], k[3]}, angle * angle) / r;
-  return Plane<T>{p[0] * scale, p[1] * scale};
+  return d;
 }
 
-template <class T>
-std::optional<Plane<T>> pixel(FitModel model, std::span<const T> all, const std::array<T, 3>& p) {
-  const std::span<const T> k = all.subspan(4);
-  const auto distorted = model == FitModel::kannala_brandt ? kannala_brandt<T>(k, p) : brown_conrady<T>(k, p);
-  if (!distorted) return std::nullopt;
-  return Plane<T>{all[0] * distorted->x + all[2], all[1] * distorted->y + all[3]};
+std::optional<Distorted> distorted(FitModel model, const Intrinsics& intrinsics, const glm::dvec3& p) {
+  const std::span<const double> k = std::span(intrinsics).subspan(4);
+  return model == FitModel::kannala_brandt ? kannala_brandt(k, p) : brown_conrady(k, p);
+}
+
+glm::dvec2 pixel_at(const Intrinsics& intrinsics, const glm::dvec2& at) {
+  return {intrinsics[0] * at.x + intrinsics[2], intrinsics[1] * at.y + intrinsics[3]};
 }
 
 }  // namespace
@@ -148,34 +121,32 @@ LensParameters lens_of(FitModel model, const Intrinsics& intrinsics) {
           .fy = intrinsics[1],
           .cx = intrinsics[2],
           .cy = intrinsics[3],
-          .coefficients = std::vector<double>(intrinsics.data() + 4, intrinsics.data() + intrinsics.size())};
+          .coefficients = std::vector<double>(intrinsics.begin() + 4, intrinsics.end())};
 }
 
-std::optional<ProjectedPoint> projected(FitModel model, const Intrinsics& intrinsics,
-                                        const Eigen::Vector3d& p_in_optical) {
-  std::array<Jet, kMostIntrinsics> lens;
-  const int count = intrinsic_count(model);
-  for (int i = 0; i < count; ++i) lens[i] = Jet::variable(intrinsics[i], 3 + i);
-  std::array<Jet, 3> point;
-  for (int i = 0; i < 3; ++i) point[i] = Jet::variable(p_in_optical[i], i);
-  const auto at = pixel<Jet>(model, std::span<const Jet>(lens).first(count), point);
-  if (!at) return std::nullopt;
-  ProjectedPoint result;
-  result.at_px = {at->x.value, at->y.value};
-  result.by_point << at->x.by.head<3>().transpose(), at->y.by.head<3>().transpose();
-  result.by_intrinsics << at->x.by.tail<kMostIntrinsics>().transpose(), at->y.by.tail<kMostIntrinsics>().transpose();
-  if (!result.at_px.allFinite() || !result.by_point.allFinite() || !result.by_intrinsics.allFinite())
-    return std::nullopt;
+std::optional<ProjectedPoint> projected(FitModel model, const Intrinsics& intrinsics, const glm::dvec3& p_in_optical) {
+  const std::optional<Distorted> d = distorted(model, intrinsics, p_in_optical);
+  if (!d) return std::nullopt;
+  ProjectedPoint result{.at_px = pixel_at(intrinsics, d->at)};
+  double sum = result.at_px.x + result.at_px.y;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double focal_px = intrinsics[axis];
+    result.by_point[axis] = focal_px * d->by_point[axis];
+    std::array<double, kMostIntrinsics>& by = result.by_intrinsics[axis];
+    by[axis] = d->at[static_cast<int>(axis)];
+    by[2 + axis] = 1;
+    for (std::size_t i = 4; i < intrinsics.size(); ++i) by[i] = focal_px * d->by_coefficients[axis][i - 4];
+    sum = std::accumulate(by.begin(), by.end(), sum + glm::dot(result.by_point[axis], glm::dvec3(1)));
+  }
+  if (!std::isfinite(sum)) return std::nullopt;
   return result;
 }
 
-std::optional<Eigen::Vector2d> pixel_of(FitModel model, const Intrinsics& intrinsics,
-                                        const Eigen::Vector3d& p_in_optical) {
-  const std::array<double, 3> point{p_in_optical[0], p_in_optical[1], p_in_optical[2]};
-  const std::span<const double> lens(intrinsics.data(), static_cast<std::size_t>(intrinsic_count(model)));
-  const auto at = pixel<double>(model, lens, point);
-  if (!at || !std::isfinite(at->x) || !std::isfinite(at->y)) return std::nullopt;
-  return Eigen::Vector2d(at->x, at->y);
+std::optional<glm::dvec2> pixel_of(FitModel model, const Intrinsics& intrinsics, const glm::dvec3& p_in_optical) {
+  const std::optional<Distorted> d = distorted(model, intrinsics, p_in_optical);
+  if (!d) return std::nullopt;
+  const glm::dvec2 at_px = pixel_at(intrinsics, d->at);
+  return std::isfinite(at_px.x) && std::isfinite(at_px.y) ? std::optional(at_px) : std::nullopt;
 }
 
 }  // namespace sigs

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,25 +31,25 @@ enum class FitModel {
 constexpr int kMostIntrinsics = 12;
 
 // fx fy cx cy, then the coefficients in OpenCV's order.
-using Intrinsics = Eigen::VectorXd;
+using Intrinsics = std::vector<double>;
 
 [[nodiscard]] LensParameters lens_of(FitModel model, const Intrinsics& intrinsics);
 
 // A pixel and how it moves with the point and with the intrinsics.
 struct ProjectedPoint {
-  Eigen::Vector2d at_px;
-  Eigen::Matrix<double, 2, 3> by_point;
-  Eigen::Matrix<double, 2, kMostIntrinsics> by_intrinsics;  // columns beyond intrinsic_count() are 0
+  glm::dvec2 at_px;
+  std::array<glm::dvec3, 2> by_point;                                // of x, of y
+  std::array<std::array<double, kMostIntrinsics>, 2> by_intrinsics;  // beyond intrinsic_count() they are 0
 };
 
 // The pixel of a point by the model's formula (OpenCV's projectPoints and fisheye::projectPoints), also beyond the
 // field in which it is one to one. Nothing where the formula has no value: behind a pinhole, at the camera, at a
 // denominator of 0.
 [[nodiscard]] std::optional<ProjectedPoint> projected(FitModel model, const Intrinsics& intrinsics,
-                                                      const Eigen::Vector3d& p_in_optical);
+                                                      const glm::dvec3& p_in_optical);
 
 // The pixel alone.
-[[nodiscard]] std::optional<Eigen::Vector2d> pixel_of(FitModel model, const Intrinsics& intrinsics,
-                                                      const Eigen::Vector3d& p_in_optical);
+[[nodiscard]] std::optional<glm::dvec2> pixel_of(FitModel model, const Intrinsics& intrinsics,
+                                                 const glm::dvec3& p_in_optical);
 
 }  // namespace sigs

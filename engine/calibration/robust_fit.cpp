@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "calibration/lens_fit.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <opencv2/core.hpp>
 #include <utility>
 
+#include "base/statistics.h"
 #include "ego_motion/sequence.h"
 
 namespace sigs {
@@ -28,16 +29,15 @@ constexpr double kSmallResidual_px = 0.3;  // no corner below is left out
 constexpr double kMostCornersLeftOut = 0.25;
 constexpr int kMostRounds = 8;
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return kNoError;
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
+// Infinite of no values, and where it lies between infinite ones.
+double quantile_or_none(std::vector<double> values, double share) {
+  const double found = quantile(std::move(values), share);
+  return std::isnan(found) ? kNoError : found;
 }
 
-std::vector<double> lengths(std::span<const Eigen::Vector2d> residuals) {
+std::vector<double> lengths(std::span<const glm::dvec2> residuals) {
   std::vector<double> all;
-  for (const Eigen::Vector2d& residual : residuals) all.push_back(residual.norm());
+  for (const glm::dvec2& residual : residuals) all.push_back(glm::length(residual));
   return all;
 }
 
@@ -52,16 +52,17 @@ std::vector<std::size_t> chosen_set(std::size_t views, Sequence& numbers) {
 
 // Focal length and the first two coefficients: the principal point of three views is uncertain.
 FreeIntrinsics first_free() {
-  FreeIntrinsics free = FreeIntrinsics::Zero(intrinsic_count(FitModel::kannala_brandt), 3);
-  free(0, 0) = free(1, 0) = free(4, 1) = free(5, 2) = 1;
+  FreeIntrinsics free = focal_length_alone(FitModel::kannala_brandt);
+  free[4] = 1;
+  free[5] = 2;
   return free;
 }
 
 // Fits a set from one focal length; nothing where the views have no pose with it.
 std::optional<LensFit> fit_of_set(std::span<const FitView> views, cv::Size size_px, double half_diagonal_rad) {
-  LensFit fit{.model = FitModel::kannala_brandt, .intrinsics = Intrinsics::Zero(8)};
+  LensFit fit{.model = FitModel::kannala_brandt};
   const double focal_px = std::hypot(size_px.width, size_px.height) / 2 / half_diagonal_rad;
-  fit.intrinsics.head<4>() << focal_px, focal_px, (size_px.width - 1) / 2.0, (size_px.height - 1) / 2.0;
+  fit.intrinsics = {focal_px, focal_px, (size_px.width - 1) / 2.0, (size_px.height - 1) / 2.0, 0, 0, 0, 0};
   const FitLimits quick{.huber_px = 3, .iterations = 12};
   for (const FitView& view : views) {
     const std::optional<BoardPose> pose = pose_seen(fit.model, fit.intrinsics, view, quick);
@@ -92,18 +93,19 @@ double score_of(LensFit& fit, std::span<const FitView> views) {
     const std::optional<BoardPose> pose =
         pose_seen(fit.model, fit.intrinsics, view, {.huber_px = kFirstHuber_px, .iterations = 10});
     fit.poses.push_back(pose.value_or(BoardPose{}));
-    errors_px.push_back(pose ? quantile(lengths(residuals_px(fit.model, fit.intrinsics, *pose, view)), 0.5) : kNoError);
+    errors_px.push_back(pose ? quantile_or_none(lengths(residuals_px(fit.model, fit.intrinsics, *pose, view)), 0.5)
+                             : kNoError);
   }
-  return quantile(std::move(errors_px), kBestShare);
+  return quantile_or_none(std::move(errors_px), kBestShare);
 }
 
 // The largest angle from the axis at which the fit has a corner.
 double largest_angle_rad(const LensFit& fit, std::span<const FitView> views) {
   double largest = 0;
   for (std::size_t v = 0; v < views.size(); ++v)
-    for (const Eigen::Vector3d& on_board : views[v].on_board_m) {
-      const Eigen::Vector3d p = fit.poses[v] * on_board;
-      largest = std::max(largest, std::atan2(p.head<2>().norm(), p.z()));
+    for (const glm::dvec3& on_board : views[v].on_board_m) {
+      const glm::dvec3 p = fit.poses[v] * on_board;
+      largest = std::max(largest, std::atan2(glm::length(glm::dvec2(p)), p.z));
     }
   return largest;
 }
@@ -125,10 +127,10 @@ Agreement agreement_of(const LensFit& fit, std::span<const FitView> views) {
   std::vector<double> medians;
   for (std::size_t v = 0; v < views.size(); ++v) {
     residuals.push_back(lengths(residuals_px(fit.model, fit.intrinsics, fit.poses[v], views[v])));
-    medians.push_back(quantile(residuals.back(), 0.5));
+    medians.push_back(quantile_or_none(residuals.back(), 0.5));
   }
   // The median length of two independent errors is 1.1774 standard deviations (Rayleigh).
-  const double deviation_px = quantile(medians, 0.5) / 1.1774;
+  const double deviation_px = quantile_or_none(medians, 0.5) / 1.1774;
   const double largest_px = std::max(kSmallResidual_px, kCornerDeviations * deviation_px);
   std::vector<double> left_out;
   for (const std::vector<double>& view : residuals) {
@@ -144,7 +146,8 @@ Agreement agreement_of(const LensFit& fit, std::span<const FitView> views) {
     left_out.push_back(1 - count / static_cast<double>(view.size()));
     agreement.error_px.push_back(count > 0 ? std::sqrt(squares / count) : kNoError);
   }
-  const double most_px = std::max(kSmallError_px, kLargestError * quantile(agreement.error_px, kReferenceShare));
+  const double most_px =
+      std::max(kSmallError_px, kLargestError * quantile_or_none(agreement.error_px, kReferenceShare));
   for (std::size_t v = 0; v < views.size(); ++v)
     agreement.view.push_back(agreement.error_px[v] <= most_px && left_out[v] <= kMostCornersLeftOut);
   return agreement;
@@ -174,7 +177,7 @@ double radius_of(const LensFit& fit, double angle_rad) {
   Intrinsics centred = fit.intrinsics;
   centred[2] = centred[3] = 0;
   const auto at = pixel_of(fit.model, centred, {std::sin(angle_rad), 0, std::cos(angle_rad)});
-  return at ? at->x() / centred[0] : 0;
+  return at ? at->x / centred[0] : 0;
 }
 
 }  // namespace
@@ -219,25 +222,23 @@ std::vector<FitView> agreeing(std::span<const FitView> views, const Agreement& a
 Intrinsics converted(const LensFit& from, FitModel to, double largest_angle_rad) {
   constexpr double kWidestTangent_rad = 1.25;  // beyond, tangents grow without bound
   constexpr int kSteps = 40;
-  Intrinsics lens = Intrinsics::Zero(intrinsic_count(to));
-  lens.head<4>() = from.intrinsics.head<4>();
   if (to == from.model) return from.intrinsics;
+  Intrinsics lens(from.intrinsics.begin(), from.intrinsics.begin() + 4);
+  lens.resize(static_cast<std::size_t>(intrinsic_count(to)), 0);
   const double end_rad = std::clamp(largest_angle_rad, 0.05, kWidestTangent_rad);
   // Least squares of r(angle) = f (t + k1 t^3 + k2 t^5 ...), as a0 t + a1 t^3 + a2 t^5.
   const int terms = to == FitModel::pinhole ? 1 : 3;
-  Eigen::MatrixXd rows(kSteps, terms);
-  Eigen::VectorXd radii(kSteps);
+  cv::Mat_<double> rows(kSteps, terms), radii(kSteps, 1), a;
   for (int i = 0; i < kSteps; ++i) {
     const double angle_rad = end_rad * (i + 1) / kSteps;
     const double t = to == FitModel::kannala_brandt ? angle_rad : std::tan(angle_rad);
     for (int k = 0; k < terms; ++k) rows(i, k) = std::pow(t, 2 * k + 1);
-    radii[i] = radius_of(from, angle_rad);
+    radii(i) = radius_of(from, angle_rad);
   }
-  const Eigen::VectorXd a = rows.colPivHouseholderQr().solve(radii);
-  if (!a.allFinite() || !(a[0] > 0)) return lens;
-  lens[0] *= a[0];
-  lens[1] *= a[0];
-  for (int k = 1; k < terms; ++k) lens[3 + k] = a[k] / a[0];
+  if (!cv::solve(rows, radii, a, cv::DECOMP_SVD) || !cv::checkRange(a) || !(a(0) > 0)) return lens;
+  lens[0] *= a(0);
+  lens[1] *= a(0);
+  for (int k = 1; k < terms; ++k) lens[static_cast<std::size_t>(3 + k)] = a(k) / a(0);
   return lens;
 }
 
@@ -298,9 +299,7 @@ std::vector<double> held_out_squares(std::span<const FitView> views, const LensF
 }
 
 double held_out_px(std::span<const double> squares) {
-  double sum = 0;
-  for (const double square : squares) sum += square;
-  return std::sqrt(sum / static_cast<double>(squares.size()));
+  return std::sqrt(mean(squares));
 }
 
 bool is_clearly_better(std::span<const double> squares, std::span<const double> than_these) {
@@ -313,12 +312,8 @@ bool is_clearly_better(std::span<const double> squares, std::span<const double> 
     if (std::isfinite(gain)) gains.push_back(gain);
   }
   if (gains.size() < 2) return true;  // the other cannot have these views
-  const auto count = static_cast<double>(gains.size());
-  double mean = 0;
-  for (const double gain : gains) mean += gain / count;
-  double variance = 0;
-  for (const double gain : gains) variance += std::pow(gain - mean, 2) / (count - 1);
-  return mean > 2 * std::sqrt(variance / count);
+  const double mean_error = standard_deviation(gains) / std::sqrt(static_cast<double>(gains.size()) - 1);
+  return mean(gains) > 2 * mean_error;
 }
 
 }  // namespace sigs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "ego_motion/attitude_plot.h"
+#include "ego_motion/ego_motion.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>

@@ -8,7 +8,6 @@
 #include "base/threads.h"
 #include "ego_motion/bundle.h"
 #include "ego_motion/rotation_fit.h"
-#include "ego_motion/turns.h"
 
 namespace sigs {
 
@@ -27,9 +26,9 @@ std::vector<int> keys_of(int first, int last, int every) {
   return keys;
 }
 
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, const Eigen::Quaterniond& to_from_from) {
-  const Eigen::Matrix3d r = to_from_from.toRotationMatrix();
-  return r * covariance * r.transpose();
+glm::dmat3 turned(const glm::dmat3& covariance, const glm::dquat& to_from_from) {
+  const glm::dmat3 r = glm::mat3_cast(to_from_from);
+  return r * covariance * glm::transpose(r);
 }
 
 // One run of frames that are linked to each other.
@@ -64,7 +63,8 @@ class Run {
   // First values, from frame to frame.
   void chain(std::span<FrameRotation> out) {
     for (std::size_t i = 1; i < out.size(); ++i)
-      out[i].start_from_camera = (out[i - 1].start_from_camera * steps_[i]->after_from_before.conjugate()).normalized();
+      out[i].start_from_camera =
+          glm::normalize(out[i - 1].start_from_camera * glm::conjugate(steps_[i]->after_from_before));
     chained_.clear();
     for (const FrameRotation& r : out) chained_.push_back(r.start_from_camera);
   }
@@ -76,17 +76,17 @@ class Run {
     // Frames before the middle of the overlap keep what the window before says of them.
     const int from = begin == 0 ? 0 : keys[static_cast<std::size_t>(settings_.window_overlap) / 2];
     const auto start = static_cast<std::size_t>(from);
-    const Eigen::Quaterniond world_from_start = out[start].start_from_camera;
-    const Eigen::Matrix3d start_covariance = out[start].covariance;
+    const glm::dquat world_from_start = out[start].start_from_camera;
+    const glm::dmat3 start_covariance = out[start].covariance;
     const FrameRotation at_start = located(solved, keys, from);
-    const Eigen::Quaterniond shift = (world_from_start * at_start.start_from_camera.conjugate()).normalized();
+    const glm::dquat shift = glm::normalize(world_from_start * glm::conjugate(at_start.start_from_camera));
     const int last = keys.back();
     parallel_for(last - from + 1, cores(), [&](int i) {
       const int f = from + i;
       if ((i == 0 && begin > 0) || control_.is_cancelled()) return;
       FrameRotation r = located(solved, keys, f);
-      r.start_from_camera = (shift * r.start_from_camera).normalized();
-      r.covariance += turned(start_covariance, r.start_from_camera.conjugate() * world_from_start);
+      r.start_from_camera = glm::normalize(shift * r.start_from_camera);
+      r.covariance += turned(start_covariance, glm::conjugate(r.start_from_camera) * world_from_start);
       r.is_linked = f > 0;
       out[static_cast<std::size_t>(f)] = r;
     });
@@ -104,9 +104,9 @@ class Run {
     const BundleFrame& next = solved.frames[b];
     BundleFrame guess;
     // The turn since the key frame as the chain has it, and what the chain misses by at the next key frame in parts.
-    const Eigen::Quaterniond ab = chained_[index(keys[a])].conjugate() * chained_[index(keys[b])];
-    const Eigen::Quaterniond af = chained_[index(keys[a])].conjugate() * chained_[index(f)];
-    const Eigen::Vector3d gap = vector_of((before.world_from_camera * ab).conjugate() * next.world_from_camera);
+    const glm::dquat ab = glm::conjugate(chained_[index(keys[a])]) * chained_[index(keys[b])];
+    const glm::dquat af = glm::conjugate(chained_[index(keys[a])]) * chained_[index(f)];
+    const glm::dvec3 gap = vector_of(glm::conjugate(before.world_from_camera * ab) * next.world_from_camera);
     guess.world_from_camera = before.world_from_camera * af * turn_of(share * gap);
     guess.position = (1 - share) * before.position + share * next.position;
     const LocatedFrame found = located_frame(solved, frames_[index(f)], guess, readout_s_);
@@ -127,7 +127,7 @@ class Run {
   const EgoMotionSettings& settings_;
   double readout_s_;
   const StepControl& control_;
-  std::vector<Eigen::Quaterniond> chained_;
+  std::vector<glm::dquat> chained_;
   std::vector<int> keys_;
 };
 
@@ -170,10 +170,10 @@ std::vector<FrameRotation> rotations_of(std::span<const FrameRays> frames, std::
         .solve(out);
     if (first > 0) {
       const FrameRotation& before = all[first - 1];
-      const Eigen::Quaterniond world_from_run = before.start_from_camera;
+      const glm::dquat world_from_run = before.start_from_camera;
       for (FrameRotation& r : out) {
-        r.covariance += turned(before.covariance, r.start_from_camera.conjugate());
-        r.start_from_camera = (world_from_run * r.start_from_camera).normalized();
+        r.covariance += turned(before.covariance, glm::conjugate(r.start_from_camera));
+        r.start_from_camera = glm::normalize(world_from_run * r.start_from_camera);
       }
     }
     first = end;
@@ -195,7 +195,7 @@ std::vector<double> drift_deviations(std::span<const FrameRotation> rotations, s
     while (k < rotations.size() && may_drift(k)) ++k;
     const std::size_t last = k - 1;
     const double seen_rad =
-        vector_of(rotations[before].start_from_camera.conjugate() * rotations[last].start_from_camera).norm();
+        glm::length(vector_of(glm::conjugate(rotations[before].start_from_camera) * rotations[last].start_from_camera));
     const double length_s = times_s[last] - times_s[before];
     const double rate_radps = std::min(kClouds_radps, length_s > 0 ? seen_rad / length_s : kClouds_radps);
     for (std::size_t i = before + 1; i <= last; ++i)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Geometry>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <span>
 #include <vector>
 
@@ -12,14 +13,19 @@ namespace sigs {
 
 // The camera's rotation at one frame, from features alone.
 struct FrameRotation {
-  Eigen::Quaterniond start_from_camera = Eigen::Quaterniond::Identity();  // against the camera at frame 0
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();      // of small turns about the camera's axes, rad^2
-  Eigen::Matrix3d own_covariance = Eigen::Matrix3d::Zero();  // the part that is independent from frame to frame
+  glm::dquat start_from_camera = glm::dquat(1, 0, 0, 0);  // against the camera at frame 0
+  glm::dmat3 covariance = glm::dmat3(0);                  // of small turns about the camera's axes, rad^2
+  glm::dmat3 own_covariance = glm::dmat3(0);              // the part that is independent from frame to frame
   ReadoutTurn readout_turn;  // what has to be added to the turns with which rays were unrolled; see rotations_of
   int features_used = 0;     // that agree with the rotation
   bool has_ground = true;    // something near moves by parallax, so that what stands still is known from what drifts
   bool is_linked = false;    // to the frame before; frame 0 is not
 };
+
+// The mean over the axes.
+[[nodiscard]] inline double mean_variance(const glm::dmat3& covariance) {
+  return (covariance[0][0] + covariance[1][1] + covariance[2][2]) / 3;
+}
 
 // The rotations of all frames.
 //   frames      features of each frame; rolling shutter is taken out already (unrolled)

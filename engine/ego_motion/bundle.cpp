@@ -1,46 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "ego_motion/bundle.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "ego_motion/turns.h"
+#include "base/least_squares.h"
+#include "base/pose.h"
+#include "base/statistics.h"
+#include "ego_motion/rotation_fit.h"
 
 namespace sigs {
 
 namespace {
 
-using Block63 = Eigen::Matrix<double, 6, 3>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
+constexpr int kOwn = 3;                       // unknowns of a landmark
+constexpr int kOfFrame = 6;                   // and of a frame
 constexpr double kLeastInverseDepth = -0.02;  // a little below 0, lest noise about 0 become a mean above it
 constexpr double kLargestInverseDepth = 50;
 
-double median_of(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double geman_mcclure(double squared, double scale_squared) {
-  const double root = 1 / (1 + squared / scale_squared);
-  return root * root;
-}
-
-// The normal equations with the landmarks eliminated, and what is needed to get the landmarks back.
+// The normal equations with the landmarks eliminated.
 class Adjustment {
  public:
   Adjustment(Bundle& bundle, const BundleSettings& settings) : bundle_(bundle), settings_(settings) {
-    size_ = 6 * (static_cast<Eigen::Index>(bundle.frames.size()) - 1);
     first_.assign(bundle.landmarks.size() + 1, 0);
     for (const BundleObservation& o : bundle.observations) ++first_[static_cast<std::size_t>(o.landmark) + 1];
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     projections_.resize(bundle.observations.size());
-    span_ = (bundle.frames.back().position - bundle.frames.front().position).norm();
+    span_ = glm::length(bundle.frames.back().position - bundle.frames.front().position);
   }
 
   BundleFit run(CancelFlag cancel) {
@@ -59,10 +46,6 @@ class Adjustment {
   }
 
  private:
-  [[nodiscard]] std::span<const BundleObservation> observations_of(std::size_t landmark) const {
-    return std::span(bundle_.observations).subspan(first_[landmark], first_[landmark + 1] - first_[landmark]);
-  }
-
   void project() {
     std::vector<double> lengths;
     lengths.reserve(projections_.size());
@@ -70,15 +53,15 @@ class Adjustment {
       const BundleObservation& o = bundle_.observations[i];
       const Landmark& landmark = bundle_.landmarks[static_cast<std::size_t>(o.landmark)];
       projections_[i] = projection(bundle_.frames[static_cast<std::size_t>(o.frame)], landmark, o.ray);
-      if (landmark.weight > 0.1 && landmark.trust > 0.5) lengths.push_back(projections_[i].residual.norm());
+      if (landmark.weight > 0.1 && landmark.trust > 0.5) lengths.push_back(glm::length(projections_[i].residual));
     }
-    constexpr double kSigmaOfMedian = 0.8493218;  // 1 / sqrt(2 ln 2), lengths of normal errors in two directions
     // Three unknowns of each landmark and six of each frame take up part of the errors.
     const double all = 2 * static_cast<double>(projections_.size());
     const double unknown =
         3 * static_cast<double>(bundle_.landmarks.size()) + 6 * static_cast<double>(bundle_.frames.size());
     const double share = std::sqrt(std::max(0.2, 1 - unknown / std::max(1.0, all)));
-    sigma_ = std::max(settings_.least_sigma_rad, std::max(least_sigma(), median_of(lengths) * kSigmaOfMedian) / share);
+    const double by_median = lengths.empty() ? 0 : median(std::move(lengths)) * kSigmaOfMedianLength;
+    sigma_ = std::max(settings_.least_sigma_rad, std::max(least_sigma(), by_median) / share);
   }
 
   // Sigma if the best three tenths of all trusted observations were the best of normal errors: the median over those
@@ -88,11 +71,9 @@ class Adjustment {
     std::vector<double> lengths;
     for (std::size_t i = 0; i < projections_.size(); ++i)
       if (bundle_.landmarks[static_cast<std::size_t>(bundle_.observations[i].landmark)].trust > 0.5)
-        lengths.push_back(projections_[i].residual.norm());
+        lengths.push_back(glm::length(projections_[i].residual));
     if (lengths.empty()) return 0;
-    const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(lengths.size()));
-    std::nth_element(lengths.begin(), at, lengths.end());
-    return *at / std::sqrt(-2 * std::log(1 - kShare));
+    return quantile(std::move(lengths), kShare) / std::sqrt(-2 * std::log(1 - kShare));
   }
 
   void weigh(double scale) {
@@ -102,7 +83,7 @@ class Adjustment {
     weights_.resize(projections_.size());
     for (std::size_t l = 0; l < bundle_.landmarks.size(); ++l) {
       double sum = 0;
-      for (std::size_t i = first_[l]; i < first_[l + 1]; ++i) sum += projections_[i].residual.squaredNorm() / 2;
+      for (std::size_t i = first_[l]; i < first_[l + 1]; ++i) sum += squared_length(projections_[i].residual) / 2;
       const auto count = static_cast<double>(first_[l + 1] - first_[l]);
       const double freedom = std::max(0.5, count - 1.5) / std::max(count, 1.0);
       const double mean = count > 0 ? sum / count / freedom : 0;
@@ -111,47 +92,44 @@ class Adjustment {
       for (std::size_t i = first_[l]; i < first_[l + 1]; ++i)
         weights_[i] =
             weight * bundle_.landmarks[l].trust *
-            geman_mcclure(projections_[i].residual.squaredNorm(), 2 * kObservation * kObservation * scale * scale);
+            geman_mcclure(squared_length(projections_[i].residual), 2 * kObservation * kObservation * scale * scale);
     }
   }
 
   void build() {
-    normal_ = Eigen::MatrixXd::Zero(size_, size_);
-    right_ = Eigen::VectorXd::Zero(size_);
-    inverses_.resize(bundle_.landmarks.size());
-    rights_.resize(bundle_.landmarks.size());
+    normal_ = NormalEquations(kOfFrame * (static_cast<int>(bundle_.frames.size()) - 1));
     for (std::size_t l = 0; l < bundle_.landmarks.size(); ++l) eliminate(l);
     add_smoothness();
     add_scale();
-    normal_.triangularView<Eigen::StrictlyUpper>() = normal_.transpose();
   }
 
-  // Adds what the landmark's observations tell of the frames. Only the lower triangle is filled.
-  void eliminate(std::size_t l) {
+  // A landmark's equations with what is expected of its inverse depth.
+  [[nodiscard]] NormalEquations expected(std::size_t l, int unknowns) const {
     const double prior = sigma_ * sigma_ / (settings_.inverse_depth_sd * settings_.inverse_depth_sd);
-    Eigen::Matrix3d own = Eigen::Matrix3d::Identity() * 1e-9;
-    own(2, 2) += prior;
-    Eigen::Vector3d right(0, 0, -prior * bundle_.landmarks[l].inverse_depth);
-    mixed_.clear();
+    NormalEquations own(unknowns);
+    for (int i = 0; i < kOwn; ++i) own.add_known(i, 1e-9);
+    own.add_known(kOwn - 1, prior, -bundle_.landmarks[l].inverse_depth);
+    return own;
+  }
+
+  // Adds what the landmark's observations tell of the frames.
+  void eliminate(std::size_t l) {
+    const auto count = static_cast<int>(first_[l + 1] - first_[l]);
+    NormalEquations equations = expected(l, kOwn + kOfFrame * count);
+    std::array<int, kOwn + kOfFrame> places{0, 1, 2};
+    std::vector<int> in_all;
     for (std::size_t i = first_[l]; i < first_[l + 1]; ++i) {
       const Projection& p = projections_[i];
-      const double w = weights_[i];
-      own += w * p.by_landmark.transpose() * p.by_landmark;
-      right += w * p.by_landmark.transpose() * p.residual;
-      const Eigen::Index at = 6 * (static_cast<Eigen::Index>(bundle_.observations[i].frame) - 1);
-      if (at < 0) continue;
-      normal_.block<6, 6>(at, at) += w * p.by_frame.transpose() * p.by_frame;
-      right_.segment<6>(at) += w * p.by_frame.transpose() * p.residual;
-      mixed_.emplace_back(at, w * p.by_frame.transpose() * p.by_landmark);
+      const int at = row_of(bundle_.observations[i].frame);
+      for (int k = 0; k < kOfFrame; ++k) {
+        places[static_cast<std::size_t>(kOwn + k)] = kOwn + static_cast<int>(in_all.size());
+        in_all.push_back(at < 0 ? -1 : at + k);
+      }
+      for (int axis = 0; axis < 2; ++axis)
+        equations.add(places, p.slopes[static_cast<std::size_t>(axis)], p.residual[axis], weights_[i]);
     }
-    inverses_[l] = own.inverse();
-    rights_[l] = right;
-    for (const auto& [at, mixed] : mixed_) {
-      const Block63 reduced = mixed * inverses_[l];
-      right_.segment<6>(at) -= reduced * right;
-      for (const auto& [other_at, other] : mixed_)
-        if (other_at <= at) normal_.block<6, 6>(at, other_at) -= reduced * other.transpose();
-    }
+    equations.eliminate(kOwn);
+    normal_.add(equations, in_all);
   }
 
   // The velocity changes little from one pair of frames to the next.
@@ -160,113 +138,117 @@ class Adjustment {
       const double before_s = bundle_.frames[k].time_s - bundle_.frames[k - 1].time_s;
       const double after_s = bundle_.frames[k + 1].time_s - bundle_.frames[k].time_s;
       const std::array<double, 3> factors{1 / before_s, -1 / before_s - 1 / after_s, 1 / after_s};
-      Eigen::Vector3d change = Eigen::Vector3d::Zero();
+      glm::dvec3 change(0);
       for (std::size_t i = 0; i < 3; ++i) change += factors[i] * bundle_.frames[k - 1 + i].position;
       const double sd = settings_.acceleration_sd * std::sqrt((before_s + after_s) / 2);
-      const double weight = sigma_ * sigma_ / (sd * sd);
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Eigen::Index at = place(k - 1 + i);
-        if (at < 0) continue;
-        right_.segment<3>(at) -= weight * factors[i] * change;
-        for (std::size_t j = 0; j <= i; ++j)
-          if (const Eigen::Index to = place(k - 1 + j); to >= 0)
-            normal_.block<3, 3>(at, to) += weight * factors[i] * factors[j] * Eigen::Matrix3d::Identity();
+      const std::size_t held = k == 1 ? 1 : 0;  // the first frame
+      for (int axis = 0; axis < 3; ++axis) {
+        std::array<int, 3> places{};
+        for (std::size_t i = 0; i < 3; ++i) places[i] = row_of(static_cast<int>(k - 1 + i)) + 3 + axis;
+        normal_.add(std::span(places).subspan(held), std::span(factors).subspan(held), -change[axis],
+                    sigma_ * sigma_ / (sd * sd));
       }
     }
   }
 
   // The distance from the first frame to the last is held: it sets the unit of length.
   void add_scale() {
-    const Eigen::Vector3d way = bundle_.frames.back().position - bundle_.frames.front().position;
-    if (!(way.norm() > 1e-9)) return;
-    const Eigen::Vector3d along = way.normalized();
-    const double weight = sigma_ * sigma_ / (1e-4 * span_ * span_);
-    const Eigen::Index at = place(bundle_.frames.size() - 1);
-    normal_.block<3, 3>(at, at) += weight * along * along.transpose();
-    right_.segment<3>(at) += weight * (span_ - way.norm()) * along;
+    const glm::dvec3 way = bundle_.frames.back().position - bundle_.frames.front().position;
+    const double length = glm::length(way);
+    if (!(length > 1e-9)) return;
+    const int at = row_of(static_cast<int>(bundle_.frames.size()) - 1) + 3;
+    const std::array<double, 3> along{way.x / length, way.y / length, way.z / length};
+    normal_.add(std::array{at, at + 1, at + 2}, along, span_ - length, sigma_ * sigma_ / (1e-4 * span_ * span_));
   }
 
-  // Row of the normal equations at which the position of frame k begins; negative for the first, which is held.
-  [[nodiscard]] static Eigen::Index place(std::size_t k) {
-    return k == 0 ? -1 : 6 * (static_cast<Eigen::Index>(k) - 1) + 3;
-  }
+  // Row of the normal equations at which a frame begins; negative for the first, which is held.
+  [[nodiscard]] static int row_of(int frame) { return kOfFrame * (frame - 1); }
 
   void step() {
-    Eigen::MatrixXd damped = normal_;
-    damped.diagonal().array() += 1e-9 + 1e-6 * normal_.diagonal().array();
-    const Eigen::VectorXd change = damped.ldlt().solve(right_);
-    if (!change.allFinite()) return;
+    NormalEquations damped = normal_;
+    damped.damp(1e-6, 1e-9);
+    const std::vector<double> change = damped.solved();
+    if (!std::all_of(change.begin(), change.end(), [](double c) { return std::isfinite(c); })) return;
     for (std::size_t l = 0; l < bundle_.landmarks.size(); ++l) move_landmark(l, change);
     for (std::size_t k = 1; k < bundle_.frames.size(); ++k) {
       BundleFrame& frame = bundle_.frames[k];
-      const Vector6 d = change.segment<6>(6 * (static_cast<Eigen::Index>(k) - 1));
-      frame.world_from_camera = (frame.world_from_camera * turn_of(d.head<3>())).normalized();
-      frame.position += d.tail<3>();
+      const double* const d = change.data() + row_of(static_cast<int>(k));
+      frame.world_from_camera = glm::normalize(frame.world_from_camera * turn_of({d[0], d[1], d[2]}));
+      frame.position += glm::dvec3(d[3], d[4], d[5]);
     }
   }
 
-  void move_landmark(std::size_t l, const Eigen::VectorXd& change) {
-    Eigen::Vector3d right = rights_[l];
+  // By its own equations, in which the frames have moved.
+  void move_landmark(std::size_t l, std::span<const double> change) {
+    NormalEquations equations = expected(l, kOwn);
     for (std::size_t i = first_[l]; i < first_[l + 1]; ++i) {
-      const Eigen::Index at = 6 * (static_cast<Eigen::Index>(bundle_.observations[i].frame) - 1);
-      if (at < 0) continue;
-      const Projection& p = projections_[i];
-      right -= weights_[i] * p.by_landmark.transpose() * (p.by_frame * change.segment<6>(at));
+      const int at = row_of(bundle_.observations[i].frame);
+      for (int axis = 0; axis < 2; ++axis) {
+        const std::span<const double> slopes = projections_[i].slopes[static_cast<std::size_t>(axis)];
+        double residual = projections_[i].residual[axis];
+        for (int k = 0; k < kOfFrame && at >= 0; ++k)
+          residual -= slopes[static_cast<std::size_t>(kOwn + k)] * change[static_cast<std::size_t>(at + k)];
+        equations.add(slopes.first(kOwn), residual, weights_[i]);
+      }
     }
-    const Eigen::Vector3d d = inverses_[l] * right;
+    const std::vector<double> d = equations.solved();
     Landmark& landmark = bundle_.landmarks[l];
-    landmark.direction = (landmark.direction + tangents_of(landmark.direction) * d.head<2>()).normalized();
-    landmark.inverse_depth = std::clamp(landmark.inverse_depth + d(2), kLeastInverseDepth, kLargestInverseDepth);
+    landmark.direction = glm::normalize(landmark.direction + tangents_of(landmark.direction) * glm::dvec2(d[0], d[1]));
+    landmark.inverse_depth = std::clamp(landmark.inverse_depth + d[2], kLeastInverseDepth, kLargestInverseDepth);
   }
 
   [[nodiscard]] BundleFit fit() const {
-    Eigen::MatrixXd damped = normal_;
-    damped.diagonal().array() += 1e-12;
-    const Eigen::MatrixXd inverse = damped.ldlt().solve(Eigen::MatrixXd::Identity(size_, size_));
-    BundleFit fit{.covariances = {Eigen::Matrix3d::Zero()}, .sigma_rad = sigma_};
-    for (Eigen::Index at = 0; at < size_; at += 6)
-      fit.covariances.emplace_back(sigma_ * sigma_ * inverse.block<3, 3>(at, at));
+    NormalEquations damped = normal_;
+    damped.damp(0, 1e-12);
+    const cv::Mat_<double> inverse = damped.inverse();
+    BundleFit fit{.covariances = {glm::dmat3(0)}, .sigma_rad = sigma_};
+    for (int at = 0; at < inverse.rows; at += kOfFrame)
+      fit.covariances.push_back(sigma_ * sigma_ * block_of(inverse, at));
     return fit;
   }
 
   Bundle& bundle_;
   const BundleSettings& settings_;
-  Eigen::Index size_ = 0;
   double span_ = 0;
   double sigma_ = 0;
   std::vector<std::size_t> first_;  // of each landmark's observations
   std::vector<Projection> projections_;
   std::vector<double> weights_;
-  std::vector<std::pair<Eigen::Index, Block63>> mixed_;
-  std::vector<Eigen::Matrix3d> inverses_;
-  std::vector<Eigen::Vector3d> rights_;
-  Eigen::MatrixXd normal_;
-  Eigen::VectorXd right_;
+  NormalEquations normal_;
 };
 
 }  // namespace
 
-Projection projection(const BundleFrame& frame, const Landmark& landmark, const Eigen::Vector3d& ray) {
-  const Eigen::Matrix3d camera_from_world = frame.world_from_camera.toRotationMatrix().transpose();
-  const Eigen::Vector3d way = frame.position - landmark.reference;
-  const Eigen::Vector3d v = camera_from_world * (landmark.direction - landmark.inverse_depth * way);
-  const double length = std::max(v.norm(), 1e-9);
-  const Eigen::Vector3d there = v / length;
-  const Eigen::Matrix<double, 2, 3> onto = tangents_of(ray).transpose();
-  const Eigen::Matrix<double, 2, 3> by_v = onto * (Eigen::Matrix3d::Identity() - there * there.transpose()) / length;
-  Projection p;
-  p.residual = -(onto * there);
-  if (there.dot(ray) < 0) p.residual *= 1e3;  // behind the camera
-  p.by_frame.leftCols<3>() = by_v * cross_matrix(v);
-  p.by_frame.rightCols<3>() = -landmark.inverse_depth * by_v * camera_from_world;
-  p.by_landmark.leftCols<2>() = by_v * (camera_from_world * tangents_of(landmark.direction));
-  p.by_landmark.col(2) = -by_v * (camera_from_world * way);
+Projection projection(const BundleFrame& frame, const Landmark& landmark, const glm::dvec3& ray) {
+  const glm::dmat3 world_from_camera = glm::mat3_cast(frame.world_from_camera);
+  const glm::dvec3 way = frame.position - landmark.reference;
+  const glm::dvec3 v = (landmark.direction - landmark.inverse_depth * way) * world_from_camera;  // by the transpose
+  const double length = std::max(glm::length(v), 1e-9);
+  const glm::dvec3 there = v / length;
+  const glm::dmat2x3 onto = tangents_of(ray);
+  const glm::dmat2x3 of_landmark = tangents_of(landmark.direction);
+  Projection p{.residual = -(there * onto)};
+  if (glm::dot(there, ray) < 0) p.residual *= 1e3;  // behind the camera
+  for (int axis = 0; axis < 2; ++axis) {
+    const glm::dvec3 by_v = (onto[axis] - glm::dot(onto[axis], there) * there) / length;
+    const glm::dvec3 by_place = world_from_camera * by_v;
+    const glm::dvec3 by_turn = glm::cross(by_v, v);
+    const double depth = -landmark.inverse_depth;
+    p.slopes[static_cast<std::size_t>(axis)] = {glm::dot(by_place, of_landmark[0]),
+                                                glm::dot(by_place, of_landmark[1]),
+                                                -glm::dot(by_place, way),
+                                                by_turn.x,
+                                                by_turn.y,
+                                                by_turn.z,
+                                                depth * by_place.x,
+                                                depth * by_place.y,
+                                                depth * by_place.z};
+  }
   return p;
 }
 
 BundleFit adjust(Bundle& bundle, const BundleSettings& settings, CancelFlag cancel) {
-  if (bundle.frames.size() < 2)
-    return {.covariances = std::vector<Eigen::Matrix3d>(bundle.frames.size(), Eigen::Matrix3d::Zero())};
+  if (bundle.frames.size() < 2) return {.covariances = std::vector<glm::dmat3>(bundle.frames.size(), glm::dmat3(0))};
   return Adjustment(bundle, settings).run(cancel);
 }
 
@@ -281,7 +263,7 @@ constexpr double kRough = 0.3;  // of the median inverse depth: what hills make 
 
 }  // namespace
 
-std::optional<Eigen::Vector3d> ground_of(std::span<const Landmark> landmarks) {
+std::optional<glm::dvec3> ground_of(std::span<const Landmark> landmarks) {
   std::vector<const Landmark*> near;
   std::vector<double> depths;
   for (const Landmark& landmark : landmarks)
@@ -290,26 +272,27 @@ std::optional<Eigen::Vector3d> ground_of(std::span<const Landmark> landmarks) {
       depths.push_back(landmark.inverse_depth);
     }
   if (near.size() < kLeastNear) return std::nullopt;
-  const double scale = kRough * median_of(depths);
-  Eigen::Vector3d ground = Eigen::Vector3d::Zero();
+  const double scale = kRough * median(std::move(depths));
+  glm::dvec3 ground(0);
   for (int round = 0; round < 8; ++round) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-6;
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    NormalEquations equations(3);
+    for (int i = 0; i < 3; ++i) equations.add_known(i, 1e-6);
     for (const Landmark* landmark : near) {
-      const double miss = round == 0 ? 0 : (landmark->inverse_depth - ground.dot(landmark->direction)) / scale;
-      const double root = 1 / (1 + miss * miss);
-      normal += root * root * landmark->direction * landmark->direction.transpose();
-      right += root * root * landmark->inverse_depth * landmark->direction;
+      const double miss = landmark->inverse_depth - glm::dot(ground, landmark->direction);
+      const glm::dvec3& d = landmark->direction;
+      equations.add(std::array{d.x, d.y, d.z}, landmark->inverse_depth,
+                    round == 0 ? 1 : geman_mcclure(miss * miss, scale * scale));
     }
-    ground = normal.ldlt().solve(right);
+    const std::vector<double> found = equations.solved();
+    ground = {found[0], found[1], found[2]};
   }
-  if (!ground.allFinite() || !(ground.norm() > kNear)) return std::nullopt;
+  if (!is_finite(ground) || !(glm::length(ground) > kNear)) return std::nullopt;
   return ground;
 }
 
-double trust_of(const std::optional<Eigen::Vector3d>& ground, const Eigen::Vector3d& direction) {
+double trust_of(const std::optional<glm::dvec3>& ground, const glm::dvec3& direction) {
   if (!ground) return 1;
-  const double above_rad = std::asin(std::clamp(-ground->normalized().dot(direction), -1.0, 1.0));
+  const double above_rad = std::asin(std::clamp(-glm::dot(glm::normalize(*ground), direction), -1.0, 1.0));
   const double share = std::clamp((above_rad - kHills_rad) / (kSky_rad - kHills_rad), 0.0, 1.0);
   return 1 - share * (1 - kSkyTrust);
 }

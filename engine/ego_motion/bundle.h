@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <array>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -20,15 +21,15 @@ namespace sigs {
 // The unit of length is what the camera flies in one second on average: nothing in the images tells the true scale.
 
 struct BundleFrame {
-  Eigen::Quaterniond world_from_camera = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  glm::dquat world_from_camera = glm::dquat(1, 0, 0, 0);
+  glm::dvec3 position = glm::dvec3(0);
   double time_s = 0;
 };
 
 // The point reference + direction / inverse_depth.
 struct Landmark {
-  Eigen::Vector3d reference = Eigen::Vector3d::Zero();   // fixed
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  // unit
+  glm::dvec3 reference = glm::dvec3(0);        // fixed
+  glm::dvec3 direction = glm::dvec3(1, 0, 0);  // unit
   double inverse_depth = 0;
   double weight = 1;  // 0..1: how far its observations agree with each other; set by adjust()
   double trust = 1;   // 0..1: how far it is known beforehand to stand still
@@ -37,13 +38,13 @@ struct Landmark {
 struct BundleObservation {
   int frame = 0;
   int landmark = 0;
-  Eigen::Vector3d ray;  // unit, camera axes
+  glm::dvec3 ray;  // unit, camera axes
 };
 
 struct Bundle {
   std::vector<BundleFrame> frames;  // the first is held
   std::vector<Landmark> landmarks;
-  std::vector<BundleObservation> observations;  // by rising landmark
+  std::vector<BundleObservation> observations;  // by rising landmark, of each by rising frame
 };
 
 struct BundleSettings {
@@ -56,9 +57,9 @@ struct BundleSettings {
 };
 
 struct BundleFit {
-  std::vector<Eigen::Matrix3d> covariances;  // of each frame's rotation against the first: small turns about the
-                                             // camera's axes, rad^2
-  double sigma_rad = 0;                      // of an observation in one direction
+  std::vector<glm::dmat3> covariances;  // of each frame's rotation against the first: small turns about the
+                                        // camera's axes, rad^2
+  double sigma_rad = 0;                 // of an observation in one direction
 };
 
 // Least squares with weights of Geman and McClure, of single observations and of whole landmarks, whose scale shrinks
@@ -69,11 +70,12 @@ struct BundleFit {
 
 // How far a camera's small turn and small motion, and a landmark's, move a point's image on the unit sphere.
 struct Projection {
-  Eigen::Vector2d residual;                 // seen less predicted, in the tangent plane of the ray
-  Eigen::Matrix<double, 2, 6> by_frame;     // of the prediction by (turn about the camera's axes, position)
-  Eigen::Matrix<double, 2, 3> by_landmark;  // by (two tangents of the direction, inverse depth)
+  glm::dvec2 residual;  // seen less predicted, in the tangent plane of the ray
+  // In each direction, of the prediction: by the landmark (two tangents of its direction, inverse depth), then by the
+  // frame (turn about the camera's axes, position).
+  std::array<std::array<double, 9>, 2> slopes{};
 };
-[[nodiscard]] Projection projection(const BundleFrame& frame, const Landmark& landmark, const Eigen::Vector3d& ray);
+[[nodiscard]] Projection projection(const BundleFrame& frame, const Landmark& landmark, const glm::dvec3& ray);
 
 // Ground stands still and clouds do not; the parallax of landmarks shows which is which. Over even ground the inverse
 // depth of a landmark rises in proportion to the sine of its angle below the horizon: inverse_depth = g . direction,
@@ -81,19 +83,19 @@ struct Projection {
 
 // g by least squares over landmarks that agree with the camera's motion and are near enough for parallax, with weights
 // of Geman and McClure against hills and houses. None where fewer than 15 are so, or they do not lie below a horizon.
-[[nodiscard]] std::optional<Eigen::Vector3d> ground_of(std::span<const Landmark> landmarks);
+[[nodiscard]] std::optional<glm::dvec3> ground_of(std::span<const Landmark> landmarks);
 
 // 1 below the horizon of `ground` and up to 3 degrees above it (hills), falling to kSkyTrust at 6 degrees. 1 where the
 // ground is not known.
-[[nodiscard]] double trust_of(const std::optional<Eigen::Vector3d>& ground, const Eigen::Vector3d& direction);
+[[nodiscard]] double trust_of(const std::optional<glm::dvec3>& ground, const glm::dvec3& direction);
 
 // Key frames with the landmarks that they see, adjusted together.
 struct KeyFrames {
   std::vector<BundleFrame> frames;              // the first has no rotation
-  std::vector<Eigen::Matrix3d> covariances;     // of their rotations against the first
+  std::vector<glm::dmat3> covariances;          // of their rotations against the first
   std::unordered_map<int, Landmark> landmarks;  // by the feature's id
   double sigma_rad = 0;                         // of one feature in one frame, in one direction
-  std::optional<Eigen::Vector3d> ground;        // as ground_of() has it; none: nothing near shows parallax
+  std::optional<glm::dvec3> ground;             // as ground_of() has it; none: nothing near shows parallax
 };
 
 // Adjusts key frames: first each few with those shortly before them, so that the first values need not be good over the
@@ -101,13 +103,13 @@ struct KeyFrames {
 //   first_values  rotations of all frames, from frame to frame
 //   keys          numbers of the key frames, two or more, rising
 [[nodiscard]] KeyFrames adjusted_keys(std::span<const FrameRays> frames, std::span<const double> times_s,
-                                      std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys,
+                                      std::span<const glm::dquat> first_values, std::span<const int> keys,
                                       double pixel_rad, CancelFlag cancel = nullptr);
 
 // A frame's rotation from the landmarks that it sees.
 struct LocatedFrame {
-  Eigen::Quaterniond world_from_camera;
-  Eigen::Matrix3d covariance;  // of this frame alone, landmarks taken as known, rad^2
+  glm::dquat world_from_camera;
+  glm::dmat3 covariance;  // of this frame alone, landmarks taken as known, rad^2
   int features_used = 0;
   ReadoutTurn readout_turn;  // to be added to the one with which rays were unrolled; see located_frame
 };
@@ -121,6 +123,6 @@ struct LocatedFrame {
 
 // The direction in which the camera moves between two frames, unit, in the axes of the first: the one to which the
 // paths of all features on the sphere lead (the focus of expansion). Forward where nothing moves by parallax.
-[[nodiscard]] Eigen::Vector3d direction_of_motion(std::span<const RayPair> pairs_without_rotation, double pixel_rad);
+[[nodiscard]] glm::dvec3 direction_of_motion(std::span<const RayPair> pairs_without_rotation, double pixel_rad);
 
 }  // namespace sigs

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/pose.h"
 #include "base/threads.h"
 #include "ego_motion/attitudes.h"
 #include "ego_motion/features.h"
@@ -14,7 +15,6 @@
 #include "ego_motion/gyro_fusion.h"
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
-#include "ego_motion/turns.h"
 #include "horizon/horizon.h"
 #include "video/luma_stream.h"
 
@@ -124,8 +124,7 @@ class Estimate {
     const double height = std::max(1, camera_.size_px.height - 1);
     for (const Feature& feature : tracker.next(frame.luma)) {
       const glm::dvec2 pixel(feature.pixel_px.x, feature.pixel_px.y);
-      if (const auto ray = camera_.lens.ray(pixel))
-        rays.push_back({feature.id, eigen_of(*ray), pixel.y / height - 0.5});
+      if (const auto ray = camera_.lens.ray(pixel)) rays.push_back({feature.id, *ray, pixel.y / height - 0.5});
     }
     seen_.rays.push_back(std::move(rays));
     seen_.repeated.push_back(tracker.is_repeated());
@@ -198,9 +197,9 @@ class Estimate {
   void take_focal_length(double factor) {
     motion_.focal_factor = factor;
     for (FrameRays& frame : seen_.rays)
-      for (RayObservation& o : frame) o.ray = Eigen::Vector3d(factor * o.ray.x(), o.ray.y(), o.ray.z()).normalized();
+      for (RayObservation& o : frame) o.ray = glm::normalize(glm::dvec3(factor * o.ray.x, o.ray.y, o.ray.z));
     for (HorizonLine& line : seen_.lines) {
-      line.up = Eigen::Vector3d(line.up.x() / factor, line.up.y(), line.up.z()).normalized();
+      line.up = glm::normalize(glm::dvec3(line.up.x / factor, line.up.y, line.up.z));
       for (double* angle_rad : {&line.sd_rad, &line.haze_rad, &line.hills_rad}) *angle_rad /= factor;
     }
     seen_.pixel_rad /= factor;
@@ -217,7 +216,7 @@ class Estimate {
     if (fits || !ray || !(ray->x > 0)) return;
     if (settings_.fits_focal_length && camera_.lens.is_pinhole()) return take_focal_length(found.value);
     const double half_rad = std::acos(std::clamp(ray->x, 0.0, 1.0));
-    const auto field_deg = [&](double scale) { return 2 * std::atan(std::tan(half_rad) / scale) * 57.29577951308232; };
+    const auto field_deg = [&](double scale) { return 2 * deg_of_rad(std::atan(std::tan(half_rad) / scale)); };
     const std::string narrow = found.largest > 0 ? fmt::format("{:.0f} to", field_deg(found.largest)) : "at most";
     const std::string what = fmt::format(
         "the images turn as with a field of view of {} {:.0f} degrees across, the calibration has {:.0f}: zoomed, "
@@ -232,18 +231,18 @@ class Estimate {
     const std::size_t count = std::min(turns.times_s.size(), turns.values.size());
     double largest = 0;
     for (std::size_t i = 0; i < count; ++i)
-      largest = std::max(largest, vector_of(eigen_of(turns.values[i]).normalized()).norm());
+      largest = std::max(largest, glm::length(vector_of(glm::normalize(turns.values[i]))));
     if (!(largest > kStabilized_rad)) return;
     motion_.is_stabilized = true;
     warn(fmt::format(
         "the log says that the camera stabilized its images, by up to {:.1f} degrees: attitudes are those of "
         "the images",
-        largest * 57.29577951308232));
+        deg_of_rad(largest)));
     for (const double time_s : times_s_) {
       const auto after = std::lower_bound(turns.times_s.begin(),
                                           turns.times_s.begin() + static_cast<std::ptrdiff_t>(count), time_s - 1e-4);
       const auto i = std::min(count - 1, static_cast<std::size_t>(after - turns.times_s.begin()));
-      stabilization_.push_back(eigen_of(turns.values[i]).normalized());
+      stabilization_.push_back(glm::normalize(turns.values[i]));
     }
   }
 
@@ -291,15 +290,15 @@ class Estimate {
   }
 
   // Mean of the turns to this frame and from it, per second.
-  [[nodiscard]] Eigen::Vector3d rate_at(std::size_t k) const {
-    Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
+  [[nodiscard]] glm::dvec3 rate_at(std::size_t k) const {
+    glm::dvec3 turn_rad(0);
     double length_s = 0;
     for (std::size_t i = std::max<std::size_t>(k, 1); i <= k + 1 && i < steps_.size(); ++i) {
       if (!steps_[i]) continue;
       turn_rad -= vector_of(steps_[i]->after_from_before);
       length_s += times_s_[i] - times_s_[i - 1];
     }
-    return length_s > 0 ? Eigen::Vector3d(turn_rad / length_s) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    return length_s > 0 ? turn_rad / length_s : glm::dvec3(0);
   }
 
   // From what the adjustment says to what is reported: no feature is exact, and the errors of one feature in successive
@@ -310,8 +309,8 @@ class Estimate {
     const double factor = std::pow(settings_.sd_factor, 2);
     const double growth = std::pow(settings_.sd_growth, 2);
     constexpr double kFloor_px = 0.01;
-    const Eigen::Matrix3d floor = Eigen::Matrix3d::Identity() * std::pow(kFloor_px * seen_.pixel_rad, 2);
-    const auto slow = [](const FrameRotation& r) { return (r.covariance - r.own_covariance).trace() / 3; };
+    const glm::dmat3 floor(std::pow(kFloor_px * seen_.pixel_rad, 2));
+    const auto slow = [](const FrameRotation& r) { return mean_variance(r.covariance - r.own_covariance); };
     const auto first_key = std::min(rotations.size() - 1, static_cast<std::size_t>(settings_.key_every));
     const double at_first = slow(rotations[first_key]);
     const std::vector<double> clouds_rad = drift_deviations(rotations, times_s_);
@@ -323,7 +322,7 @@ class Estimate {
       const double walk = std::pow(settings_.sd_walk_px * seen_.pixel_rad, 2) * (times_s_[k] - times_s_[0]);
       const double grown = std::max(0.0, slow(r) - at_first) / std::max(slow(r), 1e-18);
       r.covariance = factor * r.covariance + growth * grown * (r.covariance - r.own_covariance) + floor;
-      r.covariance += Eigen::Matrix3d::Identity() * (walk + clouds_rad[k] * clouds_rad[k]);
+      r.covariance += glm::dmat3(1) * (walk + clouds_rad[k] * clouds_rad[k]);
       r.own_covariance = factor * r.own_covariance + floor;
     }
     if (!doubtful.empty())
@@ -332,8 +331,8 @@ class Estimate {
   }
 
   void fill(const std::vector<FrameRotation>& of_images, const std::vector<FrameRotation>& rotations) {
-    Eigen::Quaterniond level = Eigen::Quaterniond::Identity();
-    std::vector<Eigen::Quaterniond> turns;
+    glm::dquat level(1, 0, 0, 0);
+    std::vector<glm::dquat> turns;
     for (const FrameRotation& r : rotations) turns.push_back(r.start_from_camera);
     if (const auto found = level_of(seen_.lines, turns)) {
       level = world_from_start(found->up_in_start);
@@ -345,11 +344,11 @@ class Estimate {
       frame.is_lost = k > 0 && !rotations[k].is_linked;
       frame.is_cut = frame.is_lost && has_enough(k - 1) && has_enough(k);
       known = known && !frame.is_lost;
-      frame.world_from_camera = glm_of((level * rotations[k].start_from_camera).normalized());
+      frame.world_from_camera = glm::normalize(level * rotations[k].start_from_camera);
       for (int axis = 0; axis < 3; ++axis) {
-        frame.sd_rad[axis] = known ? std::min(kUnknownRotation_rad, std::sqrt(rotations[k].covariance(axis, axis)))
+        frame.sd_rad[axis] = known ? std::min(kUnknownRotation_rad, std::sqrt(rotations[k].covariance[axis][axis]))
                                    : kUnknownRotation_rad;
-        frame.step_sd_rad[axis] = std::sqrt(of_images[k].own_covariance(axis, axis));
+        frame.step_sd_rad[axis] = std::sqrt(of_images[k].own_covariance[axis][axis]);
       }
       motion_.frames.push_back(frame);
     }
@@ -374,10 +373,10 @@ class Estimate {
   const std::vector<double>& times_s_;
   Seen seen_;
   std::vector<std::optional<RotationFit>> steps_;
-  std::vector<Eigen::Quaterniond> stabilization_;  // camera from image, at each frame; empty: none
+  std::vector<glm::dquat> stabilization_;  // camera from image, at each frame; empty: none
   std::optional<RateIntegral> rates_;
   TimeOffset offset_;
-  Eigen::Quaterniond camera_from_gyro_ = Eigen::Quaterniond::Identity();
+  glm::dquat camera_from_gyro_{1, 0, 0, 0};
   std::vector<RecordedTurn> recorded_;
   bool is_unrolled_ = false;  // rays are as if all rows were exposed with the middle one
   EgoMotion motion_;

@@ -108,6 +108,11 @@ inline constexpr double kMaxUnknownShare = 0.5;
 // another axis, and no gyroscope that was compared with the images.
 void add_log(Track& attitudes, const Track& log, const EgoMotion& motion);
 
+// Roll, pitch and yaw over time, a diagram each, one below the other, with two standard deviations of the rotation
+// since frame 0 on both sides (about the camera's axes, which for small rolls are those of the angles). Where nothing
+// is known the background is grey. BGR, 8 bits. The motion has at least one frame.
+[[nodiscard]] cv::Mat attitude_plot(const EgoMotion& motion);
+
 // Looks for runs of repeated frames too long for a doubled one, of which nothing can be known; marks them lost and all
 // that follows unknown; then adds the warnings that name frames: lost, cut, repeated, no horizon.
 void add_doubtful_frames(EgoMotion& motion, const std::string& where);

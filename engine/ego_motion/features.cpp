@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "base/statistics.h"
+
 namespace sigs {
 
 namespace {
@@ -59,12 +61,6 @@ bool is_same_image(const cv::Mat& a, const cv::Mat& b) {
 
 cv::TermCriteria stop() {
   return {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations, kStop_px};
-}
-
-float median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -130,7 +126,7 @@ void FeatureTracker::follow() {
   points_ = there;
   keep(good);
   unbias();
-  drift_ = dx.empty() ? cv::Point2f() : cv::Point2f(median(dx), median(dy));
+  drift_ = dx.empty() ? cv::Point2f() : cv::Point2f(cv::Point2d(median(dx), median(dy)));
   std::size_t together = 0;
   for (std::size_t i = 0; i < dx.size(); ++i)
     together += std::hypot(dx[i] - drift_.x, dy[i] - drift_.y) < kApart_px + 0.5F * std::hypot(drift_.x, drift_.y);

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/statistics.h"
 #include "base/threads.h"
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/sequence.h"
@@ -35,16 +36,14 @@ double scale_at(double index) {
 }
 
 // The ray as a camera with another focal length has it.
-Eigen::Vector3d scaled(const Eigen::Vector3d& ray, double scale) {
-  return Eigen::Vector3d(ray.x() * scale, ray.y(), ray.z()).normalized();
+glm::dvec3 scaled(const glm::dvec3& ray, double scale) {
+  return glm::normalize(glm::dvec3(ray.x * scale, ray.y, ray.z));
 }
 
 double median_motion_rad(const std::vector<RayPair>& pairs) {
   std::vector<double> motions;
-  for (const RayPair& pair : pairs) motions.push_back((pair.after - pair.before).norm());
-  const auto middle = motions.begin() + static_cast<std::ptrdiff_t>(motions.size() / 2);
-  std::nth_element(motions.begin(), middle, motions.end());
-  return *middle;
+  for (const RayPair& pair : pairs) motions.push_back(glm::length(pair.after - pair.before));
+  return median(std::move(motions));
 }
 
 // Pairs of frames with the most motion between them.
@@ -59,7 +58,7 @@ std::vector<std::vector<RayPair>> moving_pairs(std::span<const FrameRays> frames
     for (const std::size_t gap : kGaps) {
       if (first + gap >= frames.size()) break;
       std::vector<RayPair> rays = common_rays(frames[first], frames[first + gap]);
-      std::erase_if(rays, [](const RayPair& r) { return !(r.before.x() > 0 && r.after.x() > 0); });
+      std::erase_if(rays, [](const RayPair& r) { return !(r.before.x > 0 && r.after.x > 0); });
       if (rays.size() < kLeastCommon) continue;
       const double motion_rad = median_motion_rad(rays);
       if (motion_rad > kLeastMotion_px * pixel_rad) candidates.push_back({motion_rad, std::move(rays)});
@@ -76,13 +75,13 @@ double cost_of(const std::vector<RayPair>& rays, double scale, double pixel_rad)
   std::vector<RayPair> pairs;
   for (const RayPair& ray : rays) pairs.push_back({scaled(ray.before, scale), scaled(ray.after, scale)});
   // Off the axis a pixel spans less.
-  const auto width_rad = [&](const Eigen::Vector3d& ray) { return pixel_rad / scale * ray.x(); };
+  const auto width_rad = [&](const glm::dvec3& ray) { return pixel_rad / scale * ray.x; };
   const auto fit = fitted_rotation(pairs, {.inlier_rad = kInlier_px * pixel_rad / scale});
   if (!fit) return 1;
   double sum = 0;
   for (const RayPair& pair : pairs) {
     const double miss_px =
-        (fit->after_from_before * pair.before - pair.after).norm() / (kAgree_px * width_rad(pair.after));
+        glm::length(fit->after_from_before * pair.before - pair.after) / (kAgree_px * width_rad(pair.after));
     sum += miss_px * miss_px / (1 + miss_px * miss_px);
   }
   return sum / static_cast<double>(pairs.size());
@@ -125,9 +124,8 @@ std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double 
   std::vector<double> drawn;
   for (int draw = 0; draw < kDraws; ++draw)
     drawn.push_back(least_at(sum_of([&](std::size_t) { return chance.below(costs.size()); })));
-  std::sort(drawn.begin(), drawn.end());
-  const double low = drawn[kDraws / 40];
-  const double high = drawn[kDraws - 1 - kDraws / 40];
+  const double low = quantile(drawn, 0.025);
+  const double high = quantile(drawn, 0.975);
   constexpr double kStep = 0.5;  // the grid's own error
   FocalScale found{.value = scale_at(at), .least = scale_at(low - kStep), .largest = scale_at(high + kStep)};
   if (high > kScales - 2) found.largest = 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Geometry>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,20 +15,19 @@ namespace sigs {
 // How the camera turned between successive frames, by the gyroscope.
 struct RecordedTurn {
   bool is_known = false;  // the log covers the interval
-  Eigen::Quaterniond before_from_after = Eigen::Quaterniond::Identity();
+  glm::dquat before_from_after = glm::dquat(1, 0, 0, 0);
 };
 
 // Turns from frame k - 1 to k (entry 0 has none), in the axes of the image: `camera_from_gyro` turns the gyroscope's
 // axes, `camera_from_image` what stabilisation in the camera has done (empty: nothing), both of small angle or not.
 [[nodiscard]] std::vector<RecordedTurn> recorded_turns(std::span<const double> times_s, const RateIntegral& rates,
-                                                       const TimeOffset& offset,
-                                                       const Eigen::Quaterniond& camera_from_gyro,
-                                                       std::span<const Eigen::Quaterniond> camera_from_image);
+                                                       const TimeOffset& offset, const glm::dquat& camera_from_gyro,
+                                                       std::span<const glm::dquat> camera_from_image);
 
 // How the gyroscope's axes lie to the camera's, from turns seen and recorded (Wahba 1965). Directions about which the
 // footage does not turn enough stay as they are.
-[[nodiscard]] Eigen::Quaterniond gyro_alignment(std::span<const SeenTurn> turns, const RateIntegral& rates,
-                                                const TimeOffset& offset);
+[[nodiscard]] glm::dquat gyro_alignment(std::span<const SeenTurn> turns, const RateIntegral& rates,
+                                        const TimeOffset& offset);
 
 // Rotations seen and recorded, joined: each by its standard deviation; the gyroscope's bias is estimated with them. A
 // linear Kalman filter and Rauch-Tung-Striebel smoother (Gelb: Applied Optimal Estimation, 1974, chapter 5) of what the

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "ego_motion/bundle.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "ego_motion/turns.h"
+#include "base/least_squares.h"
+#include "base/pose.h"
+#include "ego_motion/rotation_fit.h"
 
 namespace sigs {
 
@@ -26,8 +25,7 @@ constexpr double kPositionSd = 0.01;         // of a frame between its key frame
 class KeyAdjuster {
  public:
   KeyAdjuster(std::span<const FrameRays> frames, std::span<const double> times_s,
-              std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys, double pixel_rad,
-              CancelFlag cancel)
+              std::span<const glm::dquat> first_values, std::span<const int> keys, double pixel_rad, CancelFlag cancel)
       : frames_(frames),
         times_s_(times_s),
         first_values_(first_values),
@@ -60,11 +58,11 @@ class KeyAdjuster {
   // worse than turns do.
   BundleFit adjust_turns() {
     bundle_settings_.inverse_depth_sd = 1e-7;
-    const Eigen::Quaterniond start_from_world = first_values_[at(0)].conjugate();
+    const glm::dquat start_from_world = glm::conjugate(first_values_[at(0)]);
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       const double time_s = times_s_[at(k)];
-      result_.frames.push_back({.world_from_camera = (start_from_world * first_values_[at(k)]).normalized(),
-                                .position = Eigen::Vector3d::UnitX() * (time_s - times_s_[at(0)]),
+      result_.frames.push_back({.world_from_camera = glm::normalize(start_from_world * first_values_[at(k)]),
+                                .position = glm::dvec3(1, 0, 0) * (time_s - times_s_[at(0)]),
                                 .time_s = time_s});
     }
     return adjust_range(0, keys_.size(), 10);
@@ -82,19 +80,19 @@ class KeyAdjuster {
   // The next key frame goes on from the one before as the chain turns and in the direction in which the features flow.
   void append(std::size_t k) {
     const BundleFrame& before = result_.frames.back();
-    const Eigen::Quaterniond turn = first_values_[at(k - 1)].conjugate() * first_values_[at(k)];
+    const glm::dquat turn = glm::conjugate(first_values_[at(k - 1)]) * first_values_[at(k)];
     std::vector<RayPair> pairs = common_rays(frames_[at(k - 1)], frames_[at(k)]);
     for (RayPair& pair : pairs) pair.after = turn * pair.after;
     const double step_s = times_s_[at(k)] - times_s_[at(k - 1)];
-    const Eigen::Vector3d direction = before.world_from_camera * direction_of_motion(pairs, pixel_rad_);
-    Eigen::Vector3d velocity = direction;
+    const glm::dvec3 direction = before.world_from_camera * direction_of_motion(pairs, pixel_rad_);
+    glm::dvec3 velocity = direction;
     if (k >= 2) {
       const BundleFrame& older = result_.frames[k - 2];
-      const Eigen::Vector3d last = (before.position - older.position) / (before.time_s - older.time_s);
+      const glm::dvec3 last = (before.position - older.position) / (before.time_s - older.time_s);
       // Once landmarks have a scale, the speed has to go on with it.
-      velocity = k < kAddedKeys + 1 ? direction * last.norm() : last;
+      velocity = k < kAddedKeys + 1 ? direction * glm::length(last) : last;
     }
-    result_.frames.push_back({.world_from_camera = (before.world_from_camera * turn).normalized(),
+    result_.frames.push_back({.world_from_camera = glm::normalize(before.world_from_camera * turn),
                               .position = before.position + velocity * step_s,
                               .time_s = times_s_[at(k)]});
   }
@@ -132,15 +130,15 @@ class KeyAdjuster {
     if (const auto known = result_.landmarks.find(id); known != result_.landmarks.end()) return known->second;
     const BundleFrame& first = bundle.frames[static_cast<std::size_t>(observations.front().frame)];
     Landmark landmark{.reference = first.position,
-                      .direction = (first.world_from_camera * observations.front().ray).normalized()};
+                      .direction = glm::normalize(first.world_from_camera * observations.front().ray)};
     double top = 0;
     double bottom = 1e-4;
     for (const BundleObservation& o : observations) {
       const BundleFrame& frame = bundle.frames[static_cast<std::size_t>(o.frame)];
-      const Eigen::Vector3d ray = frame.world_from_camera * o.ray;
-      const Eigen::Vector3d by_depth = (frame.position - landmark.reference).cross(ray);
-      top += landmark.direction.cross(ray).dot(by_depth);
-      bottom += by_depth.squaredNorm();
+      const glm::dvec3 ray = frame.world_from_camera * o.ray;
+      const glm::dvec3 by_depth = glm::cross(frame.position - landmark.reference, ray);
+      top += glm::dot(glm::cross(landmark.direction, ray), by_depth);
+      bottom += squared_length(by_depth);
     }
     landmark.inverse_depth = std::clamp(top / bottom, 0.0, 2.0);
     return landmark;
@@ -148,54 +146,53 @@ class KeyAdjuster {
 
   std::span<const FrameRays> frames_;
   std::span<const double> times_s_;
-  std::span<const Eigen::Quaterniond> first_values_;
+  std::span<const glm::dquat> first_values_;
   std::span<const int> keys_;
   double pixel_rad_;
   CancelFlag cancel_;
   BundleSettings bundle_settings_;
-  std::optional<Eigen::Vector3d> ground_;  // of the last adjustment
+  std::optional<glm::dvec3> ground_;  // of the last adjustment
   KeyFrames result_;
 };
 
 }  // namespace
 
 KeyFrames adjusted_keys(std::span<const FrameRays> frames, std::span<const double> times_s,
-                        std::span<const Eigen::Quaterniond> first_values, std::span<const int> keys, double pixel_rad,
+                        std::span<const glm::dquat> first_values, std::span<const int> keys, double pixel_rad,
                         CancelFlag cancel) {
   return KeyAdjuster(frames, times_s, first_values, keys, pixel_rad, cancel).solved();
 }
 
-Eigen::Vector3d direction_of_motion(std::span<const RayPair> pairs, double pixel_rad) {
-  const Eigen::Vector3d forward = Eigen::Vector3d::UnitX();
-  std::vector<Eigen::Vector3d> normals;
-  for (const RayPair& pair : pairs) normals.push_back(pair.before.cross(pair.after));
+glm::dvec3 direction_of_motion(std::span<const RayPair> pairs, double pixel_rad) {
+  const glm::dvec3 forward(1, 0, 0);
+  std::vector<glm::dvec3> normals;
+  for (const RayPair& pair : pairs) normals.push_back(glm::cross(pair.before, pair.after));
   std::vector<double> weights(normals.size());
-  for (std::size_t i = 0; i < normals.size(); ++i) weights[i] = 1 / (normals[i].norm() + pixel_rad);
-  Eigen::Vector3d direction = forward;
+  for (std::size_t i = 0; i < normals.size(); ++i) weights[i] = 1 / (glm::length(normals[i]) + pixel_rad);
+  glm::dvec3 direction = forward;
   for (int round = 0; round < 6; ++round) {
-    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-    for (std::size_t i = 0; i < normals.size(); ++i) m += weights[i] * normals[i] * normals[i].transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
-    if (!(solver.eigenvalues()(1) > 0)) return forward;
-    direction = solver.eigenvectors().col(0);
+    glm::dmat3 sum(0);
+    for (std::size_t i = 0; i < normals.size(); ++i) sum += weights[i] * glm::outerProduct(normals[i], normals[i]);
+    const PrincipalAxes found = principal_axes(sum);
+    if (!(found.values[1] > 0)) return forward;
+    direction = found.axes[0];
     for (std::size_t i = 0; i < normals.size(); ++i) {
-      const double miss = direction.dot(normals[i]);
+      const double miss = glm::dot(direction, normals[i]);
       weights[i] = 1 / (1 + miss * miss / (0.25 * pixel_rad * pixel_rad));
     }
   }
   double away = 0;  // features move away from the direction of motion
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    away += weights[i] *
-            (pairs[i].after - pairs[i].before).dot(direction - direction.dot(pairs[i].before) * pairs[i].before);
+    away += weights[i] * glm::dot(pairs[i].after - pairs[i].before,
+                                  direction - glm::dot(direction, pairs[i].before) * pairs[i].before);
   return away > 0 ? -direction : direction;
 }
 
 LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess, double readout_s) {
-  using Matrix12 = Eigen::Matrix<double, 12, 12>;  // turn, position, rate, its change
-  using Vector12 = Eigen::Matrix<double, 12, 1>;
+  constexpr int kUnknowns = 12;  // turn, position, rate, its change
   struct Seen {
     const Landmark* landmark;
-    const Eigen::Vector3d* ray;
+    const glm::dvec3* ray;
     double delay_s;
   };
   std::vector<Seen> seen;
@@ -208,37 +205,43 @@ LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const B
   const double of_change = variance / (kRateChangeSd_radps2 * kRateChangeSd_radps2);
   BundleFrame frame = guess;
   ReadoutTurn turn;
-  Matrix12 normal = Matrix12::Zero();
+  NormalEquations equations(kUnknowns);
   int used = 0;
   for (int round = 0; round < 4; ++round) {
     const double scale = keys.sigma_rad * std::max(3.0, 24.0 / (1 << (2 * round)));
-    normal.setZero();
-    Vector12 right = Vector12::Zero();
-    normal.diagonal() << 1e-9, 1e-9, 1e-9, of_position, of_position, of_position, of_rate, of_rate, of_rate, of_change,
-        of_change, of_change;
-    right.segment<3>(3) = of_position * (guess.position - frame.position);
-    right.segment<3>(6) = -of_rate * turn.rate_radps;
-    right.tail<3>() = -of_change * turn.rate_change_radps2;
+    equations = NormalEquations(kUnknowns);
+    for (int i = 0; i < 3; ++i) {
+      equations.add_known(i, 1e-9);
+      equations.add_known(3 + i, of_position, guess.position[i] - frame.position[i]);
+      equations.add_known(6 + i, of_rate, -turn.rate_radps[i]);
+      equations.add_known(9 + i, of_change, -turn.rate_change_radps2[i]);
+    }
     used = 0;
     for (const Seen& s : seen) {
       const Projection p = projection(frame, *s.landmark, turn_of(turn.after(s.delay_s)) * *s.ray);
-      const double root = 1 / (1 + p.residual.squaredNorm() / (2 * scale * scale));
+      const double root = 1 / (1 + squared_length(p.residual) / (2 * scale * scale));
       const double w = s.landmark->weight * s.landmark->trust * root * root;
       if (root > 0.3) ++used;
-      Eigen::Matrix<double, 2, 12> by;
-      // A ray that is unrolled by a larger rate moves as if the camera turned back by as much.
-      by << p.by_frame, s.delay_s * p.by_frame.leftCols<3>(), s.delay_s * s.delay_s / 2 * p.by_frame.leftCols<3>();
-      normal += w * by.transpose() * by;
-      right += w * by.transpose() * p.residual;
+      for (int axis = 0; axis < 2; ++axis) {
+        const std::span<const double> of_frame = std::span(p.slopes[static_cast<std::size_t>(axis)]).last<6>();
+        std::array<double, kUnknowns> slopes{};
+        std::copy(of_frame.begin(), of_frame.end(), slopes.begin());
+        // A ray that is unrolled by a larger rate moves as if the camera turned back by as much.
+        for (std::size_t i = 0; i < 3; ++i) {
+          slopes[6 + i] = s.delay_s * slopes[i];
+          slopes[9 + i] = s.delay_s * s.delay_s / 2 * slopes[i];
+        }
+        equations.add(slopes, p.residual[axis], w);
+      }
     }
-    const Vector12 change = normal.ldlt().solve(right);
-    if (!change.allFinite()) break;
-    frame.world_from_camera = (frame.world_from_camera * turn_of(change.head<3>())).normalized();
-    frame.position += change.segment<3>(3);
-    if (readout_s > 0) turn += {change.segment<3>(6), change.tail<3>()};
+    const std::vector<double> change = equations.solved();
+    const auto three = [&](std::size_t i) { return glm::dvec3(change[i], change[i + 1], change[i + 2]); };
+    if (!std::all_of(change.begin(), change.end(), [](double c) { return std::isfinite(c); })) break;
+    frame.world_from_camera = glm::normalize(frame.world_from_camera * turn_of(three(0)));
+    frame.position += three(3);
+    if (readout_s > 0) turn += {three(6), three(9)};
   }
-  const Eigen::Matrix3d own = Matrix12(variance * normal.inverse()).topLeftCorner<3, 3>();
-  return {frame.world_from_camera, own, used, turn};
+  return {frame.world_from_camera, variance * block_of(equations.inverse(), 0), used, turn};
 }
 
 }  // namespace sigs

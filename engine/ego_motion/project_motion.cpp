@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "ego_motion/turns.h"
+#include "ego_motion/rotation_fit.h"
 #include "horizon/horizon.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
@@ -233,7 +233,7 @@ SeenHorizons seen_horizons(FrameSource& footage, const Scene& scene, const std::
     cv::resize(luma_of(*frame), small, reduced, 0, 0, cv::INTER_AREA);
     if (const auto line = horizon_in(small, scale, scene.camera, own_body, number))
       seen.horizons.push_back({.frame = number,
-                               .up_in_camera = glm_of(line->up),
+                               .up_in_camera = line->up,
                                .sd_rad = std::hypot(line->sd_rad, line->haze_rad, line->hills_rad)});
   }
   return seen;

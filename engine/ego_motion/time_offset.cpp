@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/least_squares.h"
+#include "base/pose.h"
+#include "ego_motion/rotation_fit.h"
 #include "ego_motion/sequence.h"
-#include "ego_motion/turns.h"
 
 namespace sigs {
 
@@ -24,9 +26,9 @@ struct Comparison {
 };
 
 Comparison compared(std::span<const SeenTurn> turns, const RateIntegral& rates, double offset_s) {
-  Eigen::Vector3d mean_seen = Eigen::Vector3d::Zero();
-  Eigen::Vector3d mean_recorded = Eigen::Vector3d::Zero();
-  std::vector<std::array<Eigen::Vector3d, 2>> both;
+  glm::dvec3 mean_seen(0);
+  glm::dvec3 mean_recorded(0);
+  std::vector<std::array<glm::dvec3, 2>> both;
   for (const SeenTurn& turn : turns) {
     if (!rates.covers(turn.from_s + offset_s, turn.to_s + offset_s)) continue;
     const double length_s = turn.to_s - turn.from_s;
@@ -41,9 +43,9 @@ Comparison compared(std::span<const SeenTurn> turns, const RateIntegral& rates, 
   double recorded2 = 0;
   double mixed = 0;
   for (const auto& [seen, recorded] : both) {
-    seen2 += (seen - mean_seen).squaredNorm();
-    recorded2 += (recorded - mean_recorded).squaredNorm();
-    mixed += (seen - mean_seen).dot(recorded - mean_recorded);
+    seen2 += squared_length((seen - mean_seen));
+    recorded2 += squared_length((recorded - mean_recorded));
+    mixed += glm::dot(seen - mean_seen, recorded - mean_recorded);
   }
   if (!(seen2 > 0) || !(recorded2 > 0)) return {.count = both.size()};
   return {mixed / std::sqrt(seen2 * recorded2), mixed / recorded2, both.size()};
@@ -216,12 +218,12 @@ void add_drift(TimeOffset& offset, std::span<const SeenTurn> turns, const RateIn
 RateIntegral::RateIntegral(const Channel<glm::dvec3>& rates) {
   const std::size_t count = std::min(rates.times_s.size(), rates.values.size());
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d rate = eigen_of(rates.values[i]);
-    if (!rate.allFinite() || !std::isfinite(rates.times_s[i])) continue;
+    const glm::dvec3 rate = rates.values[i];
+    if (!is_finite(rate) || !std::isfinite(rates.times_s[i])) continue;
     if (!times_s_.empty() && !(rates.times_s[i] > times_s_.back())) continue;
-    sums_.push_back(times_s_.empty() ? Eigen::Vector3d(0, 0, 0)
-                                     : Eigen::Vector3d(sums_.back() + (rates_.back() + rate) / 2 *
-                                                                          (rates.times_s[i] - times_s_.back())));
+    sums_.push_back(times_s_.empty()
+                        ? glm::dvec3(0)
+                        : sums_.back() + (rates.times_s[i] - times_s_.back()) / 2 * (rates_.back() + rate));
     times_s_.push_back(rates.times_s[i]);
     rates_.push_back(rate);
   }
@@ -231,13 +233,13 @@ bool RateIntegral::covers(double from_s, double to_s) const {
   return !empty() && from_s >= first_s() && to_s <= last_s();
 }
 
-Eigen::Vector3d RateIntegral::between(double from_s, double to_s) const {
-  if (empty()) return Eigen::Vector3d::Zero();
+glm::dvec3 RateIntegral::between(double from_s, double to_s) const {
+  if (empty()) return glm::dvec3(0);
   return up_to(to_s) - up_to(from_s);
 }
 
-Eigen::Vector3d RateIntegral::up_to(double time_s) const {
-  if (time_s <= first_s()) return Eigen::Vector3d::Zero();
+glm::dvec3 RateIntegral::up_to(double time_s) const {
+  if (time_s <= first_s()) return glm::dvec3(0);
   if (time_s >= last_s()) return sums_.back();
   const auto after = std::upper_bound(times_s_.begin(), times_s_.end(), time_s);
   const auto i = static_cast<std::size_t>(after - times_s_.begin()) - 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
+#include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,21 +23,21 @@ class RateIntegral {
   [[nodiscard]] double last_s() const { return times_s_.back(); }
 
   // From one time to another. Beyond the record's ends rates are 0; covers() tells.
-  [[nodiscard]] Eigen::Vector3d between(double from_s, double to_s) const;
+  [[nodiscard]] glm::dvec3 between(double from_s, double to_s) const;
   [[nodiscard]] bool covers(double from_s, double to_s) const;
 
  private:
-  [[nodiscard]] Eigen::Vector3d up_to(double time_s) const;
+  [[nodiscard]] glm::dvec3 up_to(double time_s) const;
   std::vector<double> times_s_;
-  std::vector<Eigen::Vector3d> rates_;
-  std::vector<Eigen::Vector3d> sums_;
+  std::vector<glm::dvec3> rates_;
+  std::vector<glm::dvec3> sums_;
 };
 
 // How the camera turned between two frames, seen in the images.
 struct SeenTurn {
   double from_s = 0;
   double to_s = 0;
-  Eigen::Vector3d turn_rad;  // about the camera's axes
+  glm::dvec3 turn_rad;  // about the camera's axes
 };
 
 // Time of the log that belongs to a time of the footage: t + offset_s + drift * (t - middle_s).

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
@@ -9,9 +9,9 @@ namespace sigs {
 
 // A feature seen in one frame.
 struct RayObservation {
-  int id = 0;           // the same for the same feature in all frames
-  Eigen::Vector3d ray;  // unit, in camera axes
-  double row = 0;       // where it is in the image: -0.5 at the first row, 0 in the middle, 0.5 at the last
+  int id = 0;      // the same for the same feature in all frames
+  glm::dvec3 ray;  // unit, in camera axes
+  double row = 0;  // where it is in the image: -0.5 at the first row, 0 in the middle, 0.5 at the last
 };
 
 // All features seen in one frame, by rising id.
@@ -20,10 +20,10 @@ using FrameRays = std::vector<RayObservation>;
 // How the camera turns while a frame's rows are exposed, about its own axes: t after the middle row it has turned by
 // rate t + rate_change t^2 / 2 since then.
 struct ReadoutTurn {
-  Eigen::Vector3d rate_radps = Eigen::Vector3d::Zero();
-  Eigen::Vector3d rate_change_radps2 = Eigen::Vector3d::Zero();
+  glm::dvec3 rate_radps = glm::dvec3(0);
+  glm::dvec3 rate_change_radps2 = glm::dvec3(0);
 
-  [[nodiscard]] Eigen::Vector3d after(double time_s) const {
+  [[nodiscard]] glm::dvec3 after(double time_s) const {
     return rate_radps * time_s + rate_change_radps2 * (time_s * time_s / 2);
   }
   ReadoutTurn& operator+=(const ReadoutTurn& more) {
@@ -35,8 +35,8 @@ struct ReadoutTurn {
 
 // One feature seen in two frames.
 struct RayPair {
-  Eigen::Vector3d before;
-  Eigen::Vector3d after;
+  glm::dvec3 before;
+  glm::dvec3 after;
 };
 
 // The features that both frames have.

@@ -53,8 +53,8 @@ class Levels {
     if (sky.share < kNoSky || !is_sky) ++grounds_;
     if (!is_sky) return;
     if (const auto line = horizon_in(reduced.luma, reduced.scale, camera, {}, 0)) {
-      line_pitches_rad_.push_back(std::asin(std::clamp(line->up.x(), -1.0, 1.0)));
-      line_rolls_rad_.push_back(std::atan2(-line->up.y(), -line->up.z()));
+      line_pitches_rad_.push_back(std::asin(std::clamp(line->up.x, -1.0, 1.0)));
+      line_rolls_rad_.push_back(std::atan2(-line->up.y, -line->up.z));
     }
     if (const auto pitch_rad = skyline_pitch_rad(sky, reduced.scale, camera))
       skyline_pitches_rad_.push_back(*pitch_rad);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "horizon/horizon.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
+#include "base/least_squares.h"
 #include "base/pose.h"
 #include "horizon/sky_map.h"
 
@@ -39,7 +39,7 @@ struct Candidate {
   int column = 0;
   int rank = 0;         // 0: the strongest of its column
   glm::dvec2 at_px{0};  // in the reduced image
-  Eigen::Vector3d ray;
+  glm::dvec3 ray;
 };
 
 // Columns side by side that have the edge, but for a few.
@@ -50,10 +50,6 @@ struct Stretch {
 
   [[nodiscard]] int length() const { return last - first + 1; }
 };
-
-Eigen::Vector3d eigen_of(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
 
 // Rows where it is brighter above than below by most, to parts of a row, with the step in codes.
 std::vector<std::pair<float, float>> edges_in(const cv::Mat& gradient, const cv::Mat& mean, int x) {
@@ -95,21 +91,20 @@ std::vector<Candidate> candidates_in(const cv::Mat& reduced, double scale, const
     for (const auto& [step, y] : edges_in(gradient, mean, x)) {
       const glm::dvec2 pixel((x + 0.5) * scale - 0.5, (static_cast<double>(y) + 0.5) * scale - 0.5);
       if (is_own_body(own_body, pixel.x, pixel.y) || !has_sky_over(sky, x, static_cast<double>(y))) continue;
-      if (const auto ray = camera.lens.ray(pixel))
-        candidates.push_back({x / kColumnStep_px, rank++, {x, y}, eigen_of(*ray)});
+      if (const auto ray = camera.lens.ray(pixel)) candidates.push_back({x / kColumnStep_px, rank++, {x, y}, *ray});
     }
   }
   return candidates;
 }
 
 // The best stretch of columns with a candidate on the plane: most columns with less those without, times kGap.
-Stretch stretch_on(const std::vector<Candidate>& candidates, const Eigen::Vector3d& normal) {
+Stretch stretch_on(const std::vector<Candidate>& candidates, const glm::dvec3& normal) {
   Stretch best;
   Stretch here;
   int score = 0;
   int best_score = 0;
   for (const Candidate& c : candidates) {
-    if (std::abs(normal.dot(c.ray)) > kNear_rad || (here.columns > 0 && c.column == here.last)) continue;
+    if (std::abs(glm::dot(normal, c.ray)) > kNear_rad || (here.columns > 0 && c.column == here.last)) continue;
     score -= here.columns > 0 ? kGap * (c.column - here.last - 1) : 0;
     if (score <= 0) {
       score = 0;
@@ -126,14 +121,14 @@ Stretch stretch_on(const std::vector<Candidate>& candidates, const Eigen::Vector
 }
 
 // Whether a candidate belongs to the edge.
-bool is_on(const Candidate& c, const Eigen::Vector3d& normal, const Stretch& stretch) {
-  return c.column >= stretch.first && c.column <= stretch.last && std::abs(normal.dot(c.ray)) <= kNear_rad;
+bool is_on(const Candidate& c, const glm::dvec3& normal, const Stretch& stretch) {
+  return c.column >= stretch.first && c.column <= stretch.last && std::abs(glm::dot(normal, c.ray)) <= kNear_rad;
 }
 
 // The sky is smoother than what lies below it; of an edge within fields or streets both sides are alike.
 // Texture is how neighbours at the same distance from the edge differ.
-bool has_smooth_side_above(const cv::Mat& reduced, const std::vector<Candidate>& candidates,
-                           const Eigen::Vector3d& normal, const Stretch& stretch) {
+bool has_smooth_side_above(const cv::Mat& reduced, const std::vector<Candidate>& candidates, const glm::dvec3& normal,
+                           const Stretch& stretch) {
   double above = 0;
   double below = 0;
   int count = 0;
@@ -156,7 +151,7 @@ bool has_smooth_side_above(const cv::Mat& reduced, const std::vector<Candidate>&
 }
 
 // The plane through two candidates that has the longest stretch.
-std::optional<Eigen::Vector3d> plane_of(const std::vector<Candidate>& candidates, int columns) {
+std::optional<glm::dvec3> plane_of(const std::vector<Candidate>& candidates, int columns) {
   std::vector<const Candidate*> strong;
   for (const Candidate& c : candidates)
     if (c.rank < static_cast<int>(kTried)) strong.push_back(&c);
@@ -164,13 +159,13 @@ std::optional<Eigen::Vector3d> plane_of(const std::vector<Candidate>& candidates
   cv::RNG chance(1);
   const int count = static_cast<int>(strong.size());
   int best = 0;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  glm::dvec3 normal(0);
   for (int trial = 0; trial < kHorizonTrials; ++trial) {
     const Candidate& a = *strong[static_cast<std::size_t>(chance.uniform(0, count))];
     const Candidate& b = *strong[static_cast<std::size_t>(chance.uniform(0, count))];
     const glm::dvec2 way = b.at_px - a.at_px;
     if (std::abs(a.column - b.column) < columns / 8 || std::abs(way.y) > kSteepest * std::abs(way.x)) continue;
-    const Eigen::Vector3d tried = a.ray.cross(b.ray).normalized();
+    const glm::dvec3 tried = glm::normalize(glm::cross(a.ray, b.ray));
     if (const int found = stretch_on(candidates, tried).columns; found > best) {
       best = found;
       normal = tried;
@@ -181,19 +176,19 @@ std::optional<Eigen::Vector3d> plane_of(const std::vector<Candidate>& candidates
 }
 
 // Angle below the edge's plane that a row makes there.
-double row_angle_rad(const Candidate& c, double scale, const Camera& camera, const Eigen::Vector3d& up) {
+double row_angle_rad(const Candidate& c, double scale, const Camera& camera, const glm::dvec3& up) {
   constexpr double kRows = 4;
   const auto lower = camera.lens.ray({(c.at_px.x + 0.5) * scale - 0.5, (c.at_px.y + kRows + 0.5) * scale - 0.5});
-  return lower ? (up.dot(c.ray) - up.dot(eigen_of(*lower))) / kRows : 0;
+  return lower ? (glm::dot(up, c.ray) - glm::dot(up, *lower)) / kRows : 0;
 }
 
 // Mean luma of rows from `above_px` above the edge to `below_px` below it, over the edge's columns that have room.
-std::vector<double> profile_of(const cv::Mat& reduced, const std::vector<Candidate>& on_edge, const Eigen::Vector3d& up,
+std::vector<double> profile_of(const cv::Mat& reduced, const std::vector<Candidate>& on_edge, const glm::dvec3& up,
                                double row_rad, int above_px, int below_px) {
   std::vector<double> profile(static_cast<std::size_t>(above_px + below_px + 1), 0);
   int count = 0;
   for (const Candidate& c : on_edge) {
-    const int y = cvRound(c.at_px.y + up.dot(c.ray) / row_rad);  // on the plane
+    const int y = cvRound(c.at_px.y + glm::dot(up, c.ray) / row_rad);  // on the plane
     if (y < above_px || y + below_px >= reduced.rows) continue;
     for (std::size_t i = 0; i < profile.size(); ++i)
       profile[i] += reduced.at<uchar>(y - above_px + static_cast<int>(i), static_cast<int>(c.at_px.x));
@@ -205,7 +200,7 @@ std::vector<double> profile_of(const cv::Mat& reduced, const std::vector<Candida
 
 // HorizonLine::haze_rad.
 double haze_at(const cv::Mat& reduced, double scale, const Camera& camera, const std::vector<Candidate>& on_edge,
-               const Eigen::Vector3d& up) {
+               const glm::dvec3& up) {
   const double row_rad = row_angle_rad(on_edge[on_edge.size() / 2], scale, camera, up);
   if (!(row_rad > 0)) return 0;
   constexpr int kAbove_px = 2 * kStep_px;
@@ -227,14 +222,14 @@ double haze_at(const cv::Mat& reduced, double scale, const Camera& camera, const
 
 // HorizonLine::hills_rad, by the edge nearest to the plane in each column of the stretch. What lies beside the stretch
 // does not count: a coast beside the sea says nothing of the sea's horizon.
-double hills_at(const std::vector<Candidate>& candidates, const Eigen::Vector3d& up, const Stretch& stretch) {
+double hills_at(const std::vector<Candidate>& candidates, const glm::dvec3& up, const Stretch& stretch) {
   double squares = 0;
   int count = 0;
   for (auto it = candidates.begin(); it != candidates.end();) {
     const int column = it->column;
     double nearest_rad = kPeak_rad;
     for (; it != candidates.end() && it->column == column; ++it)
-      nearest_rad = std::min(nearest_rad, std::abs(up.dot(it->ray)));
+      nearest_rad = std::min(nearest_rad, std::abs(glm::dot(up, it->ray)));
     if (column < stretch.first || column > stretch.last || nearest_rad >= kPeak_rad) continue;
     squares += nearest_rad * nearest_rad;
     ++count;
@@ -244,26 +239,26 @@ double hills_at(const std::vector<Candidate>& candidates, const Eigen::Vector3d&
 
 // A plane that is fitted to the candidates near it.
 struct FittedEdge {
-  Eigen::Vector3d up;
+  glm::dvec3 up;
   Stretch stretch;
   double sd_rad = 0;
 };
 
-std::optional<FittedEdge> fitted_edge(const std::vector<Candidate>& candidates, Eigen::Vector3d normal, int columns) {
+std::optional<FittedEdge> fitted_edge(const std::vector<Candidate>& candidates, glm::dvec3 normal, int columns) {
   FittedEdge edge;
   for (int round = 0; round < 3; ++round) {
     const Stretch stretch = stretch_on(candidates, normal);
     if (stretch.columns < kLeastShare * columns) return std::nullopt;
-    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+    glm::dmat3 sum(0);
     for (const Candidate& c : candidates)
-      if (is_on(c, normal, stretch)) m += c.ray * c.ray.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(m);
-    normal = solver.eigenvectors().col(0);
+      if (is_on(c, normal, stretch)) sum += glm::outerProduct(c.ray, c.ray);
+    const PrincipalAxes found = principal_axes(sum);
+    normal = found.axes[0];
     // The smallest value is the sum of squared misses; the next one tells how long the edge is.
-    const double miss2 = std::max(solver.eigenvalues()(0), 0.0) / stretch.columns + 1e-8;
-    edge.sd_rad = std::sqrt(miss2 * kAlike / std::max(solver.eigenvalues()(1), 1e-9));
+    const double miss2 = std::max(found.values[0], 0.0) / stretch.columns + 1e-8;
+    edge.sd_rad = std::sqrt(miss2 * kAlike / std::max(found.values[1], 1e-9));
   }
-  edge.up = normal.z() > 0 ? Eigen::Vector3d(-normal) : normal;  // Z is down
+  edge.up = normal.z > 0 ? -normal : normal;  // Z is down
   edge.stretch = stretch_on(candidates, edge.up);
   return edge;
 }
@@ -276,7 +271,7 @@ std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, cons
   std::vector<Candidate> candidates = candidates_in(reduced, scale, camera, own_body, sky);
   const int columns = reduced.cols / kColumnStep_px;
   for (int plane = 0; plane < kPlanes; ++plane) {
-    const std::optional<Eigen::Vector3d> rough = plane_of(candidates, columns);
+    const std::optional<glm::dvec3> rough = plane_of(candidates, columns);
     if (!rough) return std::nullopt;
     const std::optional<FittedEdge> edge = fitted_edge(candidates, *rough, columns);
     if (edge && has_smooth_side_above(reduced, candidates, edge->up, edge->stretch)) {
@@ -297,7 +292,7 @@ std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, cons
                            .hills_rad = hills_at(candidates, edge->up, edge->stretch)};
       }
     }
-    const Eigen::Vector3d normal = edge ? edge->up : *rough;
+    const glm::dvec3 normal = edge ? edge->up : *rough;
     const Stretch stretch = stretch_on(candidates, normal);
     const std::size_t before = candidates.size();
     std::erase_if(candidates, [&](const Candidate& c) { return is_on(c, normal, stretch); });

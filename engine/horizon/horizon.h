@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Geometry>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <span>
@@ -15,8 +16,8 @@ namespace sigs {
 // A straight edge across the image, as the far edge of the sea or of a plain is: a great circle on the sphere.
 struct HorizonLine {
   int frame = 0;
-  Eigen::Vector3d up;  // unit, camera axes, normal of the circle's plane, on the side of the image's upper border
-  double sd_rad = 0;   // of the fit
+  glm::dvec3 up;      // unit, camera axes, normal of the circle's plane, on the side of the image's upper border
+  double sd_rad = 0;  // of the fit
   // By how much the edge may lie off the level, by the image itself; 0: by nothing.
   double haze_rad = 0;   // below it, as far ground fades into the sky
   double hills_rad = 0;  // above it
@@ -58,7 +59,7 @@ struct ReducedLuma {
 
 // What lines of several frames say together.
 struct Level {
-  Eigen::Vector3d up_in_start;  // unit, in the axes of the camera at frame 0
+  glm::dvec3 up_in_start;  // unit, in the axes of the camera at frame 0
   double sd_rad = 0;  // of roll and pitch; the horizon's dip below the level, which is not known, haze and hills are
                       // part of it
   int lines = 0;      // that agree
@@ -68,9 +69,9 @@ struct Level {
 // than 5 lines, or fewer than half of all, agree within half a degree.
 //   start_from_camera  of each frame
 [[nodiscard]] std::optional<Level> level_of(std::span<const HorizonLine> lines,
-                                            std::span<const Eigen::Quaterniond> start_from_camera);
+                                            std::span<const glm::dquat> start_from_camera);
 
 // The rotation from the axes of the camera at frame 0 to a level world whose X is its heading.
-[[nodiscard]] Eigen::Quaterniond world_from_start(const Eigen::Vector3d& up_in_start);
+[[nodiscard]] glm::dquat world_from_start(const glm::dvec3& up_in_start);
 
 }  // namespace sigs

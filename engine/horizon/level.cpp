@@ -3,6 +3,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "base/least_squares.h"
+#include "base/pose.h"
+#include "base/statistics.h"
 #include "horizon/horizon.h"
 
 namespace sigs {
@@ -36,23 +39,20 @@ std::optional<double> skyline_pitch_rad(const SkyMap& sky, double scale, const C
     if (ray) pitches_rad.push_back(std::atan2(ray->z, ray->x));
   }
   if (static_cast<double>(pitches_rad.size()) < kMinEnds * sky.sky.cols) return std::nullopt;
-  const auto middle = pitches_rad.begin() + static_cast<std::ptrdiff_t>(pitches_rad.size() / 2);
-  std::nth_element(pitches_rad.begin(), middle, pitches_rad.end());
-  return *middle;
+  return median(std::move(pitches_rad));
 }
 
-std::optional<Level> level_of(std::span<const HorizonLine> lines,
-                              std::span<const Eigen::Quaterniond> start_from_camera) {
-  std::vector<Eigen::Vector3d> ups;
+std::optional<Level> level_of(std::span<const HorizonLine> lines, std::span<const glm::dquat> start_from_camera) {
+  std::vector<glm::dvec3> ups;
   for (const HorizonLine& line : lines)
     ups.push_back(start_from_camera[static_cast<std::size_t>(line.frame)] * line.up);
   Level level;
-  Eigen::Vector3d best = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& middle : ups) {
+  glm::dvec3 best(0);
+  for (const glm::dvec3& middle : ups) {
     int count = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& up : ups) {
-      if ((up - middle).norm() > kAgree_rad) continue;
+    glm::dvec3 sum(0);
+    for (const glm::dvec3& up : ups) {
+      if (glm::length(up - middle) > kAgree_rad) continue;
       sum += up;
       ++count;
     }
@@ -62,12 +62,12 @@ std::optional<Level> level_of(std::span<const HorizonLine> lines,
     }
   }
   if (level.lines < kLeastLines || 2 * level.lines < static_cast<int>(ups.size())) return std::nullopt;
-  level.up_in_start = best.normalized();
+  level.up_in_start = glm::normalize(best);
   double squares = 0;
   for (std::size_t i = 0; i < ups.size(); ++i) {
-    if ((ups[i] - level.up_in_start).norm() > kAgree_rad) continue;
+    if (glm::length(ups[i] - level.up_in_start) > kAgree_rad) continue;
     const HorizonLine& line = lines[i];
-    squares += std::max((ups[i] - level.up_in_start).squaredNorm() / 2, line.sd_rad * line.sd_rad) +
+    squares += std::max(squared_length(ups[i] - level.up_in_start) / 2, line.sd_rad * line.sd_rad) +
                line.haze_rad * line.haze_rad + line.hills_rad * line.hills_rad;
   }
   // Haze and hills bias all lines alike, so that none of this shrinks with their number.
@@ -75,16 +75,13 @@ std::optional<Level> level_of(std::span<const HorizonLine> lines,
   return level;
 }
 
-Eigen::Quaterniond world_from_start(const Eigen::Vector3d& up_in_start) {
-  const Eigen::Vector3d down = -up_in_start;
-  Eigen::Vector3d forward = Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitX().dot(down) * down;
-  if (forward.norm() < 1e-6) forward = Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitZ().dot(down) * down;
-  forward.normalize();
-  Eigen::Matrix3d world;  // rows: the world's axes in the camera's
-  world.row(0) = forward;
-  world.row(1) = down.cross(forward);
-  world.row(2) = down;
-  return Eigen::Quaterniond(world).normalized();
+glm::dquat world_from_start(const glm::dvec3& up_in_start) {
+  const glm::dvec3 down = -up_in_start;
+  glm::dvec3 forward = glm::dvec3(1, 0, 0) - glm::dot(glm::dvec3(1, 0, 0), down) * down;
+  if (glm::length(forward) < 1e-6) forward = glm::dvec3(0, 0, 1) - glm::dot(glm::dvec3(0, 0, 1), down) * down;
+  forward = glm::normalize(forward);
+  const glm::dmat3 start_from_world(forward, glm::cross(down, forward), down);
+  return glm::conjugate(glm::normalize(glm::dquat(start_from_world)));
 }
 
 }  // namespace sigs

@@ -164,15 +164,11 @@ constexpr int kWaterEvery_px = 5;       // between columns where water is looked
 constexpr int kOffEdge_px = 4;          // from the edge to what is compared
 constexpr double kWaterStep_codes = 4;  // by which the sky is brighter than water below it
 
-Eigen::Vector3d vector_of(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 // Where every other cell of a sky map looks.
 class CellRays {
  public:
   struct Cell {
-    Eigen::Vector3d ray;
+    glm::dvec3 ray;
     int column = 0;
     bool is_sky = false;
   };
@@ -183,8 +179,7 @@ class CellRays {
       for (int x = 0; x < sky.sky.cols; x += kEvery) {
         const glm::dvec2 pixel((x + 0.5) * SkyMap::kCell_px * scale - 0.5, (y + 0.5) * SkyMap::kCell_px * scale - 0.5);
         if (is_own_body(own_body, pixel.x, pixel.y)) continue;
-        if (const auto ray = camera.lens.ray(pixel))
-          cells_.push_back({vector_of(*ray), x / kEvery, sky.sky(y, x) != 0});
+        if (const auto ray = camera.lens.ray(pixel)) cells_.push_back({*ray, x / kEvery, sky.sky(y, x) != 0});
       }
   }
 
@@ -199,11 +194,10 @@ class CellRays {
 };
 
 // The row of the reduced image at which a plane crosses a column; nothing where it does not.
-std::optional<int> row_on(const Eigen::Vector3d& up, int x, const cv::Mat& reduced, double scale,
-                          const Camera& camera) {
+std::optional<int> row_on(const glm::dvec3& up, int x, const cv::Mat& reduced, double scale, const Camera& camera) {
   const auto is_above = [&](int y) {
     const auto ray = camera.lens.ray({(x + 0.5) * scale - 0.5, (y + 0.5) * scale - 0.5});
-    return ray ? std::optional(up.dot(vector_of(*ray)) > 0) : std::nullopt;
+    return ray ? std::optional(glm::dot(up, *ray) > 0) : std::nullopt;
   };
   int from = 0, to = reduced.rows - 1;
   if (is_above(from) != true || is_above(to) != false) return std::nullopt;
@@ -260,7 +254,7 @@ bool divides(const CellRays& rays, const SkyEdge& edge, const Water& water) {
     std::vector<double> nearest_rad(columns, 1);
     for (const CellRays::Cell& cell : rays.cells()) {
       const auto column = static_cast<std::size_t>(cell.column);
-      const double off_rad = std::abs(edge.up.dot(cell.ray));
+      const double off_rad = std::abs(glm::dot(edge.up, cell.ray));
       if (off_rad >= nearest_rad[column]) continue;
       nearest_rad[column] = off_rad;
       is_edge[column] = !cell.is_sky;
@@ -271,7 +265,7 @@ bool divides(const CellRays& rays, const SkyEdge& edge, const Water& water) {
     }
   }
   for (const CellRays::Cell& cell : rays.cells()) {
-    const double up_rad = edge.up.dot(cell.ray);
+    const double up_rad = glm::dot(edge.up, cell.ray);
     const auto column = static_cast<std::size_t>(cell.column);
     (up_rad > 0 ? has_above : has_below)[column] = true;
     if (std::abs(up_rad) < kNearPlane_rad) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
+#include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 
 #include "camera/camera.h"
@@ -38,7 +38,7 @@ struct SkyMap {
 
 // A straight edge below sky, as horizon_in() tries them.
 struct SkyEdge {
-  Eigen::Vector3d up;              // as HorizonLine::up
+  glm::dvec3 up;                   // as HorizonLine::up
   int first_px = 0, last_px = -1;  // columns of the reduced image between which it is seen
   int seen_px = 0;                 // and how many of them have it
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "calibration/rough_tracks.h"
+#include "calibration/autocalibration_motion.h"
 #include "camera/camera.h"
 #include "telemetry/track.h"
 

@@ -14,10 +14,8 @@ namespace {
 constexpr std::uint32_t kHeldOutSeed = 4242;
 
 Intrinsics intrinsics_of(const LensParameters& lens) {
-  Intrinsics all(4 + static_cast<Eigen::Index>(lens.coefficients.size()));
-  all.head<4>() << lens.fx, lens.fy, lens.cx, lens.cy;
-  for (std::size_t i = 0; i < lens.coefficients.size(); ++i)
-    all[4 + static_cast<Eigen::Index>(i)] = lens.coefficients[i];
+  Intrinsics all{lens.fx, lens.fy, lens.cx, lens.cy};
+  all.insert(all.end(), lens.coefficients.begin(), lens.coefficients.end());
   return all;
 }
 

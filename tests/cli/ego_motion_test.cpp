@@ -49,7 +49,7 @@ TEST_CASE("attitudes are written as CSV, a row for each frame, and drawn as a PN
   const std::string bytes = read_text(plot).value();
   CHECK(bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n");
   const cv::Mat drawn = cv::imread(plot);
-  CHECK(drawn.cols == 1200);
+  CHECK(drawn.cols == 1440);  // of module plot
   CHECK(drawn.rows > 100);
   CHECK(run_sigs("telemetry " + csv).status == 0);
   CHECK(run_sigs(call + " --out " + csv).status == 73);

@@ -3,14 +3,14 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "base/least_squares.h"
+#include "base/pose.h"
 #include "ego_motion/bundle.h"
 #include "ego_motion/rotation_fit.h"
-#include "ego_motion/turns.h"
 #include "synthetic_rays.h"
 
 namespace sigs::test {
@@ -22,20 +22,21 @@ double largest_error_px(const RayFlightSettings& settings) {
   const RayFlight flight = ray_flight(settings);
   const std::vector<FrameRotation> found = rotations_of(flight.frames, flight.times_s, settings.pixel_rad, {});
   double largest = 0;
-  for (std::size_t k = 0; k < found.size(); ++k)
-    largest = std::max(
-        largest, vector_of(flight.start_from_camera[k].conjugate() * found[k].start_from_camera).cwiseAbs().maxCoeff());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const glm::dvec3 error = vector_of(glm::conjugate(flight.start_from_camera[k]) * found[k].start_from_camera);
+    largest = std::max({largest, std::abs(error.x), std::abs(error.y), std::abs(error.z)});
+  }
   return largest / settings.pixel_rad;
 }
 
-std::vector<RayPair> turned_pairs(const Eigen::Quaterniond& turn, int count, double astray) {
+std::vector<RayPair> turned_pairs(const glm::dquat& turn, int count, double astray) {
   std::mt19937 chance(5);
   std::uniform_real_distribution<double> even(-0.5, 0.5);
   std::vector<RayPair> pairs;
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d ray = Eigen::Vector3d(1, even(chance), even(chance)).normalized();
-    Eigen::Vector3d after = turn * ray;
-    if (i < astray * count) after = (after + 0.1 * Eigen::Vector3d(0, even(chance), even(chance))).normalized();
+    const glm::dvec3 ray = glm::normalize(glm::dvec3(1, even(chance), even(chance)));
+    glm::dvec3 after = turn * ray;
+    if (i < astray * count) after = glm::normalize(after + 0.1 * glm::dvec3(0, even(chance), even(chance)));
     pairs.push_back({ray, after});
   }
   return pairs;
@@ -69,8 +70,8 @@ TEST_CASE("a turn whose rate changes while the rows are exposed is found by the 
   std::mt19937 chance(4);
   std::normal_distribution<double> normal(0, 1);
   for (FrameRays& rays : flight.frames) {
-    const auto vector = [&] { return Eigen::Vector3d(normal(chance), normal(chance), normal(chance)); };
-    const ReadoutTurn turn{.rate_radps = 0.3 * vector(), .rate_change_radps2 = 25 * vector()};
+    const auto vector = [&] { return glm::dvec3(normal(chance), normal(chance), normal(chance)); };
+    const ReadoutTurn turn{.rate_radps = 0.3 * vector(), .rate_change_radps2 = 25.0 * vector()};
     for (RayObservation& o : rays) o.ray = turn_of(-turn.after(kReadout_s * o.row)) * o.ray;
   }
   std::vector<FrameRotation> found = rotations_of(flight.frames, flight.times_s, settings.pixel_rad, {}, kReadout_s);
@@ -79,12 +80,12 @@ TEST_CASE("a turn whose rate changes while the rows are exposed is found by the 
   found = rotations_of(flight.frames, flight.times_s, settings.pixel_rad, {}, kReadout_s);
   // What is independent from frame to frame: how the error changes.
   double squares = 0, relative = 0;
-  Eigen::Vector3d before(0, 0, 0);
+  glm::dvec3 before(0, 0, 0);
   for (std::size_t k = 1; k < found.size(); ++k) {
-    const Eigen::Vector3d error = vector_of(flight.start_from_camera[k].conjugate() * found[k].start_from_camera);
-    const Eigen::Matrix3d covariance = found[k].own_covariance + found[k - 1].own_covariance;
-    squares += (error - before).squaredNorm() / 3;
-    relative += (error - before).dot(covariance.inverse() * (error - before));
+    const glm::dvec3 error = vector_of(glm::conjugate(flight.start_from_camera[k]) * found[k].start_from_camera);
+    const glm::dmat3 covariance = found[k].own_covariance + found[k - 1].own_covariance;
+    squares += squared_length(error - before) / 3;
+    relative += glm::dot(error - before, glm::inverse(covariance) * (error - before));
     before = error;
   }
   const auto count = static_cast<double>(found.size() - 1);
@@ -114,18 +115,18 @@ TEST_CASE("where clouds far up are all that is seen, it is said that nothing in 
 TEST_CASE("the ground below is told by parallax, whatever way the camera is turned") {
   std::mt19937 chance(3);
   std::uniform_real_distribution<double> even(-1, 1);
-  const Eigen::Vector3d down = Eigen::Vector3d(0.3, -0.4, 0.8).normalized();
+  const glm::dvec3 down = glm::normalize(glm::dvec3(0.3, -0.4, 0.8));
   std::vector<Landmark> landmarks;
   for (int i = 0; i < 300; ++i) {
-    const Eigen::Vector3d direction = Eigen::Vector3d(even(chance), even(chance), even(chance)).normalized();
-    const double below = direction.dot(down);
+    const glm::dvec3 direction = glm::normalize(glm::dvec3(even(chance), even(chance), even(chance)));
+    const double below = glm::dot(direction, down);
     landmarks.push_back(
         {.direction = direction, .inverse_depth = below > 0 ? below / 6 * (1 + 0.2 * even(chance)) : 0});
   }
   const auto ground = ground_of(landmarks);
   REQUIRE(ground);
-  CHECK(ground->normalized().dot(down) > 0.999);
-  CHECK(1 / ground->norm() == doctest::Approx(6).epsilon(0.05));
+  CHECK(glm::dot(glm::normalize(*ground), down) > 0.999);
+  CHECK(1 / glm::length(*ground) == doctest::Approx(6).epsilon(0.05));
   CHECK(trust_of(ground, down) == 1);
   CHECK(trust_of(ground, -down) < 0.1);
   CHECK(trust_of(std::nullopt, -down) == 1);
@@ -133,20 +134,20 @@ TEST_CASE("the ground below is told by parallax, whatever way the camera is turn
 }
 
 TEST_CASE("a rotation is found exactly although four of ten pairs are astray") {
-  const Eigen::Quaterniond turn = turn_of({0.02, -0.05, 0.1});
+  const glm::dquat turn = turn_of({0.02, -0.05, 0.1});
   const auto fit = fitted_rotation(turned_pairs(turn, 100, 0.4), {});
   REQUIRE(fit);
-  CHECK(fit->after_from_before.angularDistance(turn) < 1e-6);
+  CHECK(glm::length(vector_of(glm::conjugate(turn) * fit->after_from_before)) < 1e-6);
 }
 
 TEST_CASE("too few pairs, one direction alone, and what is no number give no rotation") {
-  const Eigen::Quaterniond turn = turn_of({0, 0, 0.1});
+  const glm::dquat turn = turn_of({0, 0, 0.1});
   CHECK_FALSE(fitted_rotation(turned_pairs(turn, 5, 0), {}));
   CHECK_FALSE(fitted_rotation({}, {}));
   std::vector<RayPair> same(50, turned_pairs(turn, 1, 0).front());
   CHECK_FALSE(fitted_rotation(same, {}));
   std::vector<RayPair> bad = turned_pairs(turn, 50, 0);
-  for (RayPair& pair : bad) pair.before.x() = std::numeric_limits<double>::quiet_NaN();
+  for (RayPair& pair : bad) pair.before.x = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(fitted_rotation(bad, {}));
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "ego_motion/turns.h"
+#include "ego_motion/rotation_fit.h"
 #include "synthetic_rays.h"
 
 namespace sigs::test {

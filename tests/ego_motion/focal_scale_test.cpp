@@ -7,7 +7,7 @@
 #include "base/pose.h"
 #include "ego_motion/ego_motion.h"
 #include "ego_motion/focal_scale.h"
-#include "ego_motion/turns.h"
+#include "ego_motion/rotation_fit.h"
 #include "sphere_footage.h"
 #include "support/test_data.h"
 #include "synthetic_rays.h"
@@ -19,7 +19,7 @@ namespace {
 // The same pixels by a calibration whose focal length is too short: the true one is `scale` times it.
 std::vector<FrameRays> by_wrong_lens(std::vector<FrameRays> frames, double scale) {
   for (FrameRays& frame : frames)
-    for (RayObservation& o : frame) o.ray = Eigen::Vector3d(o.ray.x() / scale, o.ray.y(), o.ray.z()).normalized();
+    for (RayObservation& o : frame) o.ray = glm::normalize(glm::dvec3(o.ray.x / scale, o.ray.y, o.ray.z));
   return frames;
 }
 
@@ -52,8 +52,7 @@ TEST_CASE("rays that are no numbers or point backwards do not count for the foca
   RayFlight flight = turning_at_one_place();
   for (FrameRays& frame : flight.frames)
     for (std::size_t i = 0; i < frame.size(); i += 5)
-      frame[i].ray =
-          i % 2 == 0 ? Eigen::Vector3d(-1, 0, 0) : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+      frame[i].ray = i % 2 == 0 ? glm::dvec3(-1, 0, 0) : glm::dvec3(std::numeric_limits<double>::quiet_NaN());
   const auto found = focal_scale(flight.frames, 0.002);
   REQUIRE(found);
   CHECK(found->value == doctest::Approx(1).epsilon(0.05));

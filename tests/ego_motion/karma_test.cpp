@@ -9,8 +9,8 @@
 
 #include "base/pose.h"
 #include "ego_motion/ego_motion.h"
+#include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
-#include "ego_motion/turns.h"
 #include "support/test_data.h"
 #include "synthetic_rays.h"
 
@@ -132,7 +132,7 @@ std::vector<SeenTurn> turns_of(const EgoMotion& motion) {
     const EgoFrame& before = motion.frames[k - 1];
     const EgoFrame& after = motion.frames[k];
     const glm::dquat turn = glm::conjugate(before.world_from_camera) * after.world_from_camera;
-    turns.push_back({before.time_s, after.time_s, vector_of(eigen_of(turn))});
+    turns.push_back({before.time_s, after.time_s, vector_of(turn)});
   }
   return turns;
 }

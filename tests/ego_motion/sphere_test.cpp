@@ -5,9 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "base/least_squares.h"
 #include "base/pose.h"
 #include "ego_motion/ego_motion.h"
-#include "ego_motion/turns.h"
+#include "ego_motion/rotation_fit.h"
 #include "sphere_footage.h"
 #include "support/test_data.h"
 
@@ -47,8 +48,8 @@ TEST_CASE("a camera that turns before a world at infinity is followed to a tenth
       // Both against frame 0.
       const glm::dquat found = glm::conjugate(motion->frames[0].world_from_camera) * frame.world_from_camera;
       const glm::dquat exact = glm::conjugate(truth[0]) * truth[n];
-      const Eigen::Vector3d error_rad = vector_of(eigen_of(glm::conjugate(exact) * found));
-      squares += error_rad.squaredNorm() / 3 / static_cast<double>(truth.size());
+      const glm::dvec3 error_rad = vector_of(glm::conjugate(exact) * found);
+      squares += squared_length(error_rad) / 3 / static_cast<double>(truth.size());
       for (int axis = 0; axis < 3; ++axis) outside += std::abs(error_rad[axis]) > 3 * frame.sd_rad[axis] ? 1 : 0;
     }
     CHECK(250 * std::sqrt(squares) < 0.1);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Geometry>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace sigs::test {
 struct RayFlight {
   std::vector<FrameRays> frames;
   std::vector<double> times_s;
-  std::vector<Eigen::Quaterniond> start_from_camera;  // the truth, against frame 0
+  std::vector<glm::dquat> start_from_camera;  // the truth, against frame 0
 };
 
 struct RayFlightSettings {
@@ -25,12 +26,12 @@ struct RayFlightSettings {
   double noise_px = 0.1;     // of each ray, in each direction
   double speed_mps = 22;
   double height_m = 150;
-  Eigen::Vector3d turn_radps{0, 0, 0};  // even, about the camera's axes
-  double shake_rad = 0;                 // from frame to frame
-  double moving_share = 0;              // of the points that drift together, as clouds do
-  double clouds_m = 0;                  // not 0: the sky is a layer of clouds at this height above, moved by the wind
-  double wind_mps = 45;                 // to the right, of these clouds
-  double pitch_rad = 0;                 // of the optical axis, upwards
+  glm::dvec3 turn_radps{0, 0, 0};  // even, about the camera's axes
+  double shake_rad = 0;            // from frame to frame
+  double moving_share = 0;         // of the points that drift together, as clouds do
+  double clouds_m = 0;             // not 0: the sky is a layer of clouds at this height above, moved by the wind
+  double wind_mps = 45;            // to the right, of these clouds
+  double pitch_rad = 0;            // of the optical axis, upwards
   double readout_s = 0;
   unsigned seed = 1;
 };

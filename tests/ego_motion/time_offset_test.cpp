@@ -18,7 +18,7 @@ namespace {
 constexpr double kFrame_s = 0.04;
 
 // A shaking camera: the integral of its rates, and the rates, in closed form.
-Eigen::Vector3d angle_at(double t) {
+glm::dvec3 angle_at(double t) {
   return {0.02 * std::sin(7.3 * t) + 0.004 * std::sin(31 * t), 0.015 * std::cos(5.1 * t + 0.4 * std::sin(t)),
           0.03 * std::sin(3.7 * t + 2) + 0.003 * std::cos(23 * t)};
 }
@@ -170,7 +170,7 @@ TEST_CASE("a log whose clock runs fast by a thousandth is found to drift by that
 
 TEST_CASE("a camera that does not turn, a log elsewhere in time and an empty log say nothing of the offset") {
   std::vector<SeenTurn> still = turns_seen(300);
-  for (SeenTurn& turn : still) turn.turn_rad.setZero();
+  for (SeenTurn& turn : still) turn.turn_rad = glm::dvec3(0);
   const RateIntegral rates(log_of(12, 0, 0, 6));
   const auto unmoved = time_offset(still, rates, 1);
   CHECK((!unmoved || unmoved->correlation == 0));  // below what is taken for the same flight

@@ -22,20 +22,19 @@ Camera view_camera(LensModel model) {
 }
 
 // Of a camera of this roll (right side down) and pitch (nose up): turned about its Y, then about its X.
-Eigen::Quaterniond level_from_camera(double roll_deg, double pitch_deg) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(pitch_deg * kDegree, Eigen::Vector3d::UnitY())) *
-         Eigen::Quaterniond(Eigen::AngleAxisd(roll_deg * kDegree, Eigen::Vector3d::UnitX()));
+glm::dquat level_from_camera(double roll_deg, double pitch_deg) {
+  return glm::angleAxis(pitch_deg * kDegree, glm::dvec3(0, 1, 0)) *
+         glm::angleAxis(roll_deg * kDegree, glm::dvec3(1, 0, 0));
 }
 
 // An image of a world that is given by the luma in each direction (X ahead, Z down), with noise of 1.5 codes.
-cv::Mat image_of(const Camera& camera, const Eigen::Quaterniond& level_from_camera,
-                 const std::function<double(const Eigen::Vector3d&)>& luma_in) {
+cv::Mat image_of(const Camera& camera, const glm::dquat& level_from_camera,
+                 const std::function<double(const glm::dvec3&)>& luma_in) {
   cv::Mat image(camera.size_px, CV_32F);
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x) {
       const auto ray = camera.lens.ray({x, y});
-      image.at<float>(y, x) =
-          ray ? static_cast<float>(luma_in(level_from_camera * Eigen::Vector3d(ray->x, ray->y, ray->z))) : 0.0F;
+      image.at<float>(y, x) = ray ? static_cast<float>(luma_in(level_from_camera * *ray)) : 0.0F;
     }
   cv::GaussianBlur(image, image, {3, 3}, 0.6);
   cv::Mat noise(image.size(), CV_32F);
@@ -46,50 +45,50 @@ cv::Mat image_of(const Camera& camera, const Eigen::Quaterniond& level_from_came
   return out;
 }
 
-double sea_and_sky(const Eigen::Vector3d& ray) {
-  return ray.z() > 0 ? kSea : kSky - 20 * ray.z();
+double sea_and_sky(const glm::dvec3& ray) {
+  return ray.z > 0 ? kSea : kSky - 20 * ray.z;
 }
 
 // Random grey all over, in patches of some degrees.
-double rough_ground(const Eigen::Vector3d& ray) {
-  const auto wave = [&](double a, double b, double c) { return std::sin(a * ray.y() + b * ray.z() + c * ray.x()); };
+double rough_ground(const glm::dvec3& ray) {
+  const auto wave = [&](double a, double b, double c) { return std::sin(a * ray.y + b * ray.z + c * ray.x); };
   return 110 + 18 * wave(61, 23, 7) + 18 * wave(-37, 59, 3) + 12 * wave(113, -71, 19) + 12 * wave(17, 131, 41);
 }
 
-double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) / kDegree;
+double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / kDegree;
 }
 
-Eigen::Vector3d up_in_camera(const Eigen::Quaterniond& level_from_camera) {
-  return level_from_camera.conjugate() * Eigen::Vector3d(0, 0, -1);
+glm::dvec3 up_in_camera(const glm::dquat& level_from_camera) {
+  return glm::conjugate(level_from_camera) * glm::dvec3(0, 0, -1);
 }
 
 // Flat ground under haze: by Koschmieder the contrast at the angle t below the level is exp(-a / t) of all of it.
-std::function<double(const Eigen::Vector3d&)> hazy_ground(double a_rad) {
-  return [a_rad](const Eigen::Vector3d& ray) {
-    const double below_rad = std::asin(ray.z());
+std::function<double(const glm::dvec3&)> hazy_ground(double a_rad) {
+  return [a_rad](const glm::dvec3& ray) {
+    const double below_rad = std::asin(ray.z);
     return below_rad > 0 ? kSky - 70 * std::exp(-a_rad / below_rad) : static_cast<double>(kSky);
   };
 }
 
 // A skyline between the level and twice `mean_rad`.
-std::function<double(const Eigen::Vector3d&)> wavy_hills(double mean_rad, double waves_a_radian) {
-  return [=](const Eigen::Vector3d& ray) {
-    const double top_rad = mean_rad * (1 + std::sin(waves_a_radian * std::atan2(ray.y(), ray.x())));
-    return std::asin(-ray.z()) < top_rad ? kSea : kSky;
+std::function<double(const glm::dvec3&)> wavy_hills(double mean_rad, double waves_a_radian) {
+  return [=](const glm::dvec3& ray) {
+    const double top_rad = mean_rad * (1 + std::sin(waves_a_radian * std::atan2(ray.y, ray.x)));
+    return std::asin(-ray.z) < top_rad ? kSea : kSky;
   };
 }
 
 std::optional<Level> level_by(const HorizonLine& line) {
   const std::vector<HorizonLine> lines(6, line);
-  return level_of(lines, std::vector(static_cast<std::size_t>(line.frame) + 1, Eigen::Quaterniond::Identity()));
+  return level_of(lines, std::vector(static_cast<std::size_t>(line.frame) + 1, glm::dquat(1, 0, 0, 0)));
 }
 
 }  // namespace
 
 TEST_CASE("haze lowers the edge by half of height over visual range, and the line says so") {
   const Camera camera = view_camera(LensModel::kannala_brandt);
-  const Eigen::Quaterniond turn = level_from_camera(2, 1);
+  const glm::dquat turn = level_from_camera(2, 1);
   for (const double a_rad : {0.008, 0.014, 0.02}) {
     const auto line = horizon_in(image_of(camera, turn, hazy_ground(a_rad)), 1, camera, {}, 0);
     CAPTURE(a_rad);
@@ -112,7 +111,7 @@ TEST_CASE("haze lowers the edge by half of height over visual range, and the lin
 
 TEST_CASE("low hills raise the line by their mean height, which the relief of the skyline tells") {
   const Camera camera = view_camera(LensModel::kannala_brandt);
-  const Eigen::Quaterniond turn = level_from_camera(2, 1);
+  const glm::dquat turn = level_from_camera(2, 1);
   for (const double mean_rad : {0.001, 0.0015, 0.002}) {
     const auto line = horizon_in(image_of(camera, turn, wavy_hills(mean_rad, 30)), 1, camera, {}, 0);
     CAPTURE(mean_rad);
@@ -129,7 +128,7 @@ TEST_CASE("a sea's horizon is found to 0.1 degrees, whatever the roll, the pitch
     for (const auto& [bank_deg, pitch_deg] : {std::pair(0.0, 0.0), {2.3, 1.0}, {-25.0, -8.0}, {40.0, 5.0}}) {
       const double roll_deg = bank_deg;
       const Camera camera = view_camera(model);
-      const Eigen::Quaterniond turn = level_from_camera(roll_deg, pitch_deg);
+      const glm::dquat turn = level_from_camera(roll_deg, pitch_deg);
       const auto line = horizon_in(image_of(camera, turn, sea_and_sky), 1, camera, {}, 3);
       CAPTURE(roll_deg);
       REQUIRE(line);
@@ -143,19 +142,19 @@ TEST_CASE("a sea's horizon is found to 0.1 degrees, whatever the roll, the pitch
 TEST_CASE("a calm sea, smooth as the sky, has a horizon where it is tilted too; a cloud's straight edge is none") {
   // Calm water mirrors the sky: in direction a below the level it is a share of what is seen at a above it.
   const auto sky = [](double up_rad) { return 200 - 90 * up_rad; };
-  const auto calm_sea = [&](const Eigen::Vector3d& ray) {
-    const double down_rad = std::asin(ray.z());
+  const auto calm_sea = [&](const glm::dvec3& ray) {
+    const double down_rad = std::asin(ray.z);
     return down_rad > 0 ? 0.92 * sky(down_rad) - 60 * down_rad : sky(-down_rad);
   };
   // A layer of cloud with a straight lower edge, clear sky below it, down to the image's border.
-  const auto cloud = [&](const Eigen::Vector3d& ray) {
-    const double up_rad = 0.6 + std::asin(-ray.z());
-    return sky(up_rad) + (ray.z() < 0 ? 14 : 0);
+  const auto cloud = [&](const glm::dvec3& ray) {
+    const double up_rad = 0.6 + std::asin(-ray.z);
+    return sky(up_rad) + (ray.z < 0 ? 14 : 0);
   };
   const Camera camera = view_camera(LensModel::brown_conrady);
   for (const double roll_deg : {-25.0, -8.0, 0.0, 8.0, 25.0}) {
     CAPTURE(roll_deg);
-    const Eigen::Quaterniond attitude = level_from_camera(roll_deg, 2);
+    const glm::dquat attitude = level_from_camera(roll_deg, 2);
     const auto line = horizon_in(image_of(camera, attitude, calm_sea), 1, camera, {}, 0);
     REQUIRE(line);
     CHECK(degrees_between(line->up, up_in_camera(attitude)) < 0.2);  // as for a rough sea, at twice the noise
@@ -165,11 +164,11 @@ TEST_CASE("a calm sea, smooth as the sky, has a horizon where it is tilted too; 
 
 TEST_CASE("hills over more than half of the width do not hide the rest of the horizon") {
   const Camera camera = view_camera(LensModel::kannala_brandt);
-  const Eigen::Quaterniond turn = level_from_camera(3, 1);
-  const auto luma = [](const Eigen::Vector3d& ray) {
-    const double azimuth = std::atan2(ray.y(), ray.x());
+  const glm::dquat turn = level_from_camera(3, 1);
+  const auto luma = [](const glm::dvec3& ray) {
+    const double azimuth = std::atan2(ray.y, ray.x);
     const double top = azimuth > -0.1 ? 0.05 + 0.03 * std::sin(9 * azimuth) + 0.01 * std::sin(40 * azimuth) : 0;
-    if (-ray.z() < top && azimuth > -0.1) return rough_ground(ray);
+    if (-ray.z < top && azimuth > -0.1) return rough_ground(ray);
     return sea_and_sky(ray);
   };
   const auto line = horizon_in(image_of(camera, turn, luma), 1, camera, {}, 0);
@@ -179,15 +178,15 @@ TEST_CASE("hills over more than half of the width do not hide the rest of the ho
 
 TEST_CASE("without a horizon none is found: blank, rough, an upright edge, a road through rough ground") {
   const Camera camera = view_camera(LensModel::kannala_brandt);
-  const Eigen::Quaterniond level = level_from_camera(0, 0);
-  const auto found = [&](const std::function<double(const Eigen::Vector3d&)>& luma) {
+  const glm::dquat level = level_from_camera(0, 0);
+  const auto found = [&](const std::function<double(const glm::dvec3&)>& luma) {
     return horizon_in(image_of(camera, level, luma), 1, camera, {}, 0).has_value();
   };
-  CHECK_FALSE(found([](const Eigen::Vector3d&) { return 128.0; }));
+  CHECK_FALSE(found([](const glm::dvec3&) { return 128.0; }));
   CHECK_FALSE(found(rough_ground));
-  CHECK_FALSE(found([](const Eigen::Vector3d& ray) { return ray.y() < 0.02 * ray.z() ? 170.0 : 120.0; }));
-  CHECK_FALSE(found(
-      [](const Eigen::Vector3d& ray) { return std::abs(ray.z() - 0.1 * ray.y()) < 0.01 ? 200.0 : rough_ground(ray); }));
+  CHECK_FALSE(found([](const glm::dvec3& ray) { return ray.y < 0.02 * ray.z ? 170.0 : 120.0; }));
+  CHECK_FALSE(
+      found([](const glm::dvec3& ray) { return std::abs(ray.z - 0.1 * ray.y) < 0.01 ? 200.0 : rough_ground(ray); }));
 }
 
 TEST_CASE("a road in footage that looks down is no horizon: above it is ground") {
@@ -196,8 +195,8 @@ TEST_CASE("a road in footage that looks down is no horizon: above it is ground")
   for (const double tilt : {0.0, 0.1, -0.3})
     for (const double strength : {0.3, 1.0}) {
       CAPTURE(tilt);
-      const auto luma = [&](const Eigen::Vector3d& ray) {
-        const double off = ray.y() * tilt - ray.x() / std::max(ray.z(), 0.1);
+      const auto luma = [&](const glm::dvec3& ray) {
+        const double off = ray.y * tilt - ray.x / std::max(ray.z, 0.1);
         return std::abs(off) < 0.1 ? 60.0 : 60 + strength * rough_ground(ray) + (1 - strength) * 110;
       };
       CHECK_FALSE(horizon_in(image_of(camera, level_from_camera(0, -90), luma), 1, camera, {}, 0));
@@ -207,10 +206,10 @@ TEST_CASE("a road in footage that looks down is no horizon: above it is ground")
 TEST_CASE("a roof against the sky is no horizon: beside it there is sky below its edge") {
   const Camera camera = view_camera(LensModel::brown_conrady);
   for (const double slope : {0.15, -0.25}) {
-    const auto luma = [&](const Eigen::Vector3d& ray) {
-      const double right = ray.y() / ray.x(), down = ray.z() / ray.x();
+    const auto luma = [&](const glm::dvec3& ray) {
+      const double right = ray.y / ray.x, down = ray.z / ray.x;
       const bool is_roof = right > -0.1 && right < 0.6 && down > 0.05 + slope * right;
-      return is_roof ? 60.0 : sea_and_sky({ray.x(), ray.y(), -std::abs(ray.z())});
+      return is_roof ? 60.0 : sea_and_sky({ray.x, ray.y, -std::abs(ray.z)});
     };
     CHECK_FALSE(horizon_in(image_of(camera, level_from_camera(0, 0), luma), 1, camera, {}, 0));
   }
@@ -218,10 +217,10 @@ TEST_CASE("a roof against the sky is no horizon: beside it there is sky below it
 
 TEST_CASE("a bonnet below a street is no horizon; the street's end is the skyline") {
   const Camera camera = view_camera(LensModel::brown_conrady);
-  const auto luma = [](const Eigen::Vector3d& ray) {
-    const double down = ray.z() / ray.x();
+  const auto luma = [](const glm::dvec3& ray) {
+    const double down = ray.z / ray.x;
     if (down > 0.3) return 70.0;  // the bonnet, straight
-    const double roofs = -0.05 - 0.03 * std::sin(23 * ray.y()) * std::sin(7 * ray.y());
+    const double roofs = -0.05 - 0.03 * std::sin(23 * ray.y) * std::sin(7 * ray.y);
     return down > roofs ? 20 + rough_ground(ray) : 200.0;
   };
   const cv::Mat image = image_of(camera, level_from_camera(0, 4), luma);
@@ -234,10 +233,10 @@ TEST_CASE("a bonnet below a street is no horizon; the street's end is the skylin
 
 TEST_CASE("sky, ground and their border are distinguished in an image that shows one alone or both") {
   const Camera camera = view_camera(LensModel::brown_conrady);
-  const auto seen = [&](double pitch_deg, const std::function<double(const Eigen::Vector3d&)>& luma) {
+  const auto seen = [&](double pitch_deg, const std::function<double(const glm::dvec3&)>& luma) {
     return sky_map_of(image_of(camera, level_from_camera(0, pitch_deg), luma));
   };
-  const auto world = [](const Eigen::Vector3d& ray) { return ray.z() > 0 ? rough_ground(ray) : 190 + 20 * ray.z(); };
+  const auto world = [](const glm::dvec3& ray) { return ray.z > 0 ? rough_ground(ray) : 190 + 20 * ray.z; };
   CHECK(seen(50, world).share > 0.99);
   CHECK(seen(-70, world).share < 0.08);
   const SkyMap both = seen(5, world);
@@ -250,21 +249,21 @@ TEST_CASE("a horizon hidden by the own body over most of the width is none") {
   const Camera camera = view_camera(LensModel::kannala_brandt);
   cv::Mat body(camera.size_px, CV_8UC1, cv::Scalar(0));
   body(cv::Rect(130, 0, 510, 360)).setTo(255);
-  const Eigen::Quaterniond level = level_from_camera(0, 0);
+  const glm::dquat level = level_from_camera(0, 0);
   CHECK_FALSE(horizon_in(image_of(camera, level, sea_and_sky), 1, camera, body, 0));
 }
 
 TEST_CASE("lines that stay in the world are its level; lines that move by parallax are not") {
   std::vector<HorizonLine> still;
   std::vector<HorizonLine> moving;
-  std::vector<Eigen::Quaterniond> turns;
+  std::vector<glm::dquat> turns;
   for (int k = 0; k < 20; ++k) {
     turns.push_back(level_from_camera(k, 0.5 * k));
     still.push_back({.frame = k, .up = up_in_camera(turns.back()), .sd_rad = 0.001});
-    moving.push_back({.frame = k,
-                      .up = turns.back().conjugate() * Eigen::AngleAxisd(0.01 * k, Eigen::Vector3d::UnitY()) *
-                            Eigen::Vector3d(0, 0, -1),
-                      .sd_rad = 0.001});
+    moving.push_back(
+        {.frame = k,
+         .up = glm::conjugate(turns.back()) * glm::angleAxis(0.01 * k, glm::dvec3(0, 1, 0)) * glm::dvec3(0, 0, -1),
+         .sd_rad = 0.001});
   }
   const auto level = level_of(still, turns);
   REQUIRE(level);

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/rough_calibration.h"
+#include "calibration/autocalibration.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "base/json.h"
 #include "base/pose.h"
 #include "plot/plot.h"
+#include "base/json.h"
 
 namespace sigs {
 
 namespace {
 
-Json fit_json(const RoughFit& fit) {
+Json fit_json(const LensEstimate& fit) {
   return {{"horizontal_field_deg", deg_of_rad(fit.lens.horizontal_field_rad())},
           {"horizontal_field_low_deg", deg_of_rad(fit.field_low_rad)},
           {"horizontal_field_high_deg", deg_of_rad(fit.field_high_rad)},
@@ -26,7 +27,7 @@ Json fit_json(const RoughFit& fit) {
           {"distortion_sd", fit.distortion_sd}};
 }
 
-Json answer_json(const RoughAnswer& answer) {
+Json answer_json(const LensAnswer& answer) {
   Json json = answer.fit ? fit_json(*answer.fit) : Json::object();
   json["used"] = answer.fit.has_value();
   json["remark"] = answer.reason;
@@ -47,17 +48,9 @@ Json gyro_json(const GyroAnswer& gyro) {
   return json;
 }
 
-Json lines_json(const LinesAnswer& lines) {
-  Json json{{"used", lines.is_certain}, {"remark", lines.reason}, {"lines", lines.lines}, {"agree", lines.agree}};
-  if (!lines.is_certain) return json;
-  json["distortion"] = lines.distortion;
-  json["distortion_sd"] = lines.sd;
-  return json;
-}
-
 }  // namespace
 
-Result<CalibrationText> calibration_text(const RoughCalibration& found) {
+Result<CalibrationText> calibration_text(const Autocalibration& found) {
   Result<LensParameters> lens = parameters_of(found.fit.lens);
   if (!lens) return fail(lens.error());
   return CalibrationText{
@@ -72,32 +65,30 @@ Result<CalibrationText> calibration_text(const RoughCalibration& found) {
   };
 }
 
-std::string summary_of(const RoughCalibration& found) {
-  const RoughFit& fit = found.fit;
+std::string summary_of(const Autocalibration& found) {
+  const LensEstimate& fit = found.fit;
   const double field_deg = deg_of_rad(fit.lens.horizontal_field_rad());
   const std::string limits =
       fit.field_low_rad < fit.field_high_rad
           ? fmt::format(" (95 %: {:.1f} to {:.1f})", deg_of_rad(fit.field_low_rad), deg_of_rad(fit.field_high_rad))
           : std::string();
   return fmt::format(
-      "field of view {:.1f} degrees across{}, focal length {:.1f} px, by {}; distortion {:.3f} +- {:.3f}{}", field_deg,
-      limits, fit.lens.focal_px, name_of(found.source), fit.lens.distortion, fit.distortion_sd,
-      found.distortion_by_lines ? ", straight edges agree" : "");
+      "field of view {:.1f} degrees across{}, focal length {:.1f} px, by {}; distortion {:.3f} +- {:.3f}", field_deg,
+      limits, fit.lens.focal_px, name_of(found.source), fit.lens.distortion, fit.distortion_sd);
 }
 
-std::string json_of(const RoughCalibration& found) {
+std::string json_of(const Autocalibration& found) {
   Json json{{"rough", true},
-            {"source", found.source == RoughSource::given       ? "given"
-                       : found.source == RoughSource::gyroscope ? "gyroscope"
-                       : found.source == RoughSource::turn      ? "turn"
-                                                                : "stated"},
+            {"source", found.source == AutocalibrationSource::given       ? "given"
+                       : found.source == AutocalibrationSource::gyroscope ? "gyroscope"
+                       : found.source == AutocalibrationSource::turn      ? "turn"
+                                                                          : "stated"},
             {"width", found.fit.lens.size_px.width},
             {"height", found.fit.lens.size_px.height},
             {"frames", found.frames}};
   json["lens"] = fit_json(found.fit);
   json["gyroscope"] = gyro_json(found.gyro);
   json["turn"] = answer_json(found.turn);
-  json["lines"] = lines_json(found.lines);
   json["stated"] = answer_json(found.stated);
   json["warnings"] = Json::array();
   for (const Warning& warning : found.warnings) json["warnings"].push_back(warning.text());
@@ -110,17 +101,17 @@ constexpr PlotColor kMeasured{20, 90, 180}, kPinhole{120, 120, 120};
 
 struct Row {
   std::string name;
-  RoughAnswer answer;
+  LensAnswer answer;
 };
 
-std::vector<Row> rows_of(const RoughCalibration& found) {
+std::vector<Row> rows_of(const Autocalibration& found) {
   std::vector<Row> rows{{"gyroscope", found.gyro.answer}, {"turns", found.turn}, {"file states", found.stated}};
-  if (found.source == RoughSource::given) rows.push_back({"--fov", {.fit = found.fit, .reason = {}}});
+  if (found.source == AutocalibrationSource::given) rows.push_back({"--fov", {.fit = found.fit, .reason = {}}});
   return rows;
 }
 
 // A row for each source: its field of view with the limits, or why it has none.
-Plot fields_plot(const RoughCalibration& found) {
+Plot fields_plot(const Autocalibration& found) {
   const std::vector<Row> rows = rows_of(found);
   PlotSeries limits{.color = kMeasured};
   PlotSeries fields{.kind = SeriesKind::marks, .color = kMeasured};
@@ -129,7 +120,7 @@ Plot fields_plot(const RoughCalibration& found) {
     const auto row = static_cast<double>(i);
     names.push_back({row, rows[i].name});
     if (!rows[i].answer.fit) continue;
-    const RoughFit& fit = *rows[i].answer.fit;
+    const LensEstimate& fit = *rows[i].answer.fit;
     limits.runs.push_back({{deg_of_rad(fit.field_low_rad), row}, {deg_of_rad(fit.field_high_rad), row}});
     fields.runs.push_back({{deg_of_rad(fit.lens.horizontal_field_rad()), row}});
   }
@@ -149,7 +140,7 @@ Plot fields_plot(const RoughCalibration& found) {
   return plot;
 }
 
-PlotSeries angles_of(std::string title, const RoughLens& lens, PlotColor color) {
+PlotSeries angles_of(std::string title, const DivisionLens& lens, PlotColor color) {
   PlotSeries series{.title = std::move(title), .runs = {{}}, .color = color};
   for (int i = 0; i <= 200; ++i) {
     const double r_px = lens.radius_px() * i / 200;
@@ -160,8 +151,8 @@ PlotSeries angles_of(std::string title, const RoughLens& lens, PlotColor color) 
   return series;
 }
 
-Plot curve_plot(const RoughLens& lens) {
-  RoughLens pinhole = lens;
+Plot curve_plot(const DivisionLens& lens) {
+  DivisionLens pinhole = lens;
   pinhole.distortion = 0;
   const std::vector<PlotSeries> series{angles_of("a pinhole of the same focal length", pinhole, kPinhole),
                                        angles_of("the lens", lens, kMeasured)};
@@ -175,13 +166,8 @@ Plot curve_plot(const RoughLens& lens) {
 
 }  // namespace
 
-cv::Mat rough_plot(const RoughCalibration& found) {
-  Plot curve = curve_plot(found.fit.lens);
-  curve.remark = found.lines.is_certain
-                     ? fmt::format("straight edges: distortion {:.3f} +- {:.3f}, {} of {} edges agree",
-                                   found.lines.distortion, found.lines.sd, found.lines.agree, found.lines.lines)
-                     : "straight edges: " + found.lines.reason;
-  return image_of({fields_plot(found), curve});
+cv::Mat autocalibration_plot(const Autocalibration& found) {
+  return image_of({fields_plot(found), curve_plot(found.fit.lens)});
 }
 
 }  // namespace sigs

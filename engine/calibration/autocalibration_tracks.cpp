@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/rough_tracks.h"
+#include "calibration/autocalibration_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/least_squares.h"
+#include "base/statistics.h"
 #include "video/luma_stream.h"
 
 namespace sigs {
@@ -12,7 +14,6 @@ namespace sigs {
 namespace {
 
 constexpr int kStretch = 300;      // frames
-constexpr int kLooks = 10;         // images that are handed out
 constexpr int kIdsEach = 1 << 24;  // features that one stretch may have
 
 struct Stretch {
@@ -34,15 +35,12 @@ std::vector<Stretch> stretches_of(int frames, int max_frames) {
 
 }  // namespace
 
-Result<PixelTracks> tracked_pixels(FrameSource& footage, int max_frames,
-                                   const std::function<void(int number, const cv::Mat&)>& looked_at,
-                                   const RoughControl& control) {
+Result<PixelTracks> tracked_pixels(FrameSource& footage, int max_frames, const AutocalibrationControl& control) {
   const std::vector<double> times_s = footage.info().times_s;
   PixelTracks tracks{.size_px = footage.info().size_px};
   const std::vector<Stretch> stretches = stretches_of(footage.info().frame_count(), max_frames);
   int total = 0;
   for (const Stretch& stretch : stretches) total += stretch.count;
-  const int every = std::max(1, total / kLooks);
   for (int s = 0; s < static_cast<int>(stretches.size()); ++s) {
     const Stretch& stretch = stretches[static_cast<std::size_t>(s)];
     FeatureTracker tracker(tracks.size_px, {}, {});
@@ -56,10 +54,8 @@ Result<PixelTracks> tracked_pixels(FrameSource& footage, int max_frames,
       found.features = tracker.next((*frame)->luma);
       for (Feature& feature : found.features) feature.id += s * kIdsEach;
       found.is_repeated = tracker.is_repeated();
-      const int done = static_cast<int>(tracks.frames.size());
-      if (looked_at && done % every == every / 2) looked_at(number, (*frame)->luma);
       tracks.frames.push_back(std::move(found));
-      if (control.progress) control.progress(done + 1, total);
+      if (control.progress) control.progress(static_cast<int>(tracks.frames.size()), total);
     }
     tracks.step_px = tracker.scale();
   }
@@ -67,12 +63,9 @@ Result<PixelTracks> tracked_pixels(FrameSource& footage, int max_frames,
 }
 
 double median_motion_px(std::span<const PixelPair> pairs) {
-  if (pairs.empty()) return 0;
   std::vector<double> motions;
-  for (const PixelPair& pair : pairs) motions.push_back((pair.after - pair.before).norm());
-  const auto middle = motions.begin() + static_cast<std::ptrdiff_t>(motions.size() / 2);
-  std::nth_element(motions.begin(), middle, motions.end());
-  return *middle;
+  for (const PixelPair& pair : pairs) motions.push_back(glm::length(pair.after - pair.before));
+  return motions.empty() ? 0 : median(std::move(motions));
 }
 
 std::vector<PixelPair> common_pixels(const TrackedFrame& before, const TrackedFrame& after) {
@@ -83,13 +76,13 @@ std::vector<PixelPair> common_pixels(const TrackedFrame& before, const TrackedFr
     if (b == after.features.end()) break;
     if (b->id != a.id) continue;
     const PixelPair pair{{a.pixel_px.x, a.pixel_px.y}, {b->pixel_px.x, b->pixel_px.y}};
-    if (pair.before.allFinite() && pair.after.allFinite()) pairs.push_back(pair);
+    if (is_finite(pair.before) && is_finite(pair.after)) pairs.push_back(pair);
   }
   constexpr double kMoves_px = 5;
   constexpr double kStill = 0.05;  // of the median motion
   const double motion_px = median_motion_px(pairs);
   if (motion_px > kMoves_px)
-    std::erase_if(pairs, [&](const PixelPair& p) { return (p.after - p.before).norm() < kStill * motion_px; });
+    std::erase_if(pairs, [&](const PixelPair& p) { return glm::length((p.after - p.before)) < kStill * motion_px; });
   return pairs;
 }
 

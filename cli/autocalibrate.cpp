@@ -9,7 +9,7 @@
 #include "base/paths.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
-#include "calibration/rough_calibration.h"
+#include "calibration/autocalibration.h"
 #include "cli/calibrate_options.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
@@ -23,14 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct RoughInputs {
+struct AutocalibrationInputs {
   std::optional<Track> log;
   fs::path log_file;  // empty: the footage itself
 };
 
 // The log that is named, else the one that the footage carries, if it does.
-Result<RoughInputs> inputs_of(const CalibrateOptions& options) {
-  RoughInputs inputs{.log = std::nullopt, .log_file = options.log};
+Result<AutocalibrationInputs> inputs_of(const CalibrateOptions& options) {
+  AutocalibrationInputs inputs{.log = std::nullopt, .log_file = options.log};
   const bool is_named = !options.log.empty();
   Result<Track> log = read_track(is_named ? options.log : options.inputs[0], {.cancel = &interrupt_flag()});
   if (!log && (is_named || log.error().kind == ErrorKind::interrupted)) return fail(log.error());
@@ -40,30 +40,30 @@ Result<RoughInputs> inputs_of(const CalibrateOptions& options) {
   return inputs;
 }
 
-Result<RoughCalibration> found_in(const CalibrateOptions& options) {
+Result<Autocalibration> found_in(const CalibrateOptions& options) {
   Result<FrameSource> footage =
       FrameSource::open(options.inputs[0], &interrupt_flag(), Quantisers::leave_out, options.timing);
   if (!footage) return fail(footage.error());
   for (const Warning& warning : footage->info().warnings) print_warning(warning);
-  const Result<RoughInputs> inputs = inputs_of(options);
+  const Result<AutocalibrationInputs> inputs = inputs_of(options);
   if (!inputs) return fail(inputs.error());
-  RoughSettings settings{.max_frames = options.max_frames};
+  AutocalibrationSettings settings{.max_frames = options.max_frames};
   if (options.fov_deg) settings.given_field_rad = rad_of_deg(*options.fov_deg);
   Progress progress(progress_style(options.progress));
-  const RoughControl control{.progress = [&](int done, int total) { progress.update(done, total); },
-                             .cancel = &interrupt_flag()};
-  Result<RoughCalibration> found =
-      rough_calibration(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);
+  const AutocalibrationControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+                                       .cancel = &interrupt_flag()};
+  Result<Autocalibration> found =
+      autocalibrated(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);
   progress.end();
   return found;
 }
 
 // The places of the outputs while they are written; empty: not asked for.
-struct RoughOutputs {
+struct AutocalibrationOutputs {
   fs::path calibration, plot, json;
 };
 
-Result<RoughOutputs> begun(StagedOutputs& outputs, const CalibrateOptions& options) {
+Result<AutocalibrationOutputs> begun(StagedOutputs& outputs, const CalibrateOptions& options) {
   if (options.inputs.size() != 1)
     return fail("INPUT", "is one video where there is no --board; there are " + std::to_string(options.inputs.size()),
                 ErrorKind::usage);
@@ -71,7 +71,7 @@ Result<RoughOutputs> begun(StagedOutputs& outputs, const CalibrateOptions& optio
     return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
   std::vector<fs::path> inputs{options.inputs[0]};
   if (!options.log.empty()) inputs.push_back(options.log);
-  RoughOutputs staged;
+  AutocalibrationOutputs staged;
   for (const auto& [path, place] :
        {std::pair(&options.out, &staged.calibration), {&options.plot, &staged.plot}, {&options.json, &staged.json}}) {
     if (path->empty()) continue;
@@ -84,7 +84,7 @@ Result<RoughOutputs> begun(StagedOutputs& outputs, const CalibrateOptions& optio
   return staged;
 }
 
-Result<void> write_all(StagedOutputs& outputs, const RoughOutputs& staged, const RoughCalibration& found) {
+Result<void> write_all(StagedOutputs& outputs, const AutocalibrationOutputs& staged, const Autocalibration& found) {
   const Result<CalibrationText> text = calibration_text(found);
   if (!text) return fail(text.error());
   if (const auto written = write_bytes(staged.calibration, calibration_xml(*text)); !written)
@@ -93,14 +93,14 @@ Result<void> write_all(StagedOutputs& outputs, const RoughOutputs& staged, const
     if (const auto written = write_bytes(staged.json, json_of(found)); !written)
       return fail(outputs.with_final_names(written.error()));
   if (!staged.plot.empty())
-    if (const auto drawn = write_png(staged.plot, rough_plot(found)); !drawn)
+    if (const auto drawn = write_png(staged.plot, autocalibration_plot(found)); !drawn)
       return fail(outputs.with_final_names(drawn.error()));
   return outputs.commit();
 }
 
 }  // namespace
 
-void add_rough_options(CLI::App& command, CalibrateOptions& options) {
+void add_autocalibration_options(CLI::App& command, CalibrateOptions& options) {
   command.add_option("--log", options.log, "without a board: a log with the camera's rates; else the video's own")
       ->option_text("FILE")
       ->check(not_empty());
@@ -115,12 +115,12 @@ void add_rough_options(CLI::App& command, CalibrateOptions& options) {
       ->check(CLI::Range(2, 1000000));
 }
 
-Result<void> calibrate_roughly(const CalibrateOptions& options) {
+Result<void> autocalibrate(const CalibrateOptions& options) {
   defer_interrupts();
   StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  const Result<RoughOutputs> staged = begun(outputs, options);
+  const Result<AutocalibrationOutputs> staged = begun(outputs, options);
   if (!staged) return fail(staged.error());
-  const Result<RoughCalibration> found = found_in(options);
+  const Result<Autocalibration> found = found_in(options);
   if (!found) return fail(found.error());
   for (const Warning& warning : found->warnings) print_warning(warning);
   if (const Result<void> written = write_all(outputs, *staged, *found); !written) return written;

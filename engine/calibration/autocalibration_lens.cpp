@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/rough_lens.h"
+#include "calibration/autocalibration_lens.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
-#include <system_error>
+#include <opencv2/core.hpp>
 
 #include "base/input_file.h"
+#include "base/parsing.h"
 #include "base/pose.h"
-#include "ego_motion/turns.h"
+#include "base/statistics.h"
 #include "telemetry/gpmf.h"
 #include "video/data_streams.h"
 
@@ -27,70 +24,69 @@ constexpr int kRadii = 60;  // at which models are compared
 constexpr double kBrownFits_px = 0.2;
 constexpr double kKannalaFits_px = 2;  // a rough lens is not known better
 
-Eigen::Vector2d centre_of(cv::Size size_px) {
+glm::dvec2 centre_of(cv::Size size_px) {
   return {(size_px.width - 1) / 2.0, (size_px.height - 1) / 2.0};
 }
 
 // Coefficients c of r = f a (1 + c1 a^2 + c2 a^4 ...), where a is what the model takes of the angle from the axis.
-std::vector<double> polynomial(const RoughLens& lens, int terms, double (*argument)(double angle_rad)) {
-  Eigen::MatrixXd powers(kRadii, terms);
-  Eigen::VectorXd wanted(kRadii);
+std::vector<double> polynomial(const DivisionLens& lens, int terms, double (*argument)(double angle_rad)) {
+  cv::Mat_<double> powers(kRadii, terms), wanted(kRadii, 1), found;
   for (int i = 0; i < kRadii; ++i) {
     const double r = lens.radius_px() * (i + 1) / kRadii;
-    const Eigen::Vector3d ray = lens.ray(centre_of(lens.size_px) + Eigen::Vector2d(r, 0));
-    const double a = argument(std::atan2(ray.y(), ray.x()));
+    const glm::dvec3 ray = lens.ray(centre_of(lens.size_px) + glm::dvec2(r, 0));
+    const double a = argument(std::atan2(ray.y, ray.x));
     wanted(i) = r - lens.focal_px * a;
     for (int t = 0; t < terms; ++t) powers(i, t) = lens.focal_px * std::pow(a, 2 * t + 3);
   }
-  const Eigen::VectorXd found = powers.colPivHouseholderQr().solve(wanted);
-  return {found.data(), found.data() + found.size()};
+  cv::solve(powers, wanted, found, cv::DECOMP_SVD);
+  return {found.begin(), found.end()};
 }
 
 // How far the model misses the lens, px; infinity where it has no image of what the lens sees.
-double miss_px(const Lens& model, const RoughLens& lens) {
+double miss_px(const Lens& model, const DivisionLens& lens) {
   double largest = 0;
   for (int i = 1; i <= kRadii; ++i) {
-    const Eigen::Vector2d at =
-        centre_of(lens.size_px) + (centre_of(lens.size_px) + Eigen::Vector2d(0.5, 0.5)) * i / kRadii;
-    const auto pixel = model.pixel(glm_of(lens.ray(at)));
+    const glm::dvec2 at =
+        centre_of(lens.size_px) + (centre_of(lens.size_px) + glm::dvec2(0.5, 0.5)) * (i / double(kRadii));
+    const auto pixel = model.pixel(lens.ray(at));
     if (!pixel) return INFINITY;
-    largest = std::max(largest, std::hypot(pixel->x - at.x(), pixel->y - at.y()));
+    largest = std::max(largest, std::hypot(pixel->x - at.x, pixel->y - at.y));
   }
   return largest;
 }
 
 }  // namespace
 
-double RoughLens::radius_px() const {
+double DivisionLens::radius_px() const {
   return std::hypot(size_px.width, size_px.height) / 2;
 }
 
-Eigen::Vector3d RoughLens::ray(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector2d off = pixel - centre_of(size_px);
-  const double share = off.squaredNorm() / (radius_px() * radius_px());
-  return {focal_px * (1 + distortion * share), off.x(), off.y()};
+glm::dvec3 DivisionLens::ray(const glm::dvec2& pixel) const {
+  const glm::dvec2 off = pixel - centre_of(size_px);
+  const double share = squared_length(off) / (radius_px() * radius_px());
+  return {focal_px * (1 + distortion * share), off.x, off.y};
 }
 
-std::optional<Eigen::Vector2d> RoughLens::pixel(const Eigen::Vector3d& direction) const {
-  const double side = std::hypot(direction.y(), direction.z());
-  const double x = direction.x();
+std::optional<glm::dvec2> DivisionLens::pixel(const glm::dvec3& direction) const {
+  const double side = std::hypot(direction.y, direction.z);
+  const double x = direction.x;
   const double bend = 4 * distortion * focal_px * focal_px * side * side / (radius_px() * radius_px());
   // side * focal * (1 + distortion r^2 / radius^2) = x r, solved for r.
   const double root = x * x - bend;
   if (!(root >= 0)) return std::nullopt;
   const double below = x + std::sqrt(root);
   if (!(below > 0)) return std::nullopt;
-  return centre_of(size_px) + Eigen::Vector2d(direction.y(), direction.z()) * (2 * focal_px / below);
+  return centre_of(size_px) + glm::dvec2(direction.y, direction.z) * (2 * focal_px / below);
 }
 
-double RoughLens::horizontal_field_rad() const {
+double DivisionLens::horizontal_field_rad() const {
   const double half_px = size_px.width / 2.0;
   const double share = half_px * half_px / (radius_px() * radius_px());
   return 2 * std::atan2(half_px, focal_px * (1 + distortion * share));
 }
 
-std::optional<RoughLens> rough_lens_of_field(cv::Size size_px, double field_rad, double distortion) {
-  RoughLens lens{.size_px = size_px, .focal_px = 1, .distortion = distortion};
+std::optional<DivisionLens> division_lens_of_field(cv::Size size_px, double field_rad, double distortion) {
+  DivisionLens lens{.size_px = size_px, .focal_px = 1, .distortion = distortion};
   if (!(field_rad > 0) || !(field_rad < 2 * std::numbers::pi) || size_px.empty()) return std::nullopt;
   const double half_px = size_px.width / 2.0;
   const double share = half_px * half_px / (lens.radius_px() * lens.radius_px());
@@ -99,13 +95,13 @@ std::optional<RoughLens> rough_lens_of_field(cv::Size size_px, double field_rad,
   return lens;
 }
 
-Result<LensParameters> parameters_of(const RoughLens& lens) {
-  const Eigen::Vector2d centre = centre_of(lens.size_px);
-  LensParameters found{.fx = lens.focal_px, .fy = lens.focal_px, .cx = centre.x(), .cy = centre.y()};
+Result<LensParameters> parameters_of(const DivisionLens& lens) {
+  const glm::dvec2 centre = centre_of(lens.size_px);
+  LensParameters found{.fx = lens.focal_px, .fy = lens.focal_px, .cx = centre.x, .cy = centre.y};
   if (std::abs(lens.distortion) < 1e-9) return found;
   const double corner_rad = [&] {
-    const Eigen::Vector3d ray = lens.ray(centre + centre);
-    return std::atan2(std::hypot(ray.y(), ray.z()), ray.x());
+    const glm::dvec3 ray = lens.ray(centre + centre);
+    return std::atan2(std::hypot(ray.y, ray.z), ray.x);
   }();
   if (corner_rad < 1.4) {
     const std::vector<double> k = polynomial(lens, 3, [](double angle_rad) { return std::tan(angle_rad); });
@@ -120,20 +116,20 @@ Result<LensParameters> parameters_of(const RoughLens& lens) {
   return fail("the lens found", "is none that OpenCV's models can express");
 }
 
-double RoughFit::relative_uncertainty() const {
+double LensEstimate::relative_uncertainty() const {
   return (std::tan(field_high_rad / 4) / std::tan(field_low_rad / 4) - 1) / 2;
 }
 
-Eigen::MatrixXd clustered_covariance(const std::vector<PartSums>& parts, const Eigen::MatrixXd& known) {
-  Eigen::MatrixXd normal = known;
-  Eigen::MatrixXd scatter = known;  // a prior is as uncertain as it says
-  for (const PartSums& part : parts) {
-    normal += part.normal;
-    scatter += part.right * part.right.transpose();
+cv::Mat_<double> clustered_covariance(const std::vector<NormalEquations>& parts, const NormalEquations& known) {
+  NormalEquations all = known;
+  cv::Mat_<double> scatter = known.matrix();  // a prior is as uncertain as it says
+  for (const NormalEquations& part : parts) {
+    all.add(part);
+    scatter += part.right() * part.right().t();
   }
   const auto count = static_cast<double>(parts.size());
-  const Eigen::MatrixXd inverse = normal.inverse();
-  return inverse * scatter * inverse * (count > 1 ? count / (count - 1) : 1);
+  const cv::Mat_<double> inverse = all.inverse();
+  return cv::Mat(inverse * scatter * inverse * (count > 1 ? count / (count - 1) : 1));
 }
 
 double student_95(int degrees) {
@@ -143,22 +139,26 @@ double student_95(int degrees) {
   return 1.96 + 2.5 / degrees;
 }
 
-RoughFit fit_of(const LensOf& lens_of, const Eigen::VectorXd& found, const Eigen::MatrixXd& covariance, int parts,
-                double least_relative) {
-  RoughFit fit{.lens = lens_of(found), .distortion_sd = std::sqrt(covariance(1, 1)), .parts = parts};
+LensEstimate fit_of(const LensOf& lens_of, const std::vector<double>& found, const cv::Mat_<double>& covariance,
+                    int parts, double least_relative) {
+  LensEstimate fit{.lens = lens_of(found), .distortion_sd = std::sqrt(covariance(1, 1)), .parts = parts};
   const double t = student_95(parts - 1);
   const double middle = fit.lens.horizontal_field_rad();
-  const Eigen::Matrix2d two = covariance.topLeftCorner<2, 2>();
-  const Eigen::Matrix2d axes = two.llt().matrixL();
+  // Cholesky's factor of the covariance of both, by columns.
+  const double first = std::sqrt(covariance(0, 0));
+  const double mixed = covariance(1, 0) / first;
+  const std::array<glm::dvec2, 2> axes{glm::dvec2(first, mixed),
+                                       glm::dvec2(0, std::sqrt(covariance(1, 1) - mixed * mixed))};
   const double floor = t / student_95(1000) * 1.96 * least_relative * std::sin(middle / 2) * 2;
   double up2 = floor * floor;
   double down2 = floor * floor;
-  for (int axis = 0; axis < 2; ++axis) {
+  for (const glm::dvec2& axis : axes) {
     double high = 0;
     double low = 0;
     for (const double sign : {-1.0, 1.0}) {
-      Eigen::VectorXd moved = found;
-      moved.head<2>() += sign * t * axes.col(axis);
+      std::vector<double> moved = found;
+      moved[0] += sign * t * axis.x;
+      moved[1] += sign * t * axis.y;
       const double change = lens_of(moved).horizontal_field_rad() - middle;
       high = std::max(high, change);
       low = std::min(low, change);
@@ -172,10 +172,7 @@ RoughFit fit_of(const LensOf& lens_of, const Eigen::VectorXd& found, const Eigen
 }
 
 double scale_of(std::vector<double> lengths, double least_px) {
-  if (lengths.empty()) return least_px;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return std::max(least_px, *middle);
+  return lengths.empty() ? least_px : std::max(least_px, median(std::move(lengths)));
 }
 
 namespace {
@@ -199,8 +196,8 @@ std::optional<double> diagonal_in(std::string_view value, int depth) {
   return std::nullopt;
 }
 
-RoughFit fit_with(RoughLens lens, const DistortionPrior& prior, double relative) {
-  RoughFit fit{.lens = lens, .distortion_sd = prior.sd};
+LensEstimate fit_with(DivisionLens lens, const DistortionPrior& prior, double relative) {
+  LensEstimate fit{.lens = lens, .distortion_sd = prior.sd};
   const double half_rad = lens.horizontal_field_rad() / 2;
   fit.field_low_rad = 2 * std::atan(std::tan(half_rad) / (1 + relative));
   fit.field_high_rad = 2 * std::atan(std::tan(half_rad) * (1 + relative));
@@ -221,15 +218,15 @@ std::optional<double> dji_focal_mm(std::string_view subtitles) {
   if (from == std::string_view::npos) return std::nullopt;
   const auto to = std::min(subtitles.size(), subtitles.find_first_not_of("0123456789.", from));
   const std::string_view text = subtitles.substr(from, to - from);
-  double stated = 0;
-  if (std::from_chars(text.data(), text.data() + text.size(), stated).ec != std::errc()) return std::nullopt;
-  const bool is_in_tenths = text.find('.') == std::string_view::npos && stated >= 100;
-  const double focal_mm = is_in_tenths ? stated / 10 : stated;
+  const std::optional<double> stated = finite_number(text);
+  if (!stated) return std::nullopt;
+  const bool is_in_tenths = text.find('.') == std::string_view::npos && *stated >= 100;
+  const double focal_mm = is_in_tenths ? *stated / 10 : *stated;
   if (!(focal_mm >= 10 && focal_mm <= 300)) return std::nullopt;
   return focal_mm;
 }
 
-RoughAnswer stated_lens(const std::filesystem::path& file, cv::Size size_px, const DistortionPrior& prior) {
+LensAnswer stated_lens(const std::filesystem::path& file, cv::Size size_px, const DistortionPrior& prior) {
   std::optional<double> diagonal_rad;
   std::optional<double> focal_mm;
   if (const auto streams = data_streams_of(file)) {
@@ -244,7 +241,7 @@ RoughAnswer stated_lens(const std::filesystem::path& file, cv::Size size_px, con
   } else if (const auto text = read_text(file)) {
     focal_mm = dji_focal_mm(*text);
   }
-  RoughLens lens{.size_px = size_px, .distortion = prior.mean};
+  DivisionLens lens{.size_px = size_px, .distortion = prior.mean};
   if (diagonal_rad) {
     lens.focal_px = lens.radius_px() / std::tan(*diagonal_rad / 2) / (1 + lens.distortion);
     return {.fit = fit_with(lens, prior, kGoProRelative),

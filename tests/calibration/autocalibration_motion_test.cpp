@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "calibration/autocalibration_motion.h"
 #include "calibration/made_tracks.h"
-#include "calibration/rough_motion.h"
 
 namespace sigs::test {
 namespace {
@@ -24,7 +24,7 @@ std::vector<KnownLens> known_lenses() {
           {"fisheye", made_camera(kSize_px, LensModel::kannala_brandt, 700, 0.02)}};
 }
 
-bool contains(const RoughFit& fit, double truth_rad) {
+bool contains(const LensEstimate& fit, double truth_rad) {
   return fit.field_low_rad <= truth_rad && truth_rad <= fit.field_high_rad;
 }
 
@@ -35,7 +35,7 @@ TEST_CASE("a camera that pans shows its field of view, within the limits stated"
     for (const unsigned seed : {11U}) {
       CAPTURE(lens.name);
       CAPTURE(seed);
-      const RoughAnswer found = lens_by_turn(made_tracks(lens.camera, {.seed = seed}).tracks, {});
+      const LensAnswer found = lens_by_turn(made_tracks(lens.camera, {.seed = seed}).tracks, {});
       REQUIRE_MESSAGE(found.fit, found.reason);
       CHECK(contains(*found.fit, field_rad(lens.camera)));
       // Half of the limits' distance is 2 % or more, by what the model leaves out.
@@ -62,7 +62,7 @@ TEST_CASE("a gyroscope shows the field of view of a camera that travels, too") {
   const GyroAnswer found = lens_by_gyro(made.tracks, made.log, {});
   REQUIRE_MESSAGE(found.answer.fit, found.answer.reason);
   CHECK(contains(*found.answer.fit, field_rad(camera)));
-  const RoughAnswer turn = lens_by_turn(made.tracks, {});
+  const LensAnswer turn = lens_by_turn(made.tracks, {});
   CHECK_FALSE(turn.fit);
   CHECK_FALSE(turn.reason.empty());
 }
@@ -98,7 +98,7 @@ TEST_CASE("features that are no numbers, and rates that are none, do not count")
     for (std::size_t i = 0; i < frame.features.size(); i += 9) frame.features[i].pixel_px = {nan, nan};
   for (std::size_t i = 0; i < made.log.camera_rate_radps.values.size(); i += 50)
     made.log.camera_rate_radps.values[i].x = std::numeric_limits<double>::infinity();
-  const RoughAnswer turn = lens_by_turn(made.tracks, {});
+  const LensAnswer turn = lens_by_turn(made.tracks, {});
   REQUIRE_MESSAGE(turn.fit, turn.reason);
   CHECK(contains(*turn.fit, field_rad(camera)));
   const GyroAnswer gyro = lens_by_gyro(made.tracks, made.log, {});
@@ -111,7 +111,7 @@ TEST_CASE("the stated limits contain the truth in nineteen of twenty cases or mo
   int inside = 0;
   int found = 0;
   for (unsigned seed = 11; seed < 27; ++seed) {
-    const RoughAnswer turn =
+    const LensAnswer turn =
         lens_by_turn(made_tracks(camera, {.seed = seed, .frames = 120, .pan_rad = 0.17}).tracks, {});
     if (!turn.fit) continue;
     ++found;

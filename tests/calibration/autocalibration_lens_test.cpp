@@ -1,74 +1,71 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/rough_lens.h"
+#include "calibration/autocalibration_lens.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "ego_motion/turns.h"
-
 namespace sigs {
 namespace {
 
 constexpr double kQuarter_rad = std::numbers::pi / 4;
 
-RoughLens lens_with(double distortion) {
+DivisionLens lens_with(double distortion) {
   return {.size_px = {1280, 720}, .focal_px = 800, .distortion = distortion};
 }
 
 }  // namespace
 
-TEST_CASE("a rough lens takes a pixel to a direction and back to the same pixel") {
+TEST_CASE("a division lens takes a pixel to a direction and back to the same pixel") {
   for (const double distortion : {-0.6, -0.2, 0.0, 0.15})
-    for (const Eigen::Vector2d& pixel :
-         {Eigen::Vector2d(0, 0), Eigen::Vector2d(639.5, 359.5), Eigen::Vector2d(1279, 3)}) {
-      const RoughLens lens = lens_with(distortion);
+    for (const glm::dvec2& pixel : {glm::dvec2(0, 0), glm::dvec2(639.5, 359.5), glm::dvec2(1279, 3)}) {
+      const DivisionLens lens = lens_with(distortion);
       const auto back = lens.pixel(3.7 * lens.ray(pixel));
       REQUIRE(back);
-      CHECK((*back - pixel).norm() < 1e-9);
+      CHECK(glm::length(*back - pixel) < 1e-9);
     }
 }
 
-TEST_CASE("without distortion a rough lens is a pinhole, at -(radius / 2 focal)^2 a stereographic fisheye") {
+TEST_CASE("without distortion a division lens is a pinhole, at -(radius / 2 focal)^2 a stereographic fisheye") {
   const double angle_rad = 0.4;
-  const Eigen::Vector3d aside(std::cos(angle_rad), std::sin(angle_rad), 0);
-  CHECK((*lens_with(0).pixel(aside)).x() == doctest::Approx(639.5 + 800 * std::tan(angle_rad)));
-  RoughLens fisheye = lens_with(0);
+  const glm::dvec3 aside(std::cos(angle_rad), std::sin(angle_rad), 0);
+  CHECK((*lens_with(0).pixel(aside)).x == doctest::Approx(639.5 + 800 * std::tan(angle_rad)));
+  DivisionLens fisheye = lens_with(0);
   fisheye.distortion = -std::pow(fisheye.radius_px() / (2 * fisheye.focal_px), 2);
-  CHECK((*fisheye.pixel(aside)).x() == doctest::Approx(639.5 + 1600 * std::tan(angle_rad / 2)));
+  CHECK((*fisheye.pixel(aside)).x == doctest::Approx(639.5 + 1600 * std::tan(angle_rad / 2)));
   // 90 degrees from the axis and beyond: a pinhole has no image of them.
   CHECK_FALSE(lens_with(0).pixel({-0.1, 1, 0}));
-  CHECK((*fisheye.pixel({0, 1, 0})).x() == doctest::Approx(639.5 + 1600 * std::tan(kQuarter_rad)));
+  CHECK((*fisheye.pixel({0, 1, 0})).x == doctest::Approx(639.5 + 1600 * std::tan(kQuarter_rad)));
 }
 
 TEST_CASE("a field of view of 90 degrees has the focal length of half of the width") {
-  const auto lens = rough_lens_of_field({1280, 720}, 2 * kQuarter_rad, 0);
+  const auto lens = division_lens_of_field({1280, 720}, 2 * kQuarter_rad, 0);
   REQUIRE(lens);
   CHECK(lens->focal_px == doctest::Approx(640));
   for (const double distortion : {-0.3, 0.1}) {
-    const auto wide = rough_lens_of_field({1280, 720}, 1.9, distortion);
+    const auto wide = division_lens_of_field({1280, 720}, 1.9, distortion);
     REQUIRE(wide);
     CHECK(wide->horizontal_field_rad() == doctest::Approx(1.9));
   }
-  CHECK_FALSE(rough_lens_of_field({1280, 720}, 0, 0));
-  CHECK_FALSE(rough_lens_of_field({1280, 720}, 3.2, 0));
-  CHECK_FALSE(rough_lens_of_field({0, 0}, 1, 0));
+  CHECK_FALSE(division_lens_of_field({1280, 720}, 0, 0));
+  CHECK_FALSE(division_lens_of_field({1280, 720}, 3.2, 0));
+  CHECK_FALSE(division_lens_of_field({0, 0}, 1, 0));
 }
 
-TEST_CASE("OpenCV's models of a rough lens show the same directions at the same pixels") {
+TEST_CASE("OpenCV's models of a division lens show the same directions at the same pixels") {
   for (const double distortion : {-0.5, -0.25, -0.1, 0.0, 0.1}) {
     CAPTURE(distortion);
-    const RoughLens lens = lens_with(distortion);
+    const DivisionLens lens = lens_with(distortion);
     const Result<LensParameters> parameters = parameters_of(lens);
     REQUIRE(parameters);
     const Result<Lens> model = Lens::make(*parameters);
     REQUIRE(model);
     for (double x = -0.5; x < 1280; x += 80)
       for (double y = -0.5; y < 720; y += 60) {
-        const auto pixel = model->pixel(glm_of(lens.ray({x, y})));
+        const auto pixel = model->pixel(lens.ray({x, y}));
         REQUIRE(pixel);
-        // A polynomial of four terms does not follow it more closely; a rough lens is not known better.
+        // A polynomial of four terms does not follow it more closely; the lens is not known better.
         CHECK(std::hypot(pixel->x - x, pixel->y - y) < 2);
       }
   }

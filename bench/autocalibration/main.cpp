@@ -7,13 +7,13 @@
 
 #include "base/pose.h"
 #include "base/stopwatch.h"
+#include "calibration/autocalibration.h"
+#include "calibration/autocalibration_motion.h"
 #include "calibration/made_tracks.h"
-#include "calibration/rough_calibration.h"
-#include "calibration/rough_motion.h"
 #include "telemetry/read_track.h"
 
-// bench_rough_calibration made FIRST LAST   seeds of made tracks: error and coverage of both methods, by lens
-// bench_rough_calibration clips VIDEO...    what is found in footage
+// bench_autocalibration made FIRST LAST   seeds of made tracks: error and coverage of both methods, by lens
+// bench_autocalibration clips VIDEO...    what is found in footage
 namespace {
 
 using namespace sigs;
@@ -22,7 +22,7 @@ struct Score {
   int found = 0, covered = 0, seeds = 0;
   double error2 = 0, half = 0;
 
-  void add(const std::optional<RoughFit>& fit, double truth_rad) {
+  void add(const std::optional<LensEstimate>& fit, double truth_rad) {
     ++seeds;
     if (!fit) return;
     ++found;
@@ -70,7 +70,7 @@ void measure_made(int first, int last) {
         test::MadeTurns turns = kind.turns;
         turns.seed = static_cast<unsigned>(seed);
         const test::MadeTracks made = test::made_tracks(camera, turns);
-        const RoughAnswer by_turn = lens_by_turn(made.tracks, {});
+        const LensAnswer by_turn = lens_by_turn(made.tracks, {});
         if (std::getenv("WHY") && !by_turn.fit) fmt::print("{}\n", by_turn.reason);
         if (std::getenv("WHY") && by_turn.fit) fmt::print("d {}\n", by_turn.fit->lens.distortion);
         turn.add(by_turn.fit, truth_rad);
@@ -90,7 +90,7 @@ void measure_clip(const std::string& path) {
   }
   const auto log = read_track(path);
   const Stopwatch watch;
-  const auto found = rough_calibration(*footage, log ? &*log : nullptr, {}, {}, {});
+  const auto found = autocalibrated(*footage, log ? &*log : nullptr, {}, {}, {});
   if (!found) {
     fmt::print("{}  [{:.1f} s]\n", found.error().text(), watch.elapsed_s());
     return;

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/rough_motion.h"
+#include "calibration/autocalibration_motion.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/calib3d.hpp>
 
+#include "base/least_squares.h"
 #include "base/pose.h"
 #include "ego_motion/rotation_fit.h"
-#include "ego_motion/turns.h"
 
 namespace sigs {
 
@@ -33,14 +31,14 @@ constexpr double kLastField_rad = 2.6;
 constexpr int kTurnRounds = 12;
 constexpr double kTurnLeastRelative = 0.01;  // the lens is not quite of this model, its centre not quite the image's
 constexpr double kFreer = 1.3;               // a homography that misses by so much less is another motion
-constexpr double kLargest_px = 0.8;          // of the reduced image; larger misses are no rotation
+constexpr double kLargestMiss_px = 0.8;          // of the reduced image; larger misses are no rotation
 constexpr double kTooOpen = 0.2;             // uncertainty of the focal length
 
 struct Pair {
   std::vector<PixelPair> features;
   int part = 0;  // of the footage; first the frame in the middle
   double motion_px = 0;
-  Eigen::Quaterniond after_from_before = Eigen::Quaterniond::Identity();
+  glm::dquat after_from_before{1, 0, 0, 0};
 };
 
 // All pairs with enough motion, by time of their first frames.
@@ -80,52 +78,53 @@ std::vector<Pair> moving_pairs(const PixelTracks& tracks) {
 }
 
 // Unknowns common to all pairs: (width / focal)^2, in which errors of features are even, and the distortion.
-using Common = Eigen::VectorXd;
+using Common = std::vector<double>;
+constexpr int kOfTurn = 3;  // unknowns of a pair, before the common ones in its equations
 
 class TurnFit {
  public:
   TurnFit(const PixelTracks& tracks, std::vector<Pair> pairs, const DistortionPrior& prior)
       : size_px_(tracks.size_px), step_px_(tracks.step_px), prior_(prior), pairs_(std::move(pairs)) {}
 
-  [[nodiscard]] RoughLens lens_of(const Common& u) const {
+  [[nodiscard]] DivisionLens lens_of(std::span<const double> u) const {
     constexpr double kLeast = 1e-4;
     return {.size_px = size_px_,
-            .focal_px = size_px_.width / std::sqrt(std::max(kLeast, u(0))),
-            .distortion = std::clamp(u(1), -0.95, 0.95)};
+            .focal_px = size_px_.width / std::sqrt(std::max(kLeast, u[0])),
+            .distortion = std::clamp(u[1], -0.95, 0.95)};
   }
 
   // First values by trying fields of view, then least squares. False where no rotation fits.
   bool solve() {
     double best = 1e300;
-    Common start = Common::Zero(2);
+    Common start{0, 0};
     for (int i = 0; i < kFields; ++i) {
       const double field_rad = kFirstField_rad * std::pow(kLastField_rad / kFirstField_rad, i / (kFields - 1.0));
-      const auto lens = rough_lens_of_field(size_px_, field_rad, prior_.mean);
+      const auto lens = division_lens_of_field(size_px_, field_rad, prior_.mean);
       if (!lens) continue;
       const double cost = cost_of(*lens);
       if (cost >= best) continue;
       best = cost;
-      start << std::pow(size_px_.width / lens->focal_px, 2), lens->distortion;
+      start = {std::pow(size_px_.width / lens->focal_px, 2), lens->distortion};
     }
-    if (!(start(0) > 0)) return false;
+    if (!(start[0] > 0)) return false;
     values_ = start;
     if (!turn_pairs(lens_of(values_))) return false;
     for (int round = 0; round < kTurnRounds; ++round) step(round + 1 < kTurnRounds);
-    return values_.allFinite();
+    return std::isfinite(values_[0]) && std::isfinite(values_[1]);
   }
 
   [[nodiscard]] const Common& values() const { return values_; }
   [[nodiscard]] double residual_px() const { return scale_px_; }
-  [[nodiscard]] std::vector<PartSums> used_parts() const {
-    std::vector<PartSums> used;
-    for (const PartSums& part : parts_)
-      if (part.normal(0, 0) > 0) used.push_back(part);
+  [[nodiscard]] std::vector<NormalEquations> used_parts() const {
+    std::vector<NormalEquations> used;
+    for (const NormalEquations& part : parts_)
+      if (part.matrix()(0, 0) > 0) used.push_back(part);
     return used;
   }
-  [[nodiscard]] Eigen::MatrixXd known() const {
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(2, 2);
-    normal(1, 1) = 1 / (prior_.sd * prior_.sd);
-    return normal;
+  [[nodiscard]] NormalEquations known() const {
+    NormalEquations equations(2);
+    equations.add_known(1, 1 / (prior_.sd * prior_.sd), prior_.mean - values_[1]);
+    return equations;
   }
 
   // Median over the pairs of the median miss, px: of the rotations, and of a homography for each pair.
@@ -134,7 +133,7 @@ class TurnFit {
     double free_px = 0;
   };
   [[nodiscard]] Misses misses() const {
-    const RoughLens lens = lens_of(values_);
+    const DivisionLens lens = lens_of(values_);
     std::vector<double> turned;
     std::vector<double> free;
     for (const Pair& pair : pairs_) {
@@ -142,11 +141,11 @@ class TurnFit {
       std::vector<cv::Point2d> before;
       std::vector<cv::Point2d> after;
       for (const PixelPair& f : pair.features) {
-        lengths.push_back(miss(lens, pair.after_from_before, f).norm());
-        const Eigen::Vector3d a = lens.ray(f.before);
-        const Eigen::Vector3d b = lens.ray(f.after);
-        before.emplace_back(a.y() / a.x() * lens.focal_px, a.z() / a.x() * lens.focal_px);
-        after.emplace_back(b.y() / b.x() * lens.focal_px, b.z() / b.x() * lens.focal_px);
+        lengths.push_back(glm::length(miss(lens, pair.after_from_before, f)));
+        const glm::dvec3 a = lens.ray(f.before);
+        const glm::dvec3 b = lens.ray(f.after);
+        before.emplace_back(a.y / a.x * lens.focal_px, a.z / a.x * lens.focal_px);
+        after.emplace_back(b.y / b.x * lens.focal_px, b.z / b.x * lens.focal_px);
       }
       turned.push_back(scale_of(lengths, 0));
       free.push_back(free_miss_px(before, after));
@@ -155,10 +154,9 @@ class TurnFit {
   }
 
  private:
-  [[nodiscard]] static Eigen::Vector2d miss(const RoughLens& lens, const Eigen::Quaterniond& turn,
-                                            const PixelPair& feature) {
+  [[nodiscard]] static glm::dvec2 miss(const DivisionLens& lens, const glm::dquat& turn, const PixelPair& feature) {
     const auto there = lens.pixel(turn * lens.ray(feature.before));
-    return there ? Eigen::Vector2d(feature.after - *there) : Eigen::Vector2d(1e3, 1e3);
+    return there ? feature.after - *there : glm::dvec2(1e3, 1e3);
   }
 
   [[nodiscard]] static double free_miss_px(const std::vector<cv::Point2d>& before,
@@ -172,10 +170,10 @@ class TurnFit {
     return scale_of(lengths, 0);
   }
 
-  [[nodiscard]] std::optional<Eigen::Quaterniond> turn_of_pair(const RoughLens& lens, const Pair& pair) const {
+  [[nodiscard]] std::optional<glm::dquat> turn_of_pair(const DivisionLens& lens, const Pair& pair) const {
     std::vector<RayPair> rays;
     for (const PixelPair& f : pair.features)
-      rays.push_back({lens.ray(f.before).normalized(), lens.ray(f.after).normalized()});
+      rays.push_back({glm::normalize(lens.ray(f.before)), glm::normalize(lens.ray(f.after))});
     constexpr double kInlier_px = 3;
     const auto fit = fitted_rotation(rays, {.inlier_rad = kInlier_px * step_px_ / lens.focal_px});
     if (!fit) return std::nullopt;
@@ -183,14 +181,14 @@ class TurnFit {
   }
 
   // Mean robust miss of every third pair, 0 to 1.
-  [[nodiscard]] double cost_of(const RoughLens& lens) const {
+  [[nodiscard]] double cost_of(const DivisionLens& lens) const {
     double sum = 0;
     double count = 0;
     const double scale_px = 0.7 * step_px_;
     for (std::size_t i = 0; i < pairs_.size(); i += 3) {
       const auto turn = turn_of_pair(lens, pairs_[i]);
       for (const PixelPair& f : pairs_[i].features) {
-        const double share = turn ? miss(lens, *turn, f).squaredNorm() / (scale_px * scale_px) : INFINITY;
+        const double share = turn ? squared_length(miss(lens, *turn, f)) / (scale_px * scale_px) : INFINITY;
         sum += std::isfinite(share) ? share / (1 + share) : 1;
         ++count;
       }
@@ -199,7 +197,7 @@ class TurnFit {
   }
 
   // Rotations of all pairs by a lens; pairs without one are left out. False where too few are left.
-  bool turn_pairs(const RoughLens& lens) {
+  bool turn_pairs(const DivisionLens& lens) {
     std::erase_if(pairs_, [&](Pair& pair) {
       const auto turn = turn_of_pair(lens, pair);
       if (turn) pair.after_from_before = *turn;
@@ -209,83 +207,77 @@ class TurnFit {
   }
 
   void step(bool moves) {
-    const RoughLens lens = lens_of(values_);
+    const DivisionLens lens = lens_of(values_);
     std::vector<double> lengths;
     for (const Pair& pair : pairs_)
-      for (const PixelPair& f : pair.features) lengths.push_back(miss(lens, pair.after_from_before, f).norm());
+      for (const PixelPair& f : pair.features) lengths.push_back(glm::length(miss(lens, pair.after_from_before, f)));
     scale_px_ = scale_of(lengths, kTurnLeastScale_px * step_px_);
-    parts_.assign(kTurnParts, {Eigen::MatrixXd::Zero(2, 2), Eigen::VectorXd::Zero(2)});
-    Eigen::Matrix2d normal = known();
-    Eigen::Vector2d right(0, (prior_.mean - values_(1)) * known()(1, 1));
-    std::vector<Reduced> reduced;
+    parts_.assign(kTurnParts, NormalEquations(2));
+    NormalEquations all = known();
+    std::vector<NormalEquations> equations;
     for (const Pair& pair : pairs_) {
-      reduced.push_back(reduced_of(lens, pair));
-      PartSums& part = parts_[static_cast<std::size_t>(pair.part)];
-      part.normal += reduced.back().normal;
-      part.right += reduced.back().right;
-      normal += reduced.back().normal;
-      right += reduced.back().right;
+      equations.push_back(equations_of(lens, pair));
+      equations.back().eliminate(kOfTurn);
+      parts_[static_cast<std::size_t>(pair.part)].add(equations.back());
+      all.add(equations.back());
     }
     if (!moves) return;
-    Eigen::Vector2d by = normal.ldlt().solve(right);
-    by(0) = std::clamp(by(0), -0.4 * values_(0), 0.6 * values_(0));
-    by(1) = std::clamp(by(1), -0.1, 0.1);
-    values_ += by;
+    std::vector<double> by = all.solved();
+    by[0] = std::clamp(by[0], -0.4 * values_[0], 0.6 * values_[0]);
+    by[1] = std::clamp(by[1], -0.1, 0.1);
+    for (std::size_t i = 0; i < by.size(); ++i) values_[i] += by[i];
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const Eigen::Vector3d turn = reduced[i].turn - reduced[i].turn_by_common * by;
-      pairs_[i].after_from_before = (turn_of(turn) * pairs_[i].after_from_before).normalized();
+      const std::vector<double> turn = equations[i].eliminated(by);
+      pairs_[i].after_from_before = glm::normalize(turn_of({turn[0], turn[1], turn[2]}) * pairs_[i].after_from_before);
     }
   }
 
-  // The equations of one pair after its rotation has been eliminated (Schur complement).
-  struct Reduced {
-    Eigen::Matrix2d normal;
-    Eigen::Vector2d right;
-    Eigen::Vector3d turn;  // best one where the common unknowns stay
-    Eigen::Matrix<double, 3, 2> turn_by_common;
-  };
-  [[nodiscard]] Reduced reduced_of(const RoughLens& lens, const Pair& pair) const {
+  [[nodiscard]] NormalEquations equations_of(const DivisionLens& lens, const Pair& pair) const {
     constexpr double kChange = 1e-4;
-    std::array<RoughLens, 2> moved{lens, lens};
-    for (int k = 0; k < 2; ++k) {
+    struct Moved {
+      DivisionLens lens;
+      glm::dquat turn;
+      double change;
+    };
+    std::vector<Moved> moved;
+    for (int k = 0; k < kOfTurn; ++k) {
+      glm::dvec3 turn(0);
+      turn[k] = kChange;
+      moved.push_back({lens, turn_of(turn) * pair.after_from_before, kChange});
+    }
+    for (std::size_t k = 0; k < values_.size(); ++k) {
       Common there = values_;
-      there(k) += k == 0 ? kChange * values_(0) : kChange;
-      moved[static_cast<std::size_t>(k)] = lens_of(there);
+      const double change = k == 0 ? kChange * values_[0] : kChange;
+      there[k] += change;
+      moved.push_back({lens_of(there), pair.after_from_before, change});
     }
-    Eigen::Matrix<double, 5, 5> all = Eigen::Matrix<double, 5, 5>::Zero();
-    Eigen::Matrix<double, 5, 1> side = Eigen::Matrix<double, 5, 1>::Zero();
+    NormalEquations equations(kOfTurn + 2);
+    for (int k = 0; k < kOfTurn; ++k) equations.add_known(k, 1e-9);
     for (const PixelPair& f : pair.features) {
-      const Eigen::Vector2d at = miss(lens, pair.after_from_before, f);
-      Eigen::Matrix<double, 2, 5> slope;
-      for (int k = 0; k < 2; ++k)
-        slope.col(k) = (at - miss(moved[static_cast<std::size_t>(k)], pair.after_from_before, f)) /
-                       (k == 0 ? kChange * values_(0) : kChange);
-      for (int k = 0; k < 3; ++k)
-        slope.col(k + 2) =
-            (at - miss(lens, turn_of(kChange * Eigen::Vector3d::Unit(k)) * pair.after_from_before, f)) / kChange;
-      if (!slope.allFinite() || at.norm() > 900) continue;
-      const double weight = weight_of(at.squaredNorm(), 2 * scale_px_) / (scale_px_ * scale_px_);
-      all += weight * slope.transpose() * slope;
-      side += weight * slope.transpose() * at;
+      const glm::dvec2 at = miss(lens, pair.after_from_before, f);
+      std::array<std::array<double, kOfTurn + 2>, 2> slopes{};
+      double sum = 0;
+      for (std::size_t k = 0; k < moved.size(); ++k) {
+        const glm::dvec2 slope = (at - miss(moved[k].lens, moved[k].turn, f)) / moved[k].change;
+        slopes[0][k] = slope.x;
+        slopes[1][k] = slope.y;
+        sum += slope.x + slope.y;
+      }
+      if (!std::isfinite(sum) || glm::length(at) > 900) continue;
+      const double weight = geman_mcclure(squared_length(at), 4 * scale_px_ * scale_px_) / (scale_px_ * scale_px_);
+      equations.add(slopes[0], at.x, weight);
+      equations.add(slopes[1], at.y, weight);
     }
-    all.diagonal().tail<3>().array() += 1e-9;
-    const Eigen::Matrix3d inverse = all.bottomRightCorner<3, 3>().inverse();
-    const Eigen::Matrix<double, 2, 3> across = all.topRightCorner<2, 3>();
-    Reduced out;
-    out.normal = all.topLeftCorner<2, 2>() - across * inverse * across.transpose();
-    out.right = side.head<2>() - across * inverse * side.tail<3>();
-    out.turn = inverse * side.tail<3>();
-    out.turn_by_common = inverse * across.transpose();
-    return out;
+    return equations;
   }
 
   cv::Size size_px_;
   double step_px_ = 1;
   DistortionPrior prior_;
   std::vector<Pair> pairs_;
-  Common values_ = Common::Zero(2);
+  Common values_{0, 0};
   double scale_px_ = 1;
-  std::vector<PartSums> parts_;
+  std::vector<NormalEquations> parts_;
 };
 
 std::size_t parts_in(const std::vector<Pair>& pairs) {
@@ -296,14 +288,14 @@ std::size_t parts_in(const std::vector<Pair>& pairs) {
 
 }  // namespace
 
-RoughAnswer lens_by_turn(const PixelTracks& tracks, const DistortionPrior& prior) {
+LensAnswer lens_by_turn(const PixelTracks& tracks, const DistortionPrior& prior) {
   std::vector<Pair> pairs = moving_pairs(tracks);
   if (parts_in(pairs) < kLeastParts)
     return {.fit = std::nullopt, .reason = "the image moves too little, or too few features can be followed"};
   TurnFit fit(tracks, std::move(pairs), prior);
   if (!fit.solve()) return {.fit = std::nullopt, .reason = "the image does not move as that of a turning camera"};
   const TurnFit::Misses misses = fit.misses();
-  if (misses.turned_px > kLargest_px * tracks.step_px)
+  if (misses.turned_px > kLargestMiss_px * tracks.step_px)
     return {.fit = std::nullopt,
             .reason = fmt::format("the image does not move as that of a turning camera (rotations miss by {:.1f} px)",
                                   misses.turned_px)};
@@ -312,10 +304,11 @@ RoughAnswer lens_by_turn(const PixelTracks& tracks, const DistortionPrior& prior
         .fit = std::nullopt,
         .reason = fmt::format("the camera travels past what it sees (rotations miss by {:.2f} px, planes by {:.2f})",
                               misses.turned_px, misses.free_px)};
-  const std::vector<PartSums> parts = fit.used_parts();
+  const std::vector<NormalEquations> parts = fit.used_parts();
   if (parts.size() < kLeastParts) return {.fit = std::nullopt, .reason = "too little of the footage has a turn"};
-  RoughFit found = fit_of([&fit](const Eigen::VectorXd& u) { return fit.lens_of(u); }, fit.values(),
-                          clustered_covariance(parts, fit.known()), static_cast<int>(parts.size()), kTurnLeastRelative);
+  LensEstimate found =
+      fit_of([&fit](std::span<const double> u) { return fit.lens_of(u); }, fit.values(),
+             clustered_covariance(parts, fit.known()), static_cast<int>(parts.size()), kTurnLeastRelative);
   found.residual_px = fit.residual_px();
   if (!(found.relative_uncertainty() < kTooOpen))
     return {.fit = std::nullopt,

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/rough_motion.h"
+#include "calibration/autocalibration_motion.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/least_squares.h"
 #include "ego_motion/attitudes.h"
 #include "ego_motion/gyro_fusion.h"
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
-#include "ego_motion/turns.h"
 
 namespace sigs {
 
@@ -32,17 +31,17 @@ constexpr double kLeastRelative = 0.008;  // the scale of cheap gyroscopes
 constexpr double kStabilized_rad = 0.0017;
 constexpr int kUnknowns = 6;  // ln focal, distortion, offset, turn of the gyroscope's axes
 
-using Unknowns = Eigen::VectorXd;
+using Unknowns = std::vector<double>;
 
 // A feature in three frames.
 struct Triple {
-  std::array<Eigen::Vector2d, 3> pixel;  // before, middle, after
-  std::array<double, 3> time_s;          // of the footage, of its row
+  std::array<glm::dvec2, 3> pixel;  // before, middle, after
+  std::array<double, 3> time_s;     // of the footage, of its row
   int part = 0;
 };
 
-double row_time_s(const TrackedFrame& frame, const Eigen::Vector2d& pixel, double height_px, double readout_s) {
-  return frame.time_s + readout_s * (pixel.y() / std::max(1.0, height_px - 1) - 0.5);
+double row_time_s(const TrackedFrame& frame, const glm::dvec2& pixel, double height_px, double readout_s) {
+  return frame.time_s + readout_s * (pixel.y / std::max(1.0, height_px - 1) - 0.5);
 }
 
 // The frame nearest to a time in the same stretch; -1: none within half of the span.
@@ -65,7 +64,7 @@ const Feature* feature_of(const TrackedFrame& frame, int id) {
   return at != frame.features.end() && at->id == id ? &*at : nullptr;
 }
 
-Eigen::Vector2d place_of(const Feature& feature) {
+glm::dvec2 place_of(const Feature& feature) {
   return {feature.pixel_px.x, feature.pixel_px.y};
 }
 
@@ -87,7 +86,7 @@ std::vector<Triple> triples_of(const PixelTracks& tracks, double readout_s) {
       const Feature* const first = feature_of(before, feature.id);
       const Feature* const last = feature_of(after, feature.id);
       if (first == nullptr || last == nullptr) continue;
-      if (!(place_of(*first) + place_of(feature) + place_of(*last)).allFinite()) continue;
+      if (!is_finite((place_of(*first) + place_of(feature) + place_of(*last)))) continue;
       Triple triple{.pixel = {place_of(*first), place_of(feature), place_of(*last)}, .part = m * kParts / count};
       triple.time_s = {row_time_s(before, triple.pixel[0], tracks.size_px.height, readout_s),
                        row_time_s(middle, triple.pixel[1], tracks.size_px.height, readout_s),
@@ -101,7 +100,7 @@ std::vector<Triple> triples_of(const PixelTracks& tracks, double readout_s) {
 class GyroFit {
  public:
   GyroFit(const PixelTracks& tracks, const RateIntegral& rates, const TimeOffset& offset,
-          const Eigen::Quaterniond& camera_from_gyro, double readout_s, const DistortionPrior& prior)
+          const glm::dquat& camera_from_gyro, double readout_s, const DistortionPrior& prior)
       : size_px_(tracks.size_px),
         rates_(rates),
         offset_(offset),
@@ -109,112 +108,111 @@ class GyroFit {
         prior_(prior),
         triples_(triples_of(tracks, readout_s)) {}
 
-  [[nodiscard]] RoughLens lens_of(const Unknowns& u) const {
-    return {.size_px = size_px_, .focal_px = std::exp(u(0)), .distortion = std::max(u(1), -0.95)};
+  [[nodiscard]] DivisionLens lens_of(std::span<const double> u) const {
+    return {.size_px = size_px_, .focal_px = std::exp(u[0]), .distortion = std::max(u[1], -0.95)};
   }
 
   [[nodiscard]] std::size_t triples() const { return triples_.size(); }
 
-  // The best values, and the sums of the parts at them.
+  // The best values, and the equations of the parts at them.
   struct Solution {
     Unknowns values;
-    std::vector<PartSums> parts;
+    std::vector<NormalEquations> parts;
     double residual_px = 0;
   };
   [[nodiscard]] Solution solved(double focal_px, CancelFlag cancel) const {
-    Solution solution{.values = Unknowns::Zero(kUnknowns)};
-    solution.values(0) = std::log(focal_px);
-    solution.values(1) = prior_.mean;
+    Solution solution{.values = {std::log(focal_px), prior_.mean, 0, 0, 0, 0}};
     for (int round = 0; round < kRounds && (round == 0 || !is_cancelled(cancel)); ++round) {
       fill(solution);
-      Eigen::MatrixXd normal = known();
-      Eigen::VectorXd right = Eigen::VectorXd::Zero(kUnknowns);
-      right(1) = (prior_.mean - solution.values(1)) * known()(1, 1);
-      for (const PartSums& part : solution.parts) {
-        normal += part.normal;
-        right += part.right;
-      }
-      Eigen::VectorXd step = normal.ldlt().solve(right);
-      step(0) = std::clamp(step(0), -0.3, 0.3);
-      step(1) = std::clamp(step(1), -0.2, 0.2);
-      if (round + 1 < kRounds) solution.values += step;
+      NormalEquations all = known(solution.values);
+      for (const NormalEquations& part : solution.parts) all.add(part);
+      std::vector<double> step = all.solved();
+      step[0] = std::clamp(step[0], -0.3, 0.3);
+      step[1] = std::clamp(step[1], -0.2, 0.2);
+      for (std::size_t i = 0; i < step.size() && round + 1 < kRounds; ++i) solution.values[i] += step[i];
     }
     return solution;
   }
 
-  [[nodiscard]] Eigen::MatrixXd known() const {
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
-    normal(1, 1) = 1 / (prior_.sd * prior_.sd);
-    normal.diagonal().tail<3>().setConstant(1e2);  // rad^-2: axes are within some degrees of the first values
-    normal(2, 2) = 1e2;                            // s^-2
-    return normal;
+  [[nodiscard]] NormalEquations known(const Unknowns& u) const {
+    NormalEquations equations(kUnknowns);
+    equations.add_known(1, 1 / (prior_.sd * prior_.sd), prior_.mean - u[1]);
+    equations.add_known(2, 1e2);                                          // s^-2
+    for (int axis = 3; axis < 6; ++axis) equations.add_known(axis, 1e2);  // rad^-2: within some degrees
+    return equations;
   }
 
  private:
-  [[nodiscard]] std::optional<Eigen::Vector2d> predicted(const RoughLens& lens, const Unknowns& u, const Triple& t,
-                                                         std::size_t to) const {
-    const double from_s = offset_.log_time_s(t.time_s[1]) + u(2);
-    const double to_s = offset_.log_time_s(t.time_s[to]) + u(2);
+  [[nodiscard]] std::optional<glm::dvec2> predicted(const DivisionLens& lens, const Unknowns& u, const Triple& t,
+                                                    std::size_t to) const {
+    const double from_s = offset_.log_time_s(t.time_s[1]) + u[2];
+    const double to_s = offset_.log_time_s(t.time_s[to]) + u[2];
     if (!rates_.covers(std::min(from_s, to_s), std::max(from_s, to_s))) return std::nullopt;
-    const Eigen::Quaterniond axes = turn_of(Eigen::Vector3d(u.tail<3>())) * camera_from_gyro_;
+    const glm::dquat axes = turn_of({u[3], u[4], u[5]}) * camera_from_gyro_;
     return lens.pixel(turn_of(-(axes * rates_.between(from_s, to_s))) * lens.ray(t.pixel[1]));
   }
 
   // Sum of what both predictions miss.
-  [[nodiscard]] std::optional<Eigen::Vector2d> miss(const RoughLens& lens, const Unknowns& u, const Triple& t) const {
+  [[nodiscard]] std::optional<glm::dvec2> miss(const DivisionLens& lens, const Unknowns& u, const Triple& t) const {
     const auto before = predicted(lens, u, t, 0);
     const auto after = predicted(lens, u, t, 2);
     if (!before || !after) return std::nullopt;
-    return Eigen::Vector2d(t.pixel[0] + t.pixel[2] - *before - *after);
+    return t.pixel[0] + t.pixel[2] - *before - *after;
   }
 
-  // The sums of the parts at the solution's values. A part's weights are scaled so that its misses have the variance 1.
+  // The equations of the parts at the solution's values, with weights that give misses the variance 1.
   void fill(Solution& solution) const {
-    constexpr std::array<double, kUnknowns> kSteps{1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4};
-    const RoughLens lens = lens_of(solution.values);
-    std::vector<std::optional<Eigen::Vector2d>> misses;
+    constexpr double kChange = 1e-4;
+    std::array<Unknowns, kUnknowns> moved;
+    std::vector<DivisionLens> lenses;
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      moved[k] = solution.values;
+      moved[k][k] += kChange;
+      lenses.push_back(lens_of(moved[k]));
+    }
+    const DivisionLens lens = lens_of(solution.values);
+    std::vector<std::optional<glm::dvec2>> misses;
     std::vector<double> lengths;
     for (const Triple& t : triples_) {
       misses.push_back(miss(lens, solution.values, t));
-      if (misses.back()) lengths.push_back(misses.back()->norm());
+      if (misses.back()) lengths.push_back(glm::length(*misses.back()));
     }
-    const double scale = scale_of(lengths, kLeastScale_px);
+    const double scale = scale_of(std::move(lengths), kLeastScale_px);
     solution.residual_px = scale;
-    solution.parts.assign(kParts, {Eigen::MatrixXd::Zero(kUnknowns, kUnknowns), Eigen::VectorXd::Zero(kUnknowns)});
+    solution.parts.assign(kParts, NormalEquations(kUnknowns));
     for (std::size_t i = 0; i < triples_.size(); ++i) {
       if (!misses[i]) continue;
-      Eigen::Matrix<double, 2, kUnknowns> slope;
+      std::array<std::array<double, kUnknowns>, 2> slopes{};
       bool whole = true;
-      for (int k = 0; k < kUnknowns && whole; ++k) {
-        Unknowns moved = solution.values;
-        moved(k) += kSteps[static_cast<std::size_t>(k)];
-        const auto there = miss(lens_of(moved), moved, triples_[i]);
+      for (std::size_t k = 0; k < moved.size() && whole; ++k) {
+        const auto there = miss(lenses[k], moved[k], triples_[i]);
         whole = there.has_value();
-        if (whole) slope.col(k) = (*misses[i] - *there) / kSteps[static_cast<std::size_t>(k)];
+        for (int axis = 0; axis < 2 && whole; ++axis)
+          slopes[static_cast<std::size_t>(axis)][k] = ((*misses[i])[axis] - (*there)[axis]) / kChange;
       }
       if (!whole) continue;
-      const double weight = weight_of(misses[i]->squaredNorm(), 2 * scale) / (scale * scale);
-      PartSums& part = solution.parts[static_cast<std::size_t>(triples_[i].part)];
-      part.normal += weight * slope.transpose() * slope;
-      part.right += weight * slope.transpose() * *misses[i];
+      const double weight = geman_mcclure(squared_length(*misses[i]), 4 * scale * scale) / (scale * scale);
+      for (int axis = 0; axis < 2; ++axis)
+        solution.parts[static_cast<std::size_t>(triples_[i].part)].add(slopes[static_cast<std::size_t>(axis)],
+                                                                       (*misses[i])[axis], weight);
     }
   }
 
   cv::Size size_px_;
   const RateIntegral& rates_;
   TimeOffset offset_;
-  Eigen::Quaterniond camera_from_gyro_;
+  glm::dquat camera_from_gyro_;
   DistortionPrior prior_;
   std::vector<Triple> triples_;
 };
 
 // Turns seen by a lens, dated as the frames are.
-std::vector<SeenTurn> turns_by(const RoughLens& lens, const PixelTracks& tracks, CancelFlag cancel) {
+std::vector<SeenTurn> turns_by(const DivisionLens& lens, const PixelTracks& tracks, CancelFlag cancel) {
   std::vector<FrameRays> rays;
   for (const TrackedFrame& frame : tracks.frames) {
     FrameRays seen;
     for (const Feature& feature : frame.features)
-      seen.push_back({feature.id, lens.ray(place_of(feature)).normalized(), 0});
+      seen.push_back({feature.id, glm::normalize(lens.ray(place_of(feature))), 0});
     rays.push_back(std::move(seen));
   }
   const auto steps = steps_between(rays, tracks.step_px / lens.focal_px, {}, cancel);
@@ -229,7 +227,7 @@ std::vector<SeenTurn> turns_by(const RoughLens& lens, const PixelTracks& tracks,
 double stabilized_rad(const Track& log) {
   double largest = 0;
   for (const glm::dquat& turn : log.camera_from_image.values)
-    largest = std::max(largest, vector_of(eigen_of(turn).normalized()).norm());
+    largest = std::max(largest, glm::length(vector_of(glm::normalize(turn))));
   return largest;
 }
 
@@ -248,7 +246,7 @@ GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const Disto
   found.source = channel.source;
   if (stabilized_rad(log) > kStabilized_rad) return refused(found, "the camera stabilised its images");
   const RateIntegral rates(channel);
-  RoughLens lens{.size_px = tracks.size_px, .focal_px = kFirstFocal * tracks.size_px.width, .distortion = 0};
+  DivisionLens lens{.size_px = tracks.size_px, .focal_px = kFirstFocal * tracks.size_px.width, .distortion = 0};
   std::vector<SeenTurn> turns;
   std::optional<TimeOffset> offset;
   for (int round = 0; round < kFirstRounds; ++round) {
@@ -268,10 +266,11 @@ GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const Disto
   const GyroFit fit(tracks, rates, *offset, gyro_alignment(turns, rates, *offset), log.readout_s.value_or(0), prior);
   if (fit.triples() < kLeastFeatures * kParts) return refused(found, "too few features can be followed");
   const GyroFit::Solution solution = fit.solved(lens.focal_px, cancel);
-  if (!solution.values.allFinite()) return refused(found, "the fit to the gyroscope does not converge");
-  found.offset_s += solution.values(2);
-  found.answer.fit = fit_of([&fit](const Eigen::VectorXd& u) { return fit.lens_of(u); }, solution.values,
-                            clustered_covariance(solution.parts, fit.known()), kParts, kLeastRelative);
+  if (!std::ranges::all_of(solution.values, [](double v) { return std::isfinite(v); }))
+    return refused(found, "the fit to the gyroscope does not converge");
+  found.offset_s += solution.values[2];
+  found.answer.fit = fit_of([&fit](std::span<const double> u) { return fit.lens_of(u); }, solution.values,
+                            clustered_covariance(solution.parts, fit.known(solution.values)), kParts, kLeastRelative);
   found.answer.fit->residual_px = solution.residual_px;
   return found;
 }
