@@ -61,6 +61,9 @@ inline constexpr int kProjectVersion = 1;
 // near_key() for the end of a message: "; did you mean seed?"; empty where there is none.
 [[nodiscard]] std::string suggestion(std::span<const std::string> keys, const std::string& key);
 
+// Where a key stands in a project file: "intruders[0].model.scale" -> /intruders/0/model/scale.
+[[nodiscard]] Json::json_pointer pointer_of(std::string_view key);
+
 // Sets a field to a JSON value. Returns what is wrong ("expected a number, found \"fast\""); empty where nothing is.
 // Does not check ranges; validate() does.
 [[nodiscard]] std::string put_json(const Json& json, const Field& field);
