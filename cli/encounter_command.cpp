@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPlotted = 8;  // encounters in one plot
+constexpr std::size_t kMaxPlotted = 8;  // encounters in one plot
 
 constexpr const char* kEncounterFooter =
     "Examples:\n"
@@ -155,9 +155,9 @@ Result<Flights> chosen(Flights flights, const EncounterOptions& options) {
 // --- Outputs.
 
 Result<cv::Mat> plot_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
-  if (encounters.size() > kMostPlotted)
+  if (encounters.size() > kMaxPlotted)
     return fail("--plot " + options.plot.string(),
-                fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMostPlotted,
+                fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMaxPlotted,
                             encounters.size()),
                 ErrorKind::usage);
   cv::Mat image = encounter_plot(encounters);

@@ -46,7 +46,7 @@ Project project_of(const Clip& clip, const CameraKnowledge& camera) {
   project.camera.track = {.file = camera.track, .incomplete = IncompleteTrackChoice::use};
   project.camera.attitude_file = camera.attitude_file;
   project.camera.readout_s = camera.readout_s;
-  project.appearance.point_spread_px = 0;
+  project.appearance.psf_sigma_px = 0;
   return project;
 }
 
@@ -130,7 +130,7 @@ namespace {
 constexpr int kMargin_px = 32;
 constexpr int kApart_px = 60;
 // Mean of the weaker squared gradient, (code values a pixel)^2, above what noise makes of a clear sky.
-constexpr double kLeastTexture = 0.5;
+constexpr double kMinTexture = 0.5;
 
 // Smaller eigenvalue of the mean structure tensor of the neighbourhood, CV_32F; 0 outside of the mask.
 cv::Mat texture_of(const cv::Mat& luma, const cv::Mat& mask, cv::Size half_px) {
@@ -168,7 +168,7 @@ std::vector<cv::Point> places_in(const Clip& clip, int frame, int count, cv::Poi
     double most = 0;
     cv::Point at;
     cv::minMaxLoc(texture, nullptr, &most, nullptr, &at);
-    if (most < kLeastTexture) break;
+    if (most < kMinTexture) break;
     places.push_back(at);
     cv::circle(texture, at, kApart_px, 0, cv::FILLED);
   }

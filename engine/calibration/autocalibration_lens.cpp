@@ -140,7 +140,7 @@ double student_95(int degrees) {
 }
 
 LensEstimate fit_of(const LensOf& lens_of, const std::vector<double>& found, const cv::Mat_<double>& covariance,
-                    int parts, double least_relative) {
+                    int parts, double min_relative) {
   LensEstimate fit{.lens = lens_of(found), .distortion_sd = std::sqrt(covariance(1, 1)), .parts = parts};
   const double t = student_95(parts - 1);
   const double middle = fit.lens.horizontal_field_rad();
@@ -149,7 +149,7 @@ LensEstimate fit_of(const LensOf& lens_of, const std::vector<double>& found, con
   const double mixed = covariance(1, 0) / first;
   const std::array<glm::dvec2, 2> axes{glm::dvec2(first, mixed),
                                        glm::dvec2(0, std::sqrt(covariance(1, 1) - mixed * mixed))};
-  const double floor = t / student_95(1000) * 1.96 * least_relative * std::sin(middle / 2) * 2;
+  const double floor = t / student_95(1000) * 1.96 * min_relative * std::sin(middle / 2) * 2;
   double up2 = floor * floor;
   double down2 = floor * floor;
   for (const glm::dvec2& axis : axes) {
@@ -171,8 +171,8 @@ LensEstimate fit_of(const LensOf& lens_of, const std::vector<double>& found, con
   return fit;
 }
 
-double scale_of(std::vector<double> lengths, double least_px) {
-  return lengths.empty() ? least_px : std::max(least_px, median(std::move(lengths)));
+double scale_of(std::vector<double> lengths, double min_px) {
+  return lengths.empty() ? min_px : std::max(min_px, median(std::move(lengths)));
 }
 
 namespace {

@@ -88,12 +88,12 @@ struct LensAnswer {
 using LensOf = std::function<DivisionLens(std::span<const double>)>;
 
 // The fit with limits of the field: how far it moves along the axes of the covariance, times t of the parts.
-//   least_relative  standard deviation of the focal length that no data can take away, 0.01: 1 %
+//   min_relative  standard deviation of the focal length that no data can take away, 0.01: 1 %
 [[nodiscard]] LensEstimate fit_of(const LensOf& lens_of, const std::vector<double>& found,
-                                  const cv::Mat_<double>& covariance, int parts, double least_relative);
+                                  const cv::Mat_<double>& covariance, int parts, double min_relative);
 
-// The scale of robust weights: the median length of the misses, but no less than least_px.
-[[nodiscard]] double scale_of(std::vector<double> lengths, double least_px);
+// The scale of robust weights: the median length of the misses, but no less than min_px.
+[[nodiscard]] double scale_of(std::vector<double> lengths, double min_px);
 
 // The field of view that a camera has written into its file: not measured, and of a mode that the footage may have been
 // cropped from since.

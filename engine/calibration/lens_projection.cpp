@@ -132,7 +132,7 @@ std::optional<ProjectedPoint> projected(FitModel model, const Intrinsics& intrin
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double focal_px = intrinsics[axis];
     result.by_point[axis] = focal_px * d->by_point[axis];
-    std::array<double, kMostIntrinsics>& by = result.by_intrinsics[axis];
+    std::array<double, kMaxIntrinsics>& by = result.by_intrinsics[axis];
     by[axis] = d->at[static_cast<int>(axis)];
     by[2 + axis] = 1;
     for (std::size_t i = 4; i < intrinsics.size(); ++i) by[i] = focal_px * d->by_coefficients[axis][i - 4];

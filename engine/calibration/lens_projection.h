@@ -28,7 +28,7 @@ enum class FitModel {
 // Number of intrinsics with fx fy cx cy: 4, 9, 8, 12.
 [[nodiscard]] int intrinsic_count(FitModel model);
 
-constexpr int kMostIntrinsics = 12;
+constexpr int kMaxIntrinsics = 12;
 
 // fx fy cx cy, then the coefficients in OpenCV's order.
 using Intrinsics = std::vector<double>;
@@ -38,8 +38,8 @@ using Intrinsics = std::vector<double>;
 // A pixel and how it moves with the point and with the intrinsics.
 struct ProjectedPoint {
   glm::dvec2 at_px;
-  std::array<glm::dvec3, 2> by_point;                                // of x, of y
-  std::array<std::array<double, kMostIntrinsics>, 2> by_intrinsics;  // beyond intrinsic_count() they are 0
+  std::array<glm::dvec3, 2> by_point;                               // of x, of y
+  std::array<std::array<double, kMaxIntrinsics>, 2> by_intrinsics;  // beyond intrinsic_count() they are 0
 };
 
 // The pixel of a point by the model's formula (OpenCV's projectPoints and fisheye::projectPoints), also beyond the

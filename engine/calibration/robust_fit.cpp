@@ -26,8 +26,8 @@ constexpr double kLargestError = 2.5;    // of that
 constexpr double kSmallError_px = 0.1;   // no view below is left out
 constexpr double kCornerDeviations = 5;
 constexpr double kSmallResidual_px = 0.3;  // no corner below is left out
-constexpr double kMostCornersLeftOut = 0.25;
-constexpr int kMostRounds = 8;
+constexpr double kMaxCornersLeftOut = 0.25;
+constexpr int kMaxRounds = 8;
 
 // Infinite of no values, and where it lies between infinite ones.
 double quantile_or_none(std::vector<double> values, double share) {
@@ -149,7 +149,7 @@ Agreement agreement_of(const LensFit& fit, std::span<const FitView> views) {
   const double most_px =
       std::max(kSmallError_px, kLargestError * quantile_or_none(agreement.error_px, kReferenceShare));
   for (std::size_t v = 0; v < views.size(); ++v)
-    agreement.view.push_back(agreement.error_px[v] <= most_px && left_out[v] <= kMostCornersLeftOut);
+    agreement.view.push_back(agreement.error_px[v] <= most_px && left_out[v] <= kMaxCornersLeftOut);
   return agreement;
 }
 
@@ -249,7 +249,7 @@ std::optional<RobustFit> robust_fit(FitModel model, std::span<const FitView> vie
   fit.intrinsics = converted(start, model, largest_angle_rad(start, views));
   refine_poses(fit, views);
   Agreement agreement = agreement_of(fit, views);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     if (agreement.view_count() < kFewest) return std::nullopt;
     fit = fitted(std::move(fit), views, agreement);
     if (!std::isfinite(fit.cost)) return std::nullopt;

@@ -14,9 +14,9 @@ namespace sigs {
 
 namespace {
 
-constexpr int kOwn = 3;                       // unknowns of a landmark
-constexpr int kOfFrame = 6;                   // and of a frame
-constexpr double kLeastInverseDepth = -0.02;  // a little below 0, lest noise about 0 become a mean above it
+constexpr int kOwn = 3;                     // unknowns of a landmark
+constexpr int kOfFrame = 6;                 // and of a frame
+constexpr double kMinInverseDepth = -0.02;  // a little below 0, lest noise about 0 become a mean above it
 constexpr double kLargestInverseDepth = 50;
 
 // The normal equations with the landmarks eliminated.
@@ -61,12 +61,12 @@ class Adjustment {
         3 * static_cast<double>(bundle_.landmarks.size()) + 6 * static_cast<double>(bundle_.frames.size());
     const double share = std::sqrt(std::max(0.2, 1 - unknown / std::max(1.0, all)));
     const double by_median = lengths.empty() ? 0 : median(std::move(lengths)) * kSigmaOfMedianLength;
-    sigma_ = std::max(settings_.least_sigma_rad, std::max(least_sigma(), by_median) / share);
+    sigma_ = std::max(settings_.min_sigma_rad, std::max(min_sigma(), by_median) / share);
   }
 
   // Sigma if the best three tenths of all trusted observations were the best of normal errors: the median over those
   // that keep their weight can shrink with them, this cannot.
-  [[nodiscard]] double least_sigma() const {
+  [[nodiscard]] double min_sigma() const {
     constexpr double kShare = 0.3;
     std::vector<double> lengths;
     for (std::size_t i = 0; i < projections_.size(); ++i)
@@ -77,7 +77,7 @@ class Adjustment {
   }
 
   void weigh(double scale) {
-    scale = std::max(scale, settings_.least_scale_rad);
+    scale = std::max(scale, settings_.min_scale_rad);
     constexpr double kObservation = 3;  // sigmas at which an observation has a quarter of its weight
     constexpr double kLandmark = 1.5;   // the same of a landmark's root mean square
     weights_.resize(projections_.size());
@@ -194,7 +194,7 @@ class Adjustment {
     const std::vector<double> d = equations.solved();
     Landmark& landmark = bundle_.landmarks[l];
     landmark.direction = glm::normalize(landmark.direction + tangents_of(landmark.direction) * glm::dvec2(d[0], d[1]));
-    landmark.inverse_depth = std::clamp(landmark.inverse_depth + d[2], kLeastInverseDepth, kLargestInverseDepth);
+    landmark.inverse_depth = std::clamp(landmark.inverse_depth + d[2], kMinInverseDepth, kLargestInverseDepth);
   }
 
   [[nodiscard]] BundleFit fit() const {
@@ -258,7 +258,7 @@ constexpr double kSkyTrust = 0.02;
 constexpr double kHills_rad = 0.052;
 constexpr double kSky_rad = 0.105;
 constexpr double kNear = 0.015;  // inverse depth, per unit of length; some 70 seconds of flight away
-constexpr std::size_t kLeastNear = 15;
+constexpr std::size_t kMinNear = 15;
 constexpr double kRough = 0.3;  // of the median inverse depth: what hills make it differ by
 
 }  // namespace
@@ -271,7 +271,7 @@ std::optional<glm::dvec3> ground_of(std::span<const Landmark> landmarks) {
       near.push_back(&landmark);
       depths.push_back(landmark.inverse_depth);
     }
-  if (near.size() < kLeastNear) return std::nullopt;
+  if (near.size() < kMinNear) return std::nullopt;
   const double scale = kRough * median(std::move(depths));
   glm::dvec3 ground(0);
   for (int round = 0; round < 8; ++round) {

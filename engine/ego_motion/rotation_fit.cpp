@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTrials = 60;       // with half of the pairs astray a pair of good ones is missed once in 3e7
 constexpr double kTukey = 4.685;  // 95 % efficient on normal errors
-constexpr double kLeastSigma_rad = 1e-7;
+constexpr double kMinSigma_rad = 1e-7;
 
 double miss(const glm::dmat3& turn, const RayPair& pair) {
   return glm::length(turn * pair.before - pair.after);
@@ -53,7 +53,7 @@ std::optional<glm::dmat3> tried(std::span<const RayPair> pairs, const RotationFi
 double sigma_of(std::vector<double> misses, double limit) {
   std::erase_if(misses, [limit](double m) { return m > limit; });
   if (misses.empty()) return limit;
-  return std::max(kLeastSigma_rad, median(std::move(misses)) * kSigmaOfMedianLength);
+  return std::max(kMinSigma_rad, median(std::move(misses)) * kSigmaOfMedianLength);
 }
 
 }  // namespace

@@ -221,7 +221,7 @@ std::string encounter_json_text(std::span<const EncounterSummary> encounters, co
 
 namespace {
 
-constexpr double kMostShown_s = 120;  // that the panel of times shows
+constexpr double kMaxShown_s = 120;  // that the panel of times shows
 
 // A curve over the rows, with a gap where it has no value.
 PlotSeries curve_of(const EncounterSummary& summary, std::string title,
@@ -287,7 +287,7 @@ void add_plots(const EncounterSummary& summary, std::vector<Plot>& plots) {
         curve_of(summary, "modified tau", [](const EncounterRow& row) { return row.of_volumes.front().tau_mod_s; }));
   times.push_back(curve_of(summary, "co-altitude", &RelativeQuantities::time_to_coaltitude_s));
   plots.push_back(plot_over_time(summary, "times, s", std::move(times)));
-  plots.back().y_range.last = std::min(plots.back().y_range.last, kMostShown_s);
+  plots.back().y_range.last = std::min(plots.back().y_range.last, kMaxShown_s);
   Plot heights = plot_over_time(summary, "vertical offset, m (intruder above: positive)",
                                 {curve_of(summary, "vertical", &RelativeQuantities::vertical_m),
                                  curve_of(summary, "VMD", &RelativeQuantities::vmd_m)});

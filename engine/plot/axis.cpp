@@ -11,7 +11,7 @@ namespace sigs {
 
 namespace {
 
-constexpr double kMostTicks = 8;
+constexpr double kMaxTicks = 8;
 
 double placed(double value, PlotScale scale) {
   if (scale == PlotScale::log) return std::log10(std::max(value, 1e-300));
@@ -21,7 +21,7 @@ double placed(double value, PlotScale scale) {
 // Powers of ten, and 2 and 5 times these where there are few of them.
 std::vector<double> log_ticks(const PlotSpan& range) {
   const double first = std::log10(std::max(range.first, 1e-300)), last = std::log10(range.last);
-  const double step = std::max(1.0, std::ceil((last - first) / kMostTicks));
+  const double step = std::max(1.0, std::ceil((last - first) / kMaxTicks));
   std::vector<double> ticks;
   for (double power = std::floor(first / step) * step; power <= last; power += step)
     for (const double factor : {1.0, 2.0, 5.0}) {
@@ -107,14 +107,13 @@ void Axis::widen(double wanted_per_px) {
 std::vector<double> ticks_of(const PlotSpan& range, PlotScale scale) {
   if (!(range.last > range.first)) return {range.first};
   if (scale == PlotScale::symlog) return symlog_ticks(range);
-  return scale == PlotScale::log ? log_ticks(range) : round_numbers(range, kMostTicks);
+  return scale == PlotScale::log ? log_ticks(range) : round_numbers(range, kMaxTicks);
 }
 
 std::vector<PlotTick> ticks_on(const Axis& axis, double most) {
   const PlotSpan rising{std::min(axis.range.first, axis.range.last), std::max(axis.range.first, axis.range.last)};
-  const std::vector<double> numbers = axis.scale == PlotScale::linear
-                                          ? round_numbers(rising, std::min(most, kMostTicks))
-                                          : ticks_of(rising, axis.scale);
+  const std::vector<double> numbers =
+      axis.scale == PlotScale::linear ? round_numbers(rising, std::min(most, kMaxTicks)) : ticks_of(rising, axis.scale);
   std::vector<PlotTick> ticks;
   for (const double number : numbers)
     ticks.push_back({number, axis.scale == PlotScale::log ? decade_text(number) : tick_text(number, numbers)});

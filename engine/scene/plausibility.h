@@ -20,7 +20,7 @@ inline constexpr double kMinAircraft_m = 0.1;
 // Settings that can be used but are implausible, in the project's order of fields: calibrations with warnings, an
 // own-body mask that covers nearly everything or nothing, a camera below the ground (z > 0), models larger or smaller
 // than any aircraft, trajectories faster than any aircraft or below the ground, and paths that overshoot farther off
-// the straight line between two waypoints than the legs around are long. What likely_mistakes() finds
+// the straight line between two waypoints than the legs around are long. What lint() finds
 // follows for each intruder. Trajectories are sampled at each frame, at
 // fewer frames where intruders or frames are very many. Whether an intruder is ever visible: scene/visibility.h.
 //   intruder_of_project  for each of the project's intruders its index in scene.intruders; -1: it is not in the scene
@@ -43,8 +43,8 @@ inline constexpr double kMinAircraft_m = 0.1;
 // Distractors, which have other shapes than aircraft, are checked for waypoints alone.
 //   intruder        index in the project's intruders
 //   scene_intruder  the same in the scene
-[[nodiscard]] std::vector<Problem> likely_mistakes(const Project& project, std::size_t intruder, const Scene& scene,
-                                                   std::size_t scene_intruder);
+[[nodiscard]] std::vector<Problem> lint(const Project& project, std::size_t intruder, const Scene& scene,
+                                        std::size_t scene_intruder);
 
 // Where an intruder that is never in the image passes it: "at frame 12 it is nearest to the image, 40 degrees left of
 // it"; "it is behind the camera". Of the reference point alone, at 200 frames at most. Empty where it is in the image.

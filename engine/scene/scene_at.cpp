@@ -21,9 +21,9 @@ Value value_of(const std::vector<Sample>& samples, Value Sample::*value, double 
 
 }  // namespace
 
-glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s) {
-  if (turns.empty()) return {1, 0, 0, 0};
-  return value_of(turns, &CarrierAttitude::world_from_carrier, time_s);
+glm::dquat world_from_platform_at(const std::vector<PlatformAttitude>& attitudes, double time_s) {
+  if (attitudes.empty()) return {1, 0, 0, 0};
+  return value_of(attitudes, &PlatformAttitude::world_from_platform, time_s);
 }
 
 std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& deviations, double time_s) {
@@ -58,7 +58,7 @@ Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double t
     pose.translation_m = motion.path->motion_at(time_s).position_m;
   else
     pose.translation_m.x += motion.speed_mps * time_s;
-  if (!motion.turns.empty()) pose.rotation = world_from_carrier_at(motion.turns, time_s) * pose.rotation;
+  if (!motion.attitudes.empty()) pose.rotation = world_from_platform_at(motion.attitudes, time_s) * pose.rotation;
   return pose;
 }
 

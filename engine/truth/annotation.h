@@ -62,7 +62,7 @@ struct WellClearTruth {
   double severity = 0;   // of the loss, 0..100
 };
 
-// How an intruder moves against the camera's carrier at one time. docs/encounters.md has the formula of each.
+// How an intruder moves against the camera's platform at one time. docs/encounters.md has the formula of each.
 struct EncounterTruth {
   double range_rate_mps = 0;                    // negative while the distance falls
   double closing_speed_mps = 0;                 // the same with the other sign

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/code_patch.h"
+#include "compositor/float_patch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ void mark_changed(const PatchPlane& plane, const cv::Mat& codes, const cv::Size&
 }
 
 template <class Sample>
-cv::Mat write_as(const CodePatch& patch, Frame& frame) {
+cv::Mat write_as(const FloatPatch& patch, Frame& frame) {
   const auto top = static_cast<float>(max_code(patch.bit_depth));
   const cv::Point corner = patch.planes[0].rect.tl();
   cv::Mat changed = patch.planes[0].opacity > 0;
@@ -80,18 +80,18 @@ cv::Mat write_as(const CodePatch& patch, Frame& frame) {
   return changed;
 }
 
-void spread_rgb(CodePatch& patch, double sigma_px) {
+void spread_rgb(FloatPatch& patch, double sigma_px) {
   const cv::Mat of_luma = detail_of_layer(luma_of_rgb(patch), sigma_px);
   for (PatchPlane& plane : patch.planes) add_change(plane, of_luma - detail_of_layer(plane, sigma_px));
 }
 
 }  // namespace
 
-CodePatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body) {
+FloatPatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body) {
   const cv::Size step = chroma_step(frame.layout);
   const int margin = margin_px + (step.area() > 1 ? 2 : 0);
   const cv::Rect luma = widened(grown(pixels, margin) & cv::Rect({0, 0}, frame.size_px()), step, frame.size_px());
-  CodePatch patch{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
+  FloatPatch patch{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
   for (int plane = 0; plane < frame.plane_count(); ++plane) {
     const auto index = static_cast<std::size_t>(plane);
     const cv::Rect rect = plane == 0 ? luma : in_chroma(luma, step);
@@ -118,12 +118,12 @@ void add_change(PatchPlane& plane, const cv::Mat& change) {
   plane.after += plane.free.empty() ? change : cv::Mat(change.mul(plane.free));
 }
 
-cv::Mat write_patch(const CodePatch& patch, Frame& frame) {
+cv::Mat write_patch(const FloatPatch& patch, Frame& frame) {
   ENSURE(patch.bit_depth == frame.bit_depth);
   return with_sample_type(frame.bit_depth, [&](auto sample) { return write_as<decltype(sample)>(patch, frame); });
 }
 
-void sharpen(CodePatch& patch, double amount, double sigma_px) {
+void sharpen(FloatPatch& patch, double amount, double sigma_px) {
   if (amount == 0) return;
   if (patch.layout != PixelLayout::rgb) {
     add_change(patch.planes[0], amount * detail_of_layer(patch.planes[0], sigma_px));
@@ -137,14 +137,14 @@ int sharpening_margin_px(double amount, double sigma_px) {
   return amount == 0 ? 0 : blur_margin_px(sigma_px);
 }
 
-void spread_chroma(CodePatch& patch, double sigma_samples) {
+void blur_chroma(FloatPatch& patch, double sigma_samples) {
   if (sigma_samples == 0 || patch.plane_count() == 1) return;
   if (patch.layout == PixelLayout::rgb) return spread_rgb(patch, sigma_samples);
   for (std::size_t plane = 1; plane < 3; ++plane)
     add_change(patch.planes[plane], -detail_of_layer(patch.planes[plane], sigma_samples));
 }
 
-int chroma_spread_margin_px(PixelLayout layout, double sigma_samples) {
+int chroma_blur_margin_px(PixelLayout layout, double sigma_samples) {
   if (sigma_samples == 0 || layout == PixelLayout::gray) return 0;
   const cv::Size step = chroma_step(layout);
   return (blur_margin_px(sigma_samples) + 1) * std::max(step.width, step.height);
@@ -178,22 +178,23 @@ float white(std::uint64_t key, int x, int y) {
 }
 
 // Weights of the present field and of those before it. Their squares sum to one.
-std::vector<float> weights_in_time(double persistence) {
-  const double p2 = persistence * persistence;
-  // Cut after K, neighbouring frames correlate by persistence (1 - p2^K) / (1 - p2^(K + 1)).
+std::vector<float> weights_in_time(double temporal_correlation) {
+  const double p2 = temporal_correlation * temporal_correlation;
+  // Cut after K, neighbouring frames correlate by temporal_correlation (1 - p2^K) / (1 - p2^(K + 1)).
   int count = 1;
-  for (double power = 1; persistence > 0 && power * (1 - p2) > 0.01; power *= p2) ++count;
+  for (double power = 1; temporal_correlation > 0 && power * (1 - p2) > 0.01; power *= p2) ++count;
   double squares = 0;
   std::vector<float> weights;
   for (int k = 0; k < count; ++k) squares += std::pow(p2, k);
-  for (int k = 0; k < count; ++k) weights.push_back(static_cast<float>(std::pow(persistence, k) / std::sqrt(squares)));
+  for (int k = 0; k < count; ++k)
+    weights.push_back(static_cast<float>(std::pow(temporal_correlation, k) / std::sqrt(squares)));
   return weights;
 }
 
 // White in space, correlated in time.
 cv::Mat uncorrelated_field(const NoiseSource& source, int plane, std::int64_t frame, const cv::Rect& rect) {
   cv::Mat field = cv::Mat::zeros(rect.size(), CV_32FC1);
-  const std::vector<float> weights = weights_in_time(source.grain.persistence);
+  const std::vector<float> weights = weights_in_time(source.grain.temporal_correlation);
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const std::uint64_t key = source.key(plane, frame - static_cast<std::int64_t>(k));
     for (int y = 0; y < rect.height; ++y) {
@@ -265,7 +266,7 @@ void add_to(PatchPlane& plane, const cv::Mat& change, double times = 1) {
 
 // Of R'G'B', beside luma, which red has already. BT.709, full range: R' = Y' + 1.5748 Cr, B' = Y' + 1.8556 Cb, and G'
 // such that luma stays.
-void add_chroma_to_rgb(CodePatch& patch, const cv::Mat& of_luma, const cv::Mat& cb, const cv::Mat& cr) {
+void add_chroma_to_rgb(FloatPatch& patch, const cv::Mat& of_luma, const cv::Mat& cb, const cv::Mat& cr) {
   constexpr double kRedOfCr = 1.5748;
   constexpr double kBlueOfCb = 1.8556;
   add_to(patch.planes[1], of_luma);
@@ -280,16 +281,16 @@ void add_chroma_to_rgb(CodePatch& patch, const cv::Mat& of_luma, const cv::Mat& 
 
 cv::Mat noise_field(const GrainSettings& grain, int plane, std::int64_t frame, const cv::Rect& rect, int intruder) {
   const NoiseSource source{grain, intruder};
-  if (grain.spread_px == 0) return uncorrelated_field(source, plane, frame, rect);
-  const int margin = blur_margin_px(grain.spread_px);
-  cv::Mat kernel = sampled_gaussian(grain.spread_px, margin);
+  if (grain.correlation_length_px == 0) return uncorrelated_field(source, plane, frame, rect);
+  const int margin = blur_margin_px(grain.correlation_length_px);
+  cv::Mat kernel = sampled_gaussian(grain.correlation_length_px, margin);
   kernel /= cv::norm(kernel);
   cv::Mat field = uncorrelated_field(source, plane, frame, grown(rect, margin));
   cv::sepFilter2D(field, field, CV_32F, kernel, kernel);
   return field(cv::Rect({margin, margin}, rect.size())).clone();
 }
 
-std::int64_t add_grain(CodePatch& patch, const GrainSettings& grain, std::int64_t frame, int intruder) {
+std::int64_t add_grain(FloatPatch& patch, const GrainSettings& grain, std::int64_t frame, int intruder) {
   if (grain.is_none()) return 0;
   const bool is_rgb = patch.layout == PixelLayout::rgb;
   const bool is_limited = !is_rgb && patch.color.range == ColorRange::limited;
