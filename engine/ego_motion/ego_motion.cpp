@@ -153,7 +153,11 @@ class Estimate {
       warn("the gyroscope's log cannot be compared with the images: too few frames with features in common with it");
       return;
     }
-    warn_of_disagreement();
+    if (settings_.fits_focal_length && camera_.lens.is_pinhole() && stabilization_.empty()) fit_focal_length_by_gyro();
+    const auto fitting = focal_scale_by_gyro(seen_turns(), *rates_, offset_, camera_from_gyro_);
+    if (const std::string what = disagreement_with_gyro(*motion_.gyro, fitting, camera_);
+        !what.empty() && !(motion_.gyro->is_fused && !stabilization_.empty()))
+      warn(what);
     if (readout_s > 0 && motion_.gyro->is_fused && stabilization_.empty()) unroll_by_gyro(readout_s);
     recorded_ = recorded_turns(times_s_, *rates_, offset_, camera_from_gyro_, stabilization_);
   }
@@ -178,19 +182,21 @@ class Estimate {
     return true;
   }
 
-  void warn_of_disagreement() {
-    const GyroLink& gyro = *motion_.gyro;
-    constexpr double kSlope = 0.1;
-    if (!gyro.is_fused)
-      warn(fmt::format(
-          "the images do not follow the gyroscope (correlation {:.2f}): stabilized in the camera, or the log "
-          "of another flight? The images alone are used",
-          gyro.correlation));
-    else if (std::abs(gyro.slope - 1) > kSlope && stabilization_.empty())
-      warn(fmt::format(
-          "the images turn {:.2f} times as fast as the gyroscope says: stabilized in the camera, or a wrong "
-          "focal length?",
-          gyro.slope));
+  // Twice, since turns that are seen with another lens are not exactly those with this one by a factor.
+  void fit_focal_length_by_gyro() {
+    for (int round = 0; round < 2 && !is_cancelled(control_.cancel); ++round) {
+      const auto found = focal_scale_by_gyro(seen_turns(), *rates_, offset_, camera_from_gyro_);
+      if (!found) return;
+      const double before = motion_.focal_factor;
+      take_focal_length(found->value);
+      motion_.focal_factor = before * found->value;
+      motion_.focal_scale = FocalScale{.value = motion_.focal_factor,
+                                       .least = before * found->least,
+                                       .largest = before * found->largest,
+                                       .by_gyro = true};
+      steps_ = steps_between(seen_.rays, seen_.pixel_rad, settings_, control_.cancel);
+      if (!link_gyro({.cancel = control_.cancel})) return;
+    }
   }
 
   // A pinhole with another focal length sees the same pixels along other rays and a straight edge in another plane.
@@ -212,16 +218,14 @@ class Estimate {
     const FocalScale& found = *motion_.focal_scale;
     constexpr double kClose = 1.1;
     const bool fits = found.least < kClose && (found.largest == 0 || found.largest > 1 / kClose);
-    const auto ray = camera_.lens.ray({camera_.size_px.width - 1.0, (camera_.size_px.height - 1) / 2.0});
-    if (fits || !ray || !(ray->x > 0)) return;
+    if (fits || std::isnan(field_of_view_deg(camera_, 1))) return;
     if (settings_.fits_focal_length && camera_.lens.is_pinhole()) return take_focal_length(found.value);
-    const double half_rad = std::acos(std::clamp(ray->x, 0.0, 1.0));
-    const auto field_deg = [&](double scale) { return 2 * deg_of_rad(std::atan(std::tan(half_rad) / scale)); };
-    const std::string narrow = found.largest > 0 ? fmt::format("{:.0f} to", field_deg(found.largest)) : "at most";
+    const std::string narrow =
+        found.largest > 0 ? fmt::format("{:.0f} to", field_of_view_deg(camera_, found.largest)) : "at most";
     const std::string what = fmt::format(
         "the images turn as with a field of view of {} {:.0f} degrees across, the calibration has {:.0f}: zoomed, "
         "cropped, stabilized, or a guess? Attitudes are wrong by as much",
-        narrow, field_deg(found.least), field_deg(1));
+        narrow, field_of_view_deg(camera_, found.least), field_of_view_deg(camera_, 1));
     motion_.warnings.insert(motion_.warnings.begin(), {path_, what});
   }
 

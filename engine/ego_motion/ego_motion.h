@@ -56,9 +56,10 @@ struct GyroLink {
 // The focal length that the image's own turns show, over that of the calibration. When a camera turns, what is at the
 // image's border moves otherwise than what is in its middle, by the square of the tangent of its angle from the axis.
 struct FocalScale {
-  double value = 1;    // as good as any other; 1: the calibration
-  double least = 0;    // smaller ones do not fit
-  double largest = 0;  // larger ones do not fit; 0: any larger one fits, as where the camera turns little
+  double value = 1;      // as good as any other; 1: the calibration
+  double least = 0;      // smaller ones do not fit
+  double largest = 0;    // larger ones do not fit; 0: any larger one fits, as where the camera turns little
+  bool by_gyro = false;  // by how fast the images turn beside a gyroscope
 };
 
 struct EgoMotion {

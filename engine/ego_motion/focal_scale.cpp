@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "ego_motion/focal_scale.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <thread>
 #include <vector>
 
+#include "base/pose.h"
 #include "base/statistics.h"
 #include "base/threads.h"
 #include "ego_motion/rotation_fit.h"
@@ -130,6 +135,122 @@ std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double 
   FocalScale found{.value = scale_at(at), .least = scale_at(low - kStep), .largest = scale_at(high + kStep)};
   if (high > kScales - 2) found.largest = 0;
   return found;
+}
+
+namespace {
+
+constexpr std::size_t kSlopeParts = 10;      // of the footage
+constexpr std::size_t kMinSlopeTurns = 100;  // frames
+constexpr double kMinGyroCorrelation = 0.9;  // of seen and recorded turns; less where images were stabilized
+constexpr double kMaxSlopeSd = 0.02;         // of the focal length's factor
+constexpr double kMaxDisagreement = 0.05;    // of factors that ought to be equal, beside three standard deviations
+constexpr double kUnknownSlopeSd = 0.15;     // of turns about the line of sight, which say nothing beyond it
+
+struct TurnPair {
+  glm::dvec3 recorded, seen;  // camera axes
+};
+
+// Seen turns over recorded ones.
+struct Slope {
+  double value = 0, sd = 0;
+};
+
+// Sums over a part of the footage.
+struct SlopeSums {
+  double recorded = 0, both = 0;
+  [[nodiscard]] double slope() const { return recorded > 0 ? both / recorded : 0; }
+};
+
+// By least squares over some of the axes and of the turns.
+template <class IsUsed>
+Slope slope_of(std::span<const TurnPair> pairs, std::initializer_list<int> axes, const IsUsed& is_used) {
+  std::array<SlopeSums, kSlopeParts> parts{};
+  SlopeSums all;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!is_used(pairs[i])) continue;
+    for (const int axis : axes) {
+      const double recorded = pairs[i].recorded[axis], seen = pairs[i].seen[axis];
+      for (SlopeSums* const sums : {&parts[i * kSlopeParts / pairs.size()], &all}) {
+        sums->recorded += recorded * recorded;
+        sums->both += recorded * seen;
+      }
+    }
+  }
+  double squares = 0;
+  for (const SlopeSums& part : parts) {
+    const SlopeSums rest{.recorded = all.recorded - part.recorded, .both = all.both - part.both};
+    squares += std::pow(rest.slope() - all.slope(), 2);
+  }
+  return {all.slope(), std::sqrt(squares * (kSlopeParts - 1) / kSlopeParts)};
+}
+
+bool agree(const Slope& a, const Slope& b) {
+  return std::abs(a.value - b.value) < kMaxDisagreement + 3 * std::hypot(a.sd, b.sd);
+}
+
+// Without their means, which hold the gyroscope's bias.
+std::vector<TurnPair> turn_pairs(std::span<const SeenTurn> turns, const RateIntegral& rates, const TimeOffset& offset,
+                                 const glm::dquat& camera_from_gyro) {
+  std::vector<TurnPair> pairs;
+  TurnPair mean{};
+  for (const SeenTurn& turn : turns) {
+    const double from_s = offset.log_time_s(turn.from_s), to_s = offset.log_time_s(turn.to_s);
+    if (!rates.covers(from_s, to_s)) continue;
+    pairs.push_back({camera_from_gyro * rates.between(from_s, to_s), turn.turn_rad});
+    mean.recorded += pairs.back().recorded;
+    mean.seen += pairs.back().seen;
+  }
+  const double count = std::max<double>(1, static_cast<double>(pairs.size()));
+  for (TurnPair& pair : pairs) {
+    pair.recorded -= mean.recorded / count;
+    pair.seen -= mean.seen / count;
+  }
+  return pairs;
+}
+
+double across(const TurnPair& pair) {
+  return std::hypot(pair.recorded.y, pair.recorded.z);
+}
+
+}  // namespace
+
+std::optional<FocalScale> focal_scale_by_gyro(std::span<const SeenTurn> turns, const RateIntegral& rates,
+                                              const TimeOffset& offset, const glm::dquat& camera_from_gyro) {
+  const std::vector<TurnPair> pairs = turn_pairs(turns, rates, offset, camera_from_gyro);
+  if (pairs.size() < kMinSlopeTurns || !(offset.correlation >= kMinGyroCorrelation)) return std::nullopt;
+  const Slope found = slope_of(pairs, {1, 2}, [](const TurnPair&) { return true; });
+  if (!(found.value > 0) || !(found.sd < kMaxSlopeSd * found.value)) return std::nullopt;
+  std::vector<double> sizes;
+  for (const TurnPair& pair : pairs) sizes.push_back(across(pair));
+  const double limit = quantile(std::move(sizes), 0.8);
+  const Slope fast = slope_of(pairs, {1, 2}, [&](const TurnPair& pair) { return across(pair) > limit; });
+  const Slope slow = slope_of(pairs, {1, 2}, [&](const TurnPair& pair) { return across(pair) <= limit; });
+  const Slope roll = slope_of(pairs, {0}, [](const TurnPair&) { return true; });
+  if (!agree(fast, slow) || (roll.sd < kUnknownSlopeSd && !agree(roll, {1, 0}))) return std::nullopt;
+  const double margin = 2 * std::hypot(found.sd, 0.01 * found.value);
+  return FocalScale{.value = found.value, .least = found.value - margin, .largest = found.value + margin};
+}
+
+std::string disagreement_with_gyro(const GyroLink& gyro, const std::optional<FocalScale>& fitting,
+                                   const Camera& camera) {
+  constexpr double kSlope = 0.1;
+  if (!gyro.is_fused)
+    return fmt::format(
+        "the images do not follow the gyroscope (correlation {:.2f}): stabilized in the camera, or the log "
+        "of another flight? The images alone are used",
+        gyro.correlation);
+  if (std::abs(gyro.slope - 1) <= kSlope) return "";
+  std::string why = "stabilized in the camera, or a wrong focal length?";
+  if (const double now_deg = field_of_view_deg(camera, 1); fitting && !std::isnan(now_deg))
+    why = fmt::format("a field of view of {:.0f} to {:.0f} degrees across explains it, the calibration has {:.0f}",
+                      field_of_view_deg(camera, fitting->largest), field_of_view_deg(camera, fitting->least), now_deg);
+  return fmt::format("the images turn {:.2f} times as fast as the gyroscope says: {}", gyro.slope, why);
+}
+
+double field_of_view_deg(const Camera& camera, double focal_factor) {
+  const auto ray = camera.lens.ray({camera.size_px.width - 1.0, (camera.size_px.height - 1) / 2.0});
+  if (!ray || !(ray->x > 0)) return std::numeric_limits<double>::quiet_NaN();
+  return 2 * deg_of_rad(std::atan(std::tan(std::acos(std::clamp(ray->x, 0.0, 1.0))) / focal_factor));
 }
 
 }  // namespace sigs

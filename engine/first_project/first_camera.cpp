@@ -151,7 +151,8 @@ Result<FirstCamera> camera_by_turns(const VideoInfo& video, const FocalScale& se
   const auto field_rad = [](double scale) { return 2 * std::atan(std::tan(rad_of_deg(kGuessedFov_deg) / 2) / scale); };
   const GuessedLens guessed = default_lens(video, field_rad(seen.value));
   FirstProjectNote note{.field = "footage.calibration", .is_guess = true};
-  note.text = fmt::format("{}, by how the images turn ({} {:.0f}); distortion is not known", guessed.how,
+  note.text = fmt::format("{}, by how {} ({} {:.0f}); distortion is not known", guessed.how,
+                          seen.by_gyro ? "fast the images turn beside the log's gyroscope" : "the images turn",
                           seen.largest > 0 ? fmt::format("{:.0f} to", deg_of_rad(field_rad(seen.largest))) : "at most",
                           deg_of_rad(field_rad(seen.least)));
   note.remedy = kStateFov + kMeasure;
