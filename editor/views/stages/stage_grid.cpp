@@ -42,6 +42,7 @@ constexpr std::array kWords{
     Words{"sharpened", "Sharpened", "The frame with the intruder, sharpened as the footage's camera does"},
     Words{"chroma_blur", "Chroma blur", "Its colours spread over the chroma planes as the footage's are"},
     Words{"grain", "Grain", "With noise of the footage's kind"},
+    Words{"uncoded", "Before the codec", "The frame before the footage's compression is applied around the intruder"},
     Words{"mask", "Mask", "Opacity with which intruders are composited"},
     Words{"output", "Output", "The finished frame, as it is exported"},
 };

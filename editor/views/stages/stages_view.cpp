@@ -241,7 +241,7 @@ void StagesView::draw_notice(const ViewContext& context, const ScreenRect& rect)
     text = context.shown.scene ? "Making the stages..." : "Opening the project...";
   else if (!image->problem.empty())
     text = image->problem;
-  else if (image->frame != context.document.playhead() || image->revision != context.document.revision().number)
+  else if ((image == staged_.get() ? context.shown.staged : context.shown.compared) == nullptr)
     text = "updating...";
   else if (look_ == Mode::stages && stage_image(*image, "warped") == nullptr &&
            stage_image(*image, "input2") == nullptr)

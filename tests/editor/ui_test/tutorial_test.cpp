@@ -224,9 +224,17 @@ void set_the_light(Reader& reader) {
 
 void check_the_compositing(Reader& reader) {
   EditorDriver& editor = reader.editor;
-  const int revision = revision_of(editor.state());
   editor.click("tab/stages");
   (void)editor.place("stages/ready");
+  // A setting of the export changes no image: the stages are still those of the project.
+  editor.key("ctrl+e");
+  reader.ui_test.edit([&] { editor.click("export/labels/csv"); });
+  editor.key("Escape");
+  editor.settle();
+  (void)editor.place("stages/ready");
+  reader.ui_test.edit([&] { editor.key("ctrl+z"); });
+  (void)editor.place("stages/ready");
+  const int revision = revision_of(editor.state());
   reader.image("9 direct");
   editor.click("stages/method");
   editor.click("stages/method/classic");
