@@ -119,7 +119,7 @@ namespace {
 
 constexpr int kBand = 3;              // cells above and below the edge, where the two are compared
 constexpr double kMinStep = 0.025;    // of luma, 6 codes of 8 bits
-constexpr double kMaxStep = 0.3;      // more does not count for more
+constexpr double kMaxEdgeStep = 0.3;  // more does not count for more
 constexpr double kMinColumns = 0.6;   // share of the columns that the edge has to be in
 constexpr double kRougher = 0.7;      // texture above, at most this share of that below
 constexpr double kSmoothSky = 0.008;  // smooth, whatever is below
@@ -183,7 +183,7 @@ std::vector<std::vector<double>> steps_of(const Columns& columns) {
                                          std::vector<double>(static_cast<std::size_t>(columns.rows) + 1));
   for (std::size_t i = 0; i < steps.size(); ++i)
     for (int y = kBand; has_room(y, columns.rows); ++y)
-      steps[i][static_cast<std::size_t>(y)] = std::clamp(columns.step(i, y), -kMaxStep, kMaxStep);
+      steps[i][static_cast<std::size_t>(y)] = std::clamp(columns.step(i, y), -kMaxEdgeStep, kMaxEdgeStep);
   return steps;
 }
 

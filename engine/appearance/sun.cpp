@@ -49,7 +49,7 @@ glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad) {
 }
 
 std::string how_found(SunEvidence evidence) {
-  switch (witness) {
+  switch (evidence) {
     case SunEvidence::given:
       return "by time and place";
     case SunEvidence::shadows:

@@ -198,8 +198,8 @@ constexpr double kProfileReach_px = 6;
 constexpr int kStepsPerPixel = 4;
 constexpr int kSteps = static_cast<int>(2 * kProfileReach_px) * kStepsPerPixel + 1;
 constexpr int kMiddle = kSteps / 2;
-constexpr double kMinContrast = 12;  // code values
-constexpr double kMinContrast_sd = 6;
+constexpr double kMinTargetContrast = 12;  // code values
+constexpr double kMinTargetContrast_sd = 6;
 constexpr double kMinChromaContrast = 4;
 constexpr std::size_t kMinProfiles = 6;
 constexpr std::size_t kMaxProfiles = 400;  // more do not change a median
@@ -327,7 +327,7 @@ std::optional<double> chroma_width(const TargetSilhouette& target, const std::ve
     Profile profile;
     for (int j = 0; j < kSteps; ++j)
       profile[static_cast<std::size_t>(j)] = (cb.at<float>(i, j) * inside.x + cr.at<float>(i, j) * inside.y) / length;
-    if (const auto edge = falling_edge(profile, std::max(kMinChromaContrast, kMinContrast_sd * target.chroma_sd)))
+    if (const auto edge = falling_edge(profile, std::max(kMinChromaContrast, kMinTargetContrast_sd * target.chroma_sd)))
       widths.push_back(edge->width_px);
   }
   if (widths.size() < kMinProfiles) return std::nullopt;
@@ -344,7 +344,7 @@ EdgeProfiles edge_profiles(const TargetSilhouette& target) {
   std::vector<Edge> edges;
   for (int i = 0; i < values.rows; ++i) {
     const Profile profile = upright(profile_at(values, i));
-    const auto edge = falling_edge(profile, std::max(kMinContrast, kMinContrast_sd * target.background_sd));
+    const auto edge = falling_edge(profile, std::max(kMinTargetContrast, kMinTargetContrast_sd * target.background_sd));
     if (!edge) continue;
     profiles.push_back(profile);
     edges.push_back(*edge);
