@@ -32,7 +32,7 @@ struct DetectInputs {
 };
 
 // Which results go with which labels.
-//   inputs   label files, truths of other programs (evaluation/truth_files.h), or one folder of a dataset
+//   inputs   label files, truths of other programs (evaluation/readers/truth_files.h), or one folder of a dataset
 //   results  a folder for each detector, in which NAME.csv or the like tells of the clip NAME; or, for label files, one
 //            file for each in the same order; or, for one label file, a file for each detector; or, for one split of a
 //            dataset, a file in COCO's layout for each detector, with the image_id of the split's coco labels; or, for

@@ -61,7 +61,7 @@ void NewProjectFlow::open(const fs::path& video) {
 }
 
 void NewProjectFlow::draw(const ViewContext& context) {
-  choice_ = dialog_.draw(context, job_);
+  choice_ = dialog_.draw(context, job_.state());
 }
 
 void NewProjectFlow::look(const ViewContext& context) {

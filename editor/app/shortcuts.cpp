@@ -50,14 +50,13 @@ constexpr std::array<Shortcut, 36> kShortcuts{{
     {"Window", "?", "this list"},
 }};
 
-void step(const ViewContext& context, int by) {
-  context.edits.ask(Play{0});
-  context.edits.go_to_frame(context.document.playhead() + by);
-}
-
 void go(const ViewContext& context, int frame) {
   context.edits.ask(Play{0});
   context.edits.go_to_frame(frame);
+}
+
+void step(const ViewContext& context, int by) {
+  go(context, context.document.playhead() + by);
 }
 
 // Faster with each press in the same direction, up to eight times.

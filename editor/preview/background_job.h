@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -66,6 +67,7 @@ struct JobState {
   // Frames that are done, of `total`. total == 0: not known yet.
   int done = 0;
   int total = 0;
+  std::string step;  // what is being done, in words: "reading the video"; "": it was not told
   // Frames a second and seconds until the end, as RateMeter gives them; none where it gives none.
   std::optional<double> rate_hz;
   std::optional<double> left_s;
@@ -82,11 +84,13 @@ struct JobState {
   [[nodiscard]] bool is_running() const { return phase == JobPhase::running; }
 };
 
-// What a job's work reports while it runs, and how it learns that it is to stop. Both functions may be called from any
+// What a job's work reports while it runs, and how it learns that it is to stop. The functions may be called from any
 // thread, as long as work has not returned.
 struct JobControl {
   // Frames done so far and in all.
   std::function<void(int done, int total)> progress;
+  // Sets JobState::step. It does not wake the window by itself.
+  std::function<void(const std::string&)> tell = {};
   // Adds to JobState::warnings. It does not wake the window by itself.
   std::function<void(const Warning&)> warn;
   // True: end soon, with an error of kind interrupted. A BackgroundJob always sets it; alive until work returns.
@@ -182,6 +186,11 @@ class BackgroundJob {
     lower_thread_priority(kBackgroundNiceness);
     finish(guarded([&] {
       return work_(request, {.progress = [this](int done, int total) { note(done, total); },
+                             .tell =
+                                 [this](const std::string& step) {
+                                   const std::lock_guard lock(mutex_);
+                                   state_.step = step;
+                                 },
                              .warn =
                                  [this](const Warning& warning) {
                                    const std::lock_guard lock(mutex_);

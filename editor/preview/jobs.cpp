@@ -77,26 +77,13 @@ void HorizonWatch::follow(const std::shared_ptr<const OpenedScene>& shown) {
 }
 
 FirstProjectJob::FirstProjectJob(std::function<void()> wake, const Make& make)
-    : FirstProjectJob(std::move(wake), make, std::make_shared<Step>()) {}
-
-FirstProjectJob::FirstProjectJob(std::function<void()> wake, const Make& make, const std::shared_ptr<Step>& step)
-    : BackgroundJob(std::move(wake),
-                    [make, step](const FirstProjectOptions& options, const JobControl& control) {
-                      const auto tell = [&](int done, int total, const std::string& text) {
-                        {
-                          const std::lock_guard lock(step->mutex);
-                          step->text = text;
-                        }
-                        control.progress(done, total);
-                      };
-                      return make(options, {.progress = tell, .cancel = control.cancel});
-                    }),
-      step_(step) {}
-
-std::string FirstProjectJob::step() const {
-  const std::lock_guard lock(step_->mutex);
-  return step_->text;
-}
+    : BackgroundJob(std::move(wake), [make](const FirstProjectOptions& options, const JobControl& control) {
+        const auto tell = [&](int done, int total, const std::string& text) {
+          control.tell(text);
+          control.progress(done, total);
+        };
+        return make(options, {.progress = tell, .cancel = control.cancel});
+      }) {}
 
 namespace {
 
@@ -123,7 +110,5 @@ Result<VideoFacts> video_facts(const std::filesystem::path& video, const JobCont
                     .rate_hz = rate_hz,
                     .lens = log->lens ? stated_lens(video, info, *log->lens) : ""};
 }
-
-VideoFactsJob::VideoFactsJob(std::function<void()> wake) : BackgroundJob(std::move(wake), video_facts) {}
 
 }  // namespace sigs::editor

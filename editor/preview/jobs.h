@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <string>
@@ -95,7 +94,8 @@ class HorizonWatch {
   std::shared_ptr<const SeenHorizons> seen_;
 };
 
-// Makes a project of a video in the background, as `sigs init` does. Nothing is written where it fails or is cancelled.
+// Makes a project of a video in the background, as `sigs init` does, and tells what it is at. Nothing is written where
+// it fails or is cancelled.
 using FirstProjectState = JobState<FirstProjectOptions, FirstProject>;
 class FirstProjectJob : public BackgroundJob<FirstProjectOptions, FirstProject> {
  public:
@@ -103,19 +103,6 @@ class FirstProjectJob : public BackgroundJob<FirstProjectOptions, FirstProject> 
   using Make = std::function<Result<FirstProject>(const FirstProjectOptions&, const FirstProjectControl&)>;
 
   explicit FirstProjectJob(std::function<void()> wake, const Make& make = make_first_project);
-
-  // What is being done, in words: "reading the video".
-  [[nodiscard]] std::string step() const;
-
- private:
-  // Shared with the work, on whose thread it is written.
-  struct Step {
-    std::mutex mutex;
-    std::string text;
-  };
-  FirstProjectJob(std::function<void()> wake, const Make& make, const std::shared_ptr<Step>& step);
-
-  std::shared_ptr<Step> step_;
 };
 
 // What a video tells of itself.
@@ -131,11 +118,6 @@ struct VideoFacts {
 // FrameSource::open(); interrupted.
 [[nodiscard]] Result<VideoFacts> video_facts(const std::filesystem::path& video, const JobControl& control);
 
-// The same in the background.
 using VideoFactsState = JobState<std::filesystem::path, VideoFacts>;
-class VideoFactsJob : public BackgroundJob<std::filesystem::path, VideoFacts> {
- public:
-  explicit VideoFactsJob(std::function<void()> wake);
-};
 
 }  // namespace sigs::editor

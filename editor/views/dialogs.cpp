@@ -13,8 +13,7 @@ namespace {
 
 void close_row(UiProbe& ui_probe, bool& closed) {
   ImGui::Dummy({0, scaled(6)});
-  const char* const labels[] = {"Close"};
-  align_buttons_right(labels, 1);
+  align_buttons_right({"Close"});
   if (ui_probe.noted(dialog_button("Close", true), "dialog/Close")) closed = true;
 }
 
@@ -94,7 +93,7 @@ std::optional<int> draw_question(const Question& question, UiProbe& ui_probe) {
   // As on other desktops: what changes nothing comes first, the usual answer last.
   std::vector<const char*> labels;
   for (std::size_t i = question.answers.size(); i-- > 0;) labels.push_back(question.answers[i].c_str());
-  align_buttons_right(labels.data(), static_cast<int>(labels.size()));
+  align_buttons_right(labels);
   for (std::size_t i = question.answers.size(); i-- > 0;) {
     if (ui_probe.noted(dialog_button(question.answers[i].c_str(), i == 0), "question/" + question.answers[i]))
       answer = static_cast<int>(i);
@@ -249,8 +248,7 @@ void RelinkDialog::draw(const ViewContext& context) {
   }
   const bool has_suggestions =
       std::ranges::any_of(suggested_, [this](const auto& item) { return !places_.contains(item.first); });
-  const char* const labels[] = {"Use suggestions", "Cancel", "Use these"};
-  align_buttons_right(labels, 3);
+  align_buttons_right({"Use suggestions", "Cancel", "Use these"});
   if (context.ui_probe.noted(dialog_button("Use suggestions", false, has_suggestions), "relink/suggestions"))
     places_.insert(suggested_.begin(), suggested_.end());
   ImGui::SameLine();

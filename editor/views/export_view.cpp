@@ -195,8 +195,7 @@ void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
   ImGui::Dummy({0, scaled(6)});
   const bool replace = overwrite_asked_ && !there_.empty();
   const char* const go = replace ? "Replace" : "Export";
-  const char* const labels[] = {"Close", go};
-  align_buttons_right(labels, 2);
+  align_buttons_right({"Close", go});
   if (context.ui_probe.noted(dialog_button("Close"), "export/close")) closed_ = true;
   ImGui::SameLine();
   const bool clicked = context.ui_probe.noted(dialog_button(go, true, !folder_.empty()), "export/go");
@@ -228,8 +227,7 @@ void ExportView::draw_running(const ViewContext& context, ExportJob& job, const 
   draw_warnings(state);
   ImGui::EndChild();
   ImGui::Dummy({0, scaled(6)});
-  const char* const labels[] = {"Cancel export", "Go on in the background"};
-  align_buttons_right(labels, 2);
+  align_buttons_right({"Cancel export", "Go on in the background"});
   if (context.ui_probe.noted(dialog_button("Cancel export", false, !state.is_stopping), "export/cancel")) job.cancel();
   ImGui::SameLine();
   if (context.ui_probe.noted(dialog_button("Go on in the background", true), "export/hide")) closed_ = true;
@@ -241,8 +239,7 @@ void ExportView::draw_done(const ViewContext& context, ExportJob& job, const Exp
   draw_warnings(state);
   ImGui::EndChild();
   ImGui::Dummy({0, scaled(6)});
-  const char* const labels[] = {"Export again", "Close"};
-  align_buttons_right(labels, 2);
+  align_buttons_right({"Export again", "Close"});
   if (context.ui_probe.noted(dialog_button("Export again"), "export/again")) {
     job.forget();
     overwrite_asked_ = false;

@@ -65,6 +65,12 @@ std::shared_ptr<const Survey> survey_of(const ViewContext& context, int intruder
   return intruder >= 0 && index < context.shown.surveys.size() ? context.shown.surveys[index] : nullptr;
 }
 
+const WaypointSettings* waypoint_of(const Project& project, int intruder, int waypoint) {
+  if (intruder < 0 || intruder >= std::ssize(project.intruders)) return nullptr;
+  const auto& waypoints = project.intruders[static_cast<std::size_t>(intruder)].trajectory.waypoints;
+  return waypoint >= 0 && waypoint < std::ssize(waypoints) ? &waypoints[static_cast<std::size_t>(waypoint)] : nullptr;
+}
+
 std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder) {
   return waypoint_frames(plan_of(context, intruder).waypoints, context.document.first_frame(),
                          context.document.last_frame());

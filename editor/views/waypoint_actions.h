@@ -25,6 +25,8 @@ namespace sigs::editor {
 
 // What is known without rendering of an intruder given by its index in the project; null: nothing yet.
 [[nodiscard]] std::shared_ptr<const Survey> survey_of(const ViewContext& context, int intruder);
+// Null: the project has no such waypoint.
+[[nodiscard]] const WaypointSettings* waypoint_of(const Project& project, int intruder, int waypoint);
 // The moment of each of an intruder's waypoints, in frames of the footage; not whole where frames are spread evenly.
 [[nodiscard]] std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder);
 

@@ -85,9 +85,9 @@ float dialog_button_width(const char* label) {
                   ImGui::CalcTextSize(label, nullptr, true).x + 2 * ImGui::GetStyle().FramePadding.x + scaled(12));
 }
 
-void align_buttons_right(const char* const* labels, int count) {
-  float width = ImGui::GetStyle().ItemSpacing.x * static_cast<float>(std::max(0, count - 1));
-  for (int i = 0; i < count; ++i) width += dialog_button_width(labels[i]);
+void align_buttons_right(const std::vector<const char*>& labels) {
+  float width = ImGui::GetStyle().ItemSpacing.x * static_cast<float>(std::max(0, static_cast<int>(labels.size()) - 1));
+  for (const char* const label : labels) width += dialog_button_width(label);
   const float room = ImGui::GetContentRegionAvail().x;
   if (room > width) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
 }

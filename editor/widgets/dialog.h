@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 namespace sigs::editor {
 
 // A window in the middle of the screen that takes all keys and clicks. One at a time: who begins another one replaces
@@ -13,7 +15,7 @@ namespace sigs::editor {
 void end_dialog(bool stays);
 
 // A row of buttons at the right edge: call it before the row, with the labels of the row.
-void align_buttons_right(const char* const* labels, int count);
+void align_buttons_right(const std::vector<const char*>& labels);
 
 // width: in screen pixels; -1: all that there is, 0: as its label needs, never smaller than usual.
 [[nodiscard]] bool dialog_button(const char* label, bool is_main = false, bool enabled = true, float width = 0);

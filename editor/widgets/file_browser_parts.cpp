@@ -267,8 +267,7 @@ void FileBrowser::draw_answer() {
     }
     ImGui::SameLine();
   }
-  const char* const labels[] = {"Cancel", main};
-  align_buttons_right(labels, 2);
+  align_buttons_right({"Cancel", main});
   if (ui_probe_->noted(dialog_button("Cancel"), "browser/cancel")) open_ = false;
   ImGui::SameLine();
   const bool can = saving ? !name_.empty() : of_folder || selected_ >= 0;
@@ -286,8 +285,7 @@ void FileBrowser::draw_answer() {
 void FileBrowser::draw_overwrite() {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(elided(name_ + " is there already. Replace it?", ImGui::GetContentRegionAvail().x).c_str());
-  const char* const labels[] = {"Back", "Replace"};
-  align_buttons_right(labels, 2);
+  align_buttons_right({"Back", "Replace"});
   if (dialog_button("Back")) bottom_ = Bottom::answer;
   ImGui::SameLine();
   const bool clicked = ui_probe_->noted(dialog_button("Replace", true), "browser/replace");
@@ -300,8 +298,7 @@ void FileBrowser::draw_new_folder() {
   ImGui::SetNextItemWidth(-1);
   const bool entered =
       text_input("##new folder", new_folder_, "name of the new folder", ImGuiInputTextFlags_EnterReturnsTrue);
-  const char* const labels[] = {"Back", "Make folder"};
-  align_buttons_right(labels, 2);
+  align_buttons_right({"Back", "Make folder"});
   if (dialog_button("Back")) bottom_ = Bottom::answer;
   ImGui::SameLine();
   if (dialog_button("Make folder", true, !new_folder_.empty()) || entered) make_folder();

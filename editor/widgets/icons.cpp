@@ -222,6 +222,14 @@ float icon_size() {
 
 }  // namespace
 
+void draw_diamond(ImDrawList& list, ImVec2 c, float r, ImU32 color) {
+  list.AddQuadFilled({c.x, c.y - r}, {c.x + r, c.y}, {c.x, c.y + r}, {c.x - r, c.y}, color);
+}
+
+void draw_diamond(ImDrawList& list, ImVec2 c, float r, ImU32 color, float line_width) {
+  list.AddQuad({c.x, c.y - r}, {c.x + r, c.y}, {c.x, c.y + r}, {c.x - r, c.y}, color, line_width);
+}
+
 void draw_icon(ImDrawList& list, Icon icon, ImVec2 center, float size, ImU32 color) {
   // On whole pixels, so that upright lines are sharp.
   const IconPen pen{.list = list,

@@ -59,6 +59,10 @@ enum class Icon {
 // pixel. Takes no mouse.
 void draw_icon(ImDrawList& list, Icon icon, ImVec2 center, float size, ImU32 color);
 
+// A square on its corner, half of whose diagonals is `radius`; filled, or its outline alone.
+void draw_diamond(ImDrawList& list, ImVec2 center, float radius, ImU32 color);
+void draw_diamond(ImDrawList& list, ImVec2 center, float radius, ImU32 color, float line_width);
+
 // A square button at the cursor, as high as a line of controls; true when clicked.
 //   id       names it within the ImGui window; not shown
 //   tooltip  may be ""

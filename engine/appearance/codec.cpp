@@ -14,11 +14,17 @@ namespace {
 
 constexpr int kBlock = 8;
 
+// The standard deviation that a few frames let expect of all: by their number less one; 0 of one frame.
+double sample_deviation(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  return values.size() < 2 ? 0 : standard_deviation(values) * std::sqrt(count / (count - 1));
+}
+
 // The mean of what frames have shown, with the standard deviation of that mean.
 Estimate mean_estimate(const std::vector<double>& values, const char* why_not) {
   if (values.empty()) return {.why = why_not};
-  const auto others = static_cast<double>(std::max<std::size_t>(values.size() - 1, 1));
-  return {.value = mean(values), .sd = standard_deviation(values) / std::sqrt(others), .is_known = true};
+  const double sd = sample_deviation(values) / std::sqrt(static_cast<double>(values.size()));
+  return {.value = mean(values), .sd = sd, .is_known = true};
 }
 
 // Sums and numbers of absolute steps between neighbours: of those across an edge of the grid, and of all others.
@@ -141,7 +147,7 @@ void CodecEstimator::add_ringing(const cv::Mat& luma) {
 CodecEstimate CodecEstimator::finish() const {
   CodecEstimate found{.codec = codec_, .kind = kind_, .predicts = predicts_};
   if (!means_.empty())
-    found.quantiser = {.value = mean(means_), .sd = standard_deviation(means_), .is_known = true};
+    found.quantiser = {.value = mean(means_), .sd = sample_deviation(means_), .is_known = true};
   else
     found.quantiser = {.value = kDefaultQp,
                        .why = frames_ == 0 ? "no frames" : "the footage's stream does not state its quantisers"};

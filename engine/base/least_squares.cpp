@@ -41,15 +41,18 @@ void NormalEquations::add_known(int unknown, double weight, double change) {
 }
 
 void NormalEquations::add(const NormalEquations& other, std::span<const int> places) {
-  ENSURE(eliminated_ == 0);
-  const int first = other.eliminated_;
-  const auto place = [&](int i) { return places.empty() ? i - first : places[static_cast<std::size_t>(i - first)]; };
-  for (int i = first; i < other.size_; ++i) {
-    if (place(i) < 0) continue;
-    const double* const from = other.row(i);
-    double* const to = row(place(i));
-    for (int j = i; j < other.size_; ++j) to[place(j)] += from[j];
-    to[size_] += from[other.size_];
+  const int first = other.eliminated_, count = other.size_ - first;
+  ENSURE(eliminated_ == 0 && static_cast<int>(places.size()) == (places.empty() ? 0 : count));
+  for (int i = 0; i < count; ++i) {
+    const int place = places.empty() ? i : places[static_cast<std::size_t>(i)];
+    if (place < 0) continue;
+    const double* const from = other.row(first + i) + first;
+    double* const to = row(place);
+    if (places.empty())
+      for (int j = i; j < count; ++j) to[j] += from[j];
+    else
+      for (int j = i; j < count; ++j) to[places[static_cast<std::size_t>(j)]] += from[j];
+    to[size_] += from[count];
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 #include <span>
@@ -34,8 +36,8 @@ class NormalEquations {
   // What is known of one unknown beforehand: that it changes by `change`, with the weight 1 / variance.
   void add_known(int unknown, double weight, double change = 0);
 
-  // The sums of other equations, of which the first ones may be eliminated. `places`: where the unknown that is left is
-  // here, negative: it does not change; rising but for these. Empty: both have the same unknowns.
+  // The sums of other equations, of which the first unknowns may be eliminated. `places`: where each of those left is
+  // here, rising; the first ones may be negative, as they do not change. Empty: both have the same unknowns.
   void add(const NormalEquations& other, std::span<const int> places = {});
 
   // Multiplies the diagonal by 1 + share and adds the floor to it.
@@ -67,6 +69,20 @@ class NormalEquations {
   std::vector<double>
       values_;  // rows of the upper triangle, each followed by its right side; once a row is eliminated,
                 // that of Cholesky's U = D L^T (Golub, Van Loan: Matrix Computations, section 4.1.2)
+};
+
+// Numbers without order, the same each time, for fits that try a few of the data at a time (Numerical Recipes' quick
+// generator).
+class Sequence {
+ public:
+  // 0 to count - 1; count > 0.
+  std::size_t below(std::size_t count) {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<std::size_t>(state_ >> 33) % count;
+  }
+
+ private:
+  std::uint64_t state_ = 1;
 };
 
 // Three rows and columns of a symmetric matrix, from number `first` on.

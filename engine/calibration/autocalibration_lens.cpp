@@ -148,7 +148,7 @@ LensEstimate fit_of(const LensOf& lens_of, const std::vector<double>& found, con
   const double first = std::sqrt(covariance(0, 0));
   const double mixed = covariance(1, 0) / first;
   const std::array<glm::dvec2, 2> axes{glm::dvec2(first, mixed),
-                                       glm::dvec2(0, std::sqrt(covariance(1, 1) - mixed * mixed))};
+                                       glm::dvec2(0, std::sqrt(std::max(0.0, covariance(1, 1) - mixed * mixed)))};
   const double floor = t / student_95(1000) * 1.96 * min_relative * std::sin(middle / 2) * 2;
   double up2 = floor * floor;
   double down2 = floor * floor;

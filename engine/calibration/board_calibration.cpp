@@ -156,13 +156,7 @@ struct FittedModel {
 
 std::optional<FittedModel> fitted_model(FitModel model, std::span<const FitView> counting, const LensFit& reference) {
   LensFit fit{.model = model, .poses = reference.poses};
-  double angle_rad = 0;
-  for (std::size_t v = 0; v < counting.size(); ++v)
-    for (const glm::dvec3& on_board : counting[v].on_board_m) {
-      const glm::dvec3 p = reference.poses[v] * on_board;
-      angle_rad = std::max(angle_rad, std::atan2(glm::length(glm::dvec2(p)), p.z));
-    }
-  fit.intrinsics = converted(reference, model, angle_rad);
+  fit.intrinsics = converted(reference, model, largest_angle_rad(reference, counting));
   fit = refined(counting, std::move(fit), all_free(model), {.iterations = 100});
   if (!std::isfinite(fit.cost) || !Lens::make(lens_of(model, fit.intrinsics))) return std::nullopt;
   FittedModel fitted;
@@ -203,12 +197,7 @@ CalibratedView view_of(const BoardView& seen, const FitView& view, const RobustF
                        const LensFit& chosen, const BoardPose& pose) {
   const auto left_out = std::ranges::count(reference.agreement.corner[v], false);
   const double facing = std::abs((pose.turn * glm::dvec3(0, 0, 1)).z);
-  FitView counting;
-  for (std::size_t i = 0; i < view.size(); ++i) {
-    if (reference.agreement.view[v] && !reference.agreement.corner[v][i]) continue;
-    counting.on_board_m.push_back(view.on_board_m[i]);
-    counting.at_px.push_back(view.at_px[i]);
-  }
+  const FitView counting = reference.agreement.view[v] ? agreeing(view, reference.agreement.corner[v]) : view;
   return {.name = seen.name,
           .corners = static_cast<int>(seen.size()),
           .corners_left_out = static_cast<int>(left_out),

@@ -102,8 +102,12 @@ struct RobustFit {
 // Nothing where the model cannot have such views (a pinhole that looks sideways) or fewer than 3 agree.
 [[nodiscard]] std::optional<RobustFit> robust_fit(FitModel model, std::span<const FitView> views, const LensFit& start);
 
-// The views and corners that count.
+// The corners that count, and those of all views that count.
+[[nodiscard]] FitView agreeing(const FitView& view, const std::vector<bool>& corners);
 [[nodiscard]] std::vector<FitView> agreeing(std::span<const FitView> views, const Agreement& agreement);
+
+// The largest angle from the axis at which the fit has a corner.
+[[nodiscard]] double largest_angle_rad(const LensFit& fit, std::span<const FitView> views);
 
 // A lens of another model that is as near to the given one as it can be, up to an angle from the axis.
 [[nodiscard]] Intrinsics converted(const LensFit& from, FitModel to, double largest_angle_rad);

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "base/least_squares.h"
 #include "base/statistics.h"
-#include "ego_motion/sequence.h"
 
 namespace sigs {
 
@@ -97,17 +97,6 @@ double score_of(LensFit& fit, std::span<const FitView> views) {
                              : kNoError);
   }
   return quantile_or_none(std::move(errors_px), kBestShare);
-}
-
-// The largest angle from the axis at which the fit has a corner.
-double largest_angle_rad(const LensFit& fit, std::span<const FitView> views) {
-  double largest = 0;
-  for (std::size_t v = 0; v < views.size(); ++v)
-    for (const glm::dvec3& on_board : views[v].on_board_m) {
-      const glm::dvec3 p = fit.poses[v] * on_board;
-      largest = std::max(largest, std::atan2(glm::length(glm::dvec2(p)), p.z));
-    }
-  return largest;
 }
 
 // The poses of all views for this lens. A view that the lens cannot have keeps its pose.
@@ -204,18 +193,30 @@ std::optional<LensFit> first_fit(std::span<const FitView> views, cv::Size size_p
   return best;
 }
 
+double largest_angle_rad(const LensFit& fit, std::span<const FitView> views) {
+  double largest = 0;
+  for (std::size_t v = 0; v < views.size(); ++v)
+    for (const glm::dvec3& on_board : views[v].on_board_m) {
+      const glm::dvec3 p = fit.poses[v] * on_board;
+      largest = std::max(largest, std::atan2(glm::length(glm::dvec2(p)), p.z));
+    }
+  return largest;
+}
+
+FitView agreeing(const FitView& view, const std::vector<bool>& corners) {
+  FitView kept;
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (!corners[i]) continue;
+    kept.on_board_m.push_back(view.on_board_m[i]);
+    kept.at_px.push_back(view.at_px[i]);
+  }
+  return kept;
+}
+
 std::vector<FitView> agreeing(std::span<const FitView> views, const Agreement& agreement) {
   std::vector<FitView> kept;
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    if (!agreement.view[v]) continue;
-    FitView view;
-    for (std::size_t i = 0; i < views[v].size(); ++i) {
-      if (!agreement.corner[v][i]) continue;
-      view.on_board_m.push_back(views[v].on_board_m[i]);
-      view.at_px.push_back(views[v].at_px[i]);
-    }
-    kept.push_back(std::move(view));
-  }
+  for (std::size_t v = 0; v < views.size(); ++v)
+    if (agreement.view[v]) kept.push_back(agreeing(views[v], agreement.corner[v]));
   return kept;
 }
 

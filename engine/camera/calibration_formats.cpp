@@ -2,13 +2,17 @@
 #include "camera/calibration_formats.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/binary.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <exception>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -31,9 +35,39 @@ Error too_deep(const std::string& file_name) {
 
 // YAML by yaml-cpp.
 
+template <class Number>
+void append_all(const std::vector<unsigned char>& bytes, std::size_t from, Field& field) {
+  for (; from + sizeof(Number) <= bytes.size(); from += sizeof(Number)) {
+    Number number{};
+    std::memcpy(&number, bytes.data() + from, sizeof number);
+    field.numbers.push_back(number);
+  }
+}
+
+// What OpenCV writes as Base64: 24 bytes that state the numbers' type, "1d", then the numbers as they are in memory.
+void append_binary(const YAML::Node& node, Field& field) {
+  constexpr std::size_t kHeader_bytes = 24;
+  std::string text = node.Scalar();
+  std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
+  const std::vector<unsigned char> bytes = YAML::DecodeBase64(text);
+  const std::string header(bytes.begin(),
+                           bytes.begin() + static_cast<std::ptrdiff_t>(std::min(kHeader_bytes, bytes.size())));
+  const std::string_view type = trimmed(header);
+  if (type.ends_with('d'))
+    append_all<double>(bytes, kHeader_bytes, field);
+  else if (type.ends_with('f'))
+    append_all<float>(bytes, kHeader_bytes, field);
+  else if (type.ends_with('i'))
+    append_all<std::int32_t>(bytes, kHeader_bytes, field);
+  else
+    field.not_a_number = "binary data";
+}
+
 void append(const YAML::Node& node, Field& field) {
   double number = 0;
-  if (node.IsScalar() && YAML::convert<double>::decode(node, number)) {
+  if (node.IsScalar() && node.Tag() == "tag:yaml.org,2002:binary") {
+    append_binary(node, field);
+  } else if (node.IsScalar() && YAML::convert<double>::decode(node, number)) {
     field.numbers.push_back(number);
   } else if (node.IsSequence()) {
     for (const YAML::Node& element : node) append(element, field);

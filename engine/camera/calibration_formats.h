@@ -41,7 +41,7 @@ struct Fields : std::map<std::string, Field, std::less<>> {
 //                  models and a second ("digital") lens are errors that name them. Other JSON is read like YAML
 //   anything else  YAML as ROS (camera_info), Python scripts and OpenCV's FileStorage (first line "%YAML:1.0") write it
 // Errors (bad_data) name file_name and, where known, the line or the key. Texts nested deeper than kMaxNesting
-// (base/nesting.h), aliases in YAML and binary data are errors.
+// (base/nesting.h) and aliases in YAML are errors.
 [[nodiscard]] Result<Fields> fields_in(const std::string& text, const std::string& file_name);
 
 // Shortest text that reads back as the number; "nan" whatever the sign.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ego_motion/ego_motion.h"
 #include "ego_motion/settings.h"
 #include "ego_motion/tracks.h"
 

@@ -11,11 +11,11 @@
 #include <thread>
 #include <vector>
 
+#include "base/least_squares.h"
 #include "base/pose.h"
 #include "base/statistics.h"
 #include "base/threads.h"
 #include "ego_motion/rotation_fit.h"
-#include "ego_motion/sequence.h"
 
 namespace sigs {
 

@@ -7,7 +7,6 @@
 #include "base/least_squares.h"
 #include "base/pose.h"
 #include "base/statistics.h"
-#include "ego_motion/sequence.h"
 
 namespace sigs {
 

@@ -9,7 +9,6 @@
 #include "base/least_squares.h"
 #include "base/pose.h"
 #include "ego_motion/rotation_fit.h"
-#include "ego_motion/sequence.h"
 
 namespace sigs {
 

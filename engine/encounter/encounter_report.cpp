@@ -257,19 +257,18 @@ Plot plot_over_time(const EncounterSummary& summary, std::string title, std::vec
 Plot losses_plot(const EncounterSummary& summary) {
   const auto count = static_cast<double>(summary.volumes.size());
   std::vector<PlotSeries> lanes;
-  std::vector<PlotTick> names;
   for (std::size_t i = 0; i < summary.volumes.size(); ++i) {
     const auto lane = static_cast<double>(i);
     PlotSeries& series = lanes.emplace_back();
+    series.title = summary.volumes[i].volume.name;
     series.kind = SeriesKind::areas;
     for (const TimeInterval& loss : summary.volumes[i].losses)
       series.runs.push_back({{loss.begin_s, lane + 0.15}, {loss.end_s, lane + 0.85}});
-    names.push_back({lane + 0.5, summary.volumes[i].volume.name});
   }
   Plot plot = plot_over_time(summary, summary.own_name + " and " + summary.intruder_name + ": well clear lost",
                              std::move(lanes));
   plot.y_range = {count, 0};
-  plot.y_ticks = std::move(names);
+  plot.y_ticks.emplace();  // none
   plot.height = 130 + 22 * count;
   return plot;
 }

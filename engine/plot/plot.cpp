@@ -209,13 +209,28 @@ void draw_key(Canvas& canvas, const cv::Point2d& at, const PlotSeries& series, c
   canvas.text({at.x + kKeySample + 8, at.y}, series.title, TextAnchor::start, kTextSize, false);
 }
 
+// The size in which a text is no wider than this: smaller where it has to be.
+double fitted_size(const std::string& text, double size, double room) {
+  return size * std::clamp(room / std::max(1.0, text_width(text, 1.2 * size)), 0.6, 1.0);
+}
+
+// So small that stated texts stand beside one another.
+double x_text_size(const Layout& layout, const Plot& plot) {
+  if (!plot.x_ticks || plot.x_ticks->empty()) return kTextSize;
+  const double room = layout.frame().width / static_cast<double>(plot.x_ticks->size());
+  double size = kTextSize;
+  for (const PlotTick& tick : *plot.x_ticks) size = std::min(size, fitted_size(tick.text, kTextSize, room));
+  return size;
+}
+
 void draw_axes(Canvas& canvas, const Layout& layout, const Plot& plot) {
+  const double x_size = x_text_size(layout, plot);
   const cv::Rect2d& frame = layout.frame();
   const double right = frame.x + frame.width, bottom = frame.y + frame.height;
   for (const PlotTick& tick : plot.x_ticks ? *plot.x_ticks : ticks_on(layout.x(), frame.width / kTickWidth)) {
     const double x = layout.x().at(tick.at);
     canvas.polyline({{x, frame.y}, {x, bottom}}, {kGridColor, 1});
-    canvas.text({x, bottom + 18}, tick.text, TextAnchor::middle, kTextSize, false);
+    canvas.text({x, bottom + 18}, tick.text, TextAnchor::middle, x_size, false);
   }
   for (const PlotTick& tick : plot.y_ticks ? *plot.y_ticks : ticks_on(layout.y(), frame.height / kTickHeight)) {
     const double y = layout.y().at(tick.at);
@@ -226,7 +241,8 @@ void draw_axes(Canvas& canvas, const Layout& layout, const Plot& plot) {
                   {kFrameColor, 1});
   const double middle = frame.x + frame.width / 2;
   canvas.text({middle, 28}, plot.title, TextAnchor::middle, kTitleSize, false);
-  canvas.text({middle, 28 + kRemark}, plot.remark, TextAnchor::middle, kTextSize, false);
+  canvas.text({middle, 28 + kRemark}, plot.remark, TextAnchor::middle,
+              fitted_size(plot.remark, kTextSize, frame.width + kLeft), false);
   canvas.text({middle, bottom + 40}, plot.x_label, TextAnchor::middle, kTextSize, false);
   canvas.text({20, frame.y + frame.height / 2}, plot.y_label, TextAnchor::middle, kTextSize, true);
 }

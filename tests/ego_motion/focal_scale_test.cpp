@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/pose.h"
+#include "ego_motion/attitudes.h"
 #include "ego_motion/ego_motion.h"
 #include "ego_motion/focal_scale.h"
 #include "ego_motion/rotation_fit.h"

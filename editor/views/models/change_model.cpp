@@ -213,8 +213,7 @@ void ChangeModelDialog::draw(const ViewContext& context) {
     context.ui_probe.note_item("models/problem");
   }
   ImGui::Dummy({0, scaled(6)});
-  const char* const labels[] = {"Cancel", "Use this model"};
-  align_buttons_right(labels, 2);
+  align_buttons_right({"Cancel", "Use this model"});
   if (context.ui_probe.noted(dialog_button("Cancel"), "models/cancel")) closed_ = true;
   ImGui::SameLine();
   const bool is_entered = enter_pressed();

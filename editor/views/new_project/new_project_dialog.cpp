@@ -39,7 +39,7 @@ AskForFile question_for(const char* title, std::string_view field, const std::st
 }  // namespace
 
 NewProjectDialog::NewProjectDialog(ModelGallery& gallery, std::function<void()> wake)
-    : gallery_(gallery), facts_(std::move(wake)) {}
+    : gallery_(gallery), facts_(std::move(wake), video_facts) {}
 
 void NewProjectDialog::open(const fs::path& video, fs::path elsewhere) {
   elsewhere_ = std::move(elsewhere);
@@ -292,8 +292,7 @@ void NewProjectDialog::draw_buttons(const ViewContext& context, NewProjectChoice
   std::error_code code;
   const bool replaces = !asked_about_.empty() && fs::exists(asked_about_, code);
   const char* const go = replaces ? "Replace" : "Create";
-  const char* const labels[] = {"Cancel", go};
-  align_buttons_right(labels, 2);
+  align_buttons_right({"Cancel", go});
   if (context.ui_probe.noted(dialog_button("Cancel"), "new project/cancel")) closed_ = true;
   ImGui::SameLine();
   bool wants = context.ui_probe.noted(dialog_button(go, true), "new project/create");
@@ -302,31 +301,29 @@ void NewProjectDialog::draw_buttons(const ViewContext& context, NewProjectChoice
 }
 
 void NewProjectDialog::draw_progress(const ViewContext& context, const FirstProjectState& state,
-                                     const std::string& step, NewProjectChoice& choice) {
+                                     NewProjectChoice& choice) {
   ImGui::TextUnformatted(elided("Making " + state.request.out.string(), ImGui::GetContentRegionAvail().x).c_str());
   ImGui::Dummy({0, scaled(2)});
   ImGui::ProgressBar(share_done(state.done, state.total), {-1, scaled(10)}, "");
-  const std::string text = state.is_stopping ? "stopping" : step.empty() ? "reading the video" : step;
+  const std::string text = state.is_stopping ? "stopping" : state.step.empty() ? "reading the video" : state.step;
   ImGui::TextDisabled("%s", elided(capitalised(text) + "...", ImGui::GetContentRegionAvail().x).c_str());
   ImGui::Dummy({0, scaled(6)});
-  const char* const labels[] = {"Cancel"};
-  align_buttons_right(labels, 1);
+  align_buttons_right({"Cancel"});
   if (context.ui_probe.noted(dialog_button("Cancel", false, !state.is_stopping), "new project/stop")) closed_ = true;
   choice.cancel = std::exchange(closed_, false);
 }
 
-NewProjectChoice NewProjectDialog::draw(const ViewContext& context, const FirstProjectJob& making) {
+NewProjectChoice NewProjectDialog::draw(const ViewContext& context, const FirstProjectState& making) {
   NewProjectChoice choice;
   closed_ = false;
   if (!begin_dialog("New project###new project", 760, 0, closed_)) {
     open_ = open_ && !closed_;
     return choice;
   }
-  const FirstProjectState state = making.state();
-  if (state.is_running()) {
-    draw_progress(context, state, making.step(), choice);
+  if (making.is_running()) {
+    draw_progress(context, making, choice);
   } else {
-    draw_rows(context, state);
+    draw_rows(context, making);
     draw_buttons(context, choice);
   }
   if (choice.empty) closed_ = true;

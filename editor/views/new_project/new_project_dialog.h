@@ -42,8 +42,8 @@ class NewProjectDialog {
   void take_dropped(const std::filesystem::path& file);
 
   // Once per update while it is open.
-  //   making  makes the project, or has ended with an error
-  [[nodiscard]] NewProjectChoice draw(const ViewContext& context, const FirstProjectJob& making);
+  //   making  the project is being made, or that has ended with an error
+  [[nodiscard]] NewProjectChoice draw(const ViewContext& context, const FirstProjectState& making);
 
  private:
   // Each draws a row of the form.
@@ -60,8 +60,7 @@ class NewProjectDialog {
   void draw_problem(const ViewContext& context, FormRow row) const;
   void draw_rows(const ViewContext& context, const FirstProjectState& making);
   void draw_buttons(const ViewContext& context, NewProjectChoice& choice);
-  void draw_progress(const ViewContext& context, const FirstProjectState& state, const std::string& step,
-                     NewProjectChoice& choice);
+  void draw_progress(const ViewContext& context, const FirstProjectState& state, NewProjectChoice& choice);
   // A line of text with a button that asks for a file; whether the text was changed.
   [[nodiscard]] bool draw_path(const ViewContext& context, const char* name, std::string& text, AskForFile wanted);
   // The form was changed: what was said of it counts no more.
@@ -74,7 +73,7 @@ class NewProjectDialog {
   ModelGallery& gallery_;
   std::filesystem::path elsewhere_;
   NewProjectForm form_;
-  VideoFactsJob facts_;
+  BackgroundJob<std::filesystem::path, VideoFacts> facts_;
   std::optional<FormProblem> problem_;
   std::string note_;  // what went wrong outside of the form's rows; "": nothing
   // The file that the person was asked about whether it may be replaced; "": none.

@@ -52,12 +52,8 @@ void draw_key(ImDrawList& list, const KeyMarks& marks, std::size_t waypoint) {
   const ImU32 fill =
       has_time_of_its_own(plan_of(marks), waypoint) ? (selected ? color::kWaypoint : own) : color::kPanel;
   const ImU32 edge = selected ? color::kAccent : hot ? color::kWaypoint : own;
-  const std::array<ImVec2, 4> corners{ImVec2{center.x, center.y - radius},
-                                      {center.x + radius, center.y},
-                                      {center.x, center.y + radius},
-                                      {center.x - radius, center.y}};
-  list.AddConvexPolyFilled(corners.data(), 4, fill);
-  list.AddPolyline(corners.data(), 4, edge, ImDrawFlags_Closed, scaled(selected ? 2 : 1.4));
+  draw_diamond(list, center, radius, fill);
+  draw_diamond(list, center, radius, edge, scaled(selected ? 2 : 1.4));
 }
 
 void draw_flags(ImDrawList& list, const KeyMarks& marks) {

@@ -44,13 +44,9 @@ void draw_bracket(ImDrawList& list, const TimelineStrip& strip, const EncounterM
   list.AddPolyline(points, 4, color::kText, ImDrawFlags_None, scaled(1.5));
 }
 
-void draw_diamond(ImDrawList& list, ImVec2 center, float side, ImU32 shade) {
-  const auto diamond = [&](float r, ImU32 paint) {
-    list.AddQuadFilled({center.x, center.y - r}, {center.x + r, center.y}, {center.x, center.y + r},
-                       {center.x - r, center.y}, paint);
-  };
-  diamond(side + scaled(1.5), IM_COL32(0, 0, 0, 170));
-  diamond(side, shade);
+void draw_closest_mark(ImDrawList& list, ImVec2 center, float radius) {
+  draw_diamond(list, center, radius + scaled(1.5), IM_COL32(0, 0, 0, 170));
+  draw_diamond(list, center, radius, color::kPartly);
 }
 
 // A line of a tooltip: what is drawn in a square of the font's size, and what it means.
@@ -122,7 +118,7 @@ void draw_clear_strip(ImDrawList& list, const TimelineStrip& strip, const Encoun
   for (const EncounterMark& mark : encounter_marks(survey)) {
     if (!strip.shows(mark.frame)) continue;
     if (mark.kind == EncounterMark::Kind::closest)
-      draw_diamond(list, {strip.moment_x(mark.frame), std::floor(top_y + height / 2)}, scaled(4.5), color::kPartly);
+      draw_closest_mark(list, {strip.moment_x(mark.frame), std::floor(top_y + height / 2)}, scaled(4.5));
     else
       draw_bracket(list, strip, mark, bar_of(mark.volume, count, top_y, height));
   }
@@ -146,7 +142,7 @@ void list_clear_colors() {
   list_color("well clear", faded(color::kGood, 0.35));
   list_color("lost; a bracket at entry and exit", faded(color::kBad, 0.9));
   list_mark("closest approach", [](ImDrawList& list, ImVec2 at, float side) {
-    draw_diamond(list, {at.x + side * 0.4F, at.y + side * 0.55F}, scaled(4), color::kPartly);
+    draw_closest_mark(list, {at.x + side * 0.4F, at.y + side * 0.55F}, scaled(4));
   });
   ImGui::TextDisabled("A click on a mark goes to its frame.");
 }

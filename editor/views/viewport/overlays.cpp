@@ -60,21 +60,6 @@ void draw_box(const ImageCanvas& canvas, const ViewContext& context, const Intru
   draw_label(canvas, labels, places, text, selected ? color::kAccent : color::kBox, true);
 }
 
-void draw_diamond(ImDrawList& draw, const glm::dvec2& at, double radius, ImU32 fill, ImU32 rim) {
-  const glm::dvec2 across(radius, 0);
-  const glm::dvec2 down(0, radius);
-  draw.AddQuadFilled(im(at - down), im(at + across), im(at + down), im(at - across), fill);
-  draw.AddQuad(im(at - down), im(at + across), im(at + down), im(at - across), rim, scaled(1.2));
-}
-
-// Where the intruder itself is seen: its middle stays free.
-void draw_open_diamond(ImDrawList& draw, const glm::dvec2& at, double radius, ImU32 color) {
-  const glm::dvec2 across(radius, 0);
-  const glm::dvec2 down(0, radius);
-  draw.AddQuad(im(at - down), im(at + across), im(at + down), im(at - across), IM_COL32(12, 13, 16, 200), scaled(3.4));
-  draw.AddQuad(im(at - down), im(at + across), im(at + down), im(at - across), color, scaled(1.6));
-}
-
 struct MarkStyle {
   double around_px = 0;  // half of the diagonals of a diamond about what is seen there
   bool selected = false;
@@ -83,14 +68,17 @@ struct MarkStyle {
 };
 
 void draw_mark(const ImageCanvas& canvas, const WaypointMark& mark, const MarkStyle& style) {
-  const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
-  const double radius = scaled(style.worked_on ? kMark_px : 4);
+  const ImVec2 at = im(canvas.view.screen_of(mark.pixel));
+  const float radius = scaled(style.worked_on ? kMark_px : 4);
   const ImU32 own = intruder_color(mark.intruder);
   const ImU32 fill = style.selected ? color::kAccent : style.worked_on ? color::kWaypoint : faded(own, 0.7);
-  if (style.here)
-    draw_open_diamond(canvas.draw, at, std::max<double>(radius + scaled(4), style.around_px), fill);
-  else
-    draw_diamond(canvas.draw, at, radius, fill, style.worked_on ? IM_COL32(20, 22, 26, 255) : faded(own, 0.9));
+  if (style.here) {  // where the intruder itself is seen: its middle stays free
+    const float around = std::max(radius + scaled(4), static_cast<float>(style.around_px));
+    draw_diamond(canvas.draw, at, around, IM_COL32(12, 13, 16, 200), scaled(3.4));
+    return draw_diamond(canvas.draw, at, around, fill, scaled(1.6));
+  }
+  draw_diamond(canvas.draw, at, radius, fill);
+  draw_diamond(canvas.draw, at, radius, style.worked_on ? IM_COL32(20, 22, 26, 255) : faded(own, 0.9), scaled(1.2));
 }
 
 void draw_frame(const ImageCanvas& canvas, const glm::dvec2& at, double frame, const MarkStyle& style,

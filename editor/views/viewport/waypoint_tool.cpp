@@ -18,14 +18,6 @@ constexpr double kReach_px = 9;    // of a waypoint, where text is 15 px high
 constexpr double kMinBox_px = 16;  // a distant intruder is larger for the mouse than for the eye
 constexpr double kNewWaypointDistance_m = 300;
 
-std::optional<glm::dvec3> waypoint_position(const ViewContext& context, int intruder, int waypoint) {
-  const std::vector<IntruderSettings>& intruders = context.project().intruders;
-  if (intruder < 0 || static_cast<std::size_t>(intruder) >= intruders.size()) return std::nullopt;
-  const std::vector<WaypointSettings>& waypoints = intruders[static_cast<std::size_t>(intruder)].trajectory.waypoints;
-  if (waypoint < 0 || static_cast<std::size_t>(waypoint) >= waypoints.size()) return std::nullopt;
-  return waypoints[static_cast<std::size_t>(waypoint)].position_m;
-}
-
 // The first change of a drag that makes a waypoint; the moves that follow join it by the gesture.
 int put_in_gesture(const ViewContext& context, int intruder, int frame, const glm::dvec3& position_m,
                    const std::string& gesture) {
@@ -152,7 +144,7 @@ bool WaypointTool::press(const ToolContext& tool) {
 
 bool WaypointTool::is_still_there(const ViewContext& context) const {
   if (taken_->gesture.is_lost(context)) return false;
-  if (taken_->waypoint >= 0) return waypoint_position(context, taken_->intruder, taken_->waypoint).has_value();
+  if (taken_->waypoint >= 0) return waypoint_of(context.project(), taken_->intruder, taken_->waypoint) != nullptr;
   return static_cast<std::size_t>(taken_->intruder) < context.project().intruders.size();
 }
 
@@ -168,8 +160,12 @@ bool WaypointTool::begin(const ToolContext& tool) {
   if (!taken.gesture.has_left_press(tool.mouse)) return false;
   if (tool.context.playing) tool.context.edits.ask(Play{0});
   const bool makes_one = taken.waypoint < 0;
-  const std::optional<glm::dvec3> start_m = makes_one ? position_of(tool.context, taken.intruder, tool.eye.frame)
-                                                      : waypoint_position(tool.context, taken.intruder, taken.waypoint);
+  const WaypointSettings* const waypoint = waypoint_of(tool.context.project(), taken.intruder, taken.waypoint);
+  std::optional<glm::dvec3> start_m;
+  if (makes_one)
+    start_m = position_of(tool.context, taken.intruder, tool.eye.frame);
+  else if (waypoint != nullptr)
+    start_m = waypoint->position_m;
   if (!start_m) return false;
   if (!makes_one && !is_under_press(tool, *start_m)) return false;
   taken.gesture.name = fmt::format("over the footage {}", ++gestures_);

@@ -27,15 +27,6 @@ PlaneDrag plane_through(const PresentApproach& present, const glm::dvec2& mouse)
   return {.start_m = present.intruder.position_m, .axes = {glm::normalize(right), kUp}, .start_mouse = mouse};
 }
 
-void draw_diamond(WorldCanvas& canvas, const glm::dvec2& at, float radius, ImU32 shade) {
-  const auto diamond = [&](float r, ImU32 paint) {
-    const ImVec2 c = im(at);
-    canvas.list().AddQuadFilled({c.x, c.y - r}, {c.x + r, c.y}, {c.x, c.y + r}, {c.x - r, c.y}, paint);
-  };
-  diamond(radius + scaled(2), IM_COL32(0, 0, 0, 170));
-  diamond(radius, shade);
-}
-
 // From the camera sideways, then up or down to the intruder, with both lengths.
 void draw_misses(WorldCanvas& canvas, const PresentApproach& shown, ImU32 shade) {
   const glm::dvec3& own_m = shown.own.position_m;
@@ -130,7 +121,8 @@ void ApproachHandle::draw(WorldCanvas& canvas, const WorldContext& world) {
   const std::optional<glm::dvec2> at = canvas.in_sight(now->intruder.position_m, 8);
   if (!at) return;
   const float radius = scaled(is_hot ? 7 : 5.5);
-  draw_diamond(canvas, *at, radius, is_hot ? color::kAccent : color::kPartly);
+  draw_diamond(canvas.list(), im(*at), radius + scaled(2), IM_COL32(0, 0, 0, 170));
+  draw_diamond(canvas.list(), im(*at), radius, is_hot ? color::kAccent : color::kPartly);
   world.context.ui_probe.note("world/closest approach", {*at - glm::dvec2(radius), *at + glm::dvec2(radius)});
   if (is_hot && !is_dragging())
     canvas.label_beside(*at, scaled(10), fmt::format("closest approach, frame {:.1f}", now->frame), color::kAccent);

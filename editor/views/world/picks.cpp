@@ -97,14 +97,6 @@ std::string waypoint_title(const ViewContext& context, const Selection& what) {
   return fmt::format("Waypoint at frame {}", frame);
 }
 
-const WaypointSettings* waypoint_of(const Project& project, const Selection& what) {
-  const auto intruder = static_cast<std::size_t>(what.intruder);
-  const auto waypoint = static_cast<std::size_t>(what.waypoint);
-  if (what.kind != Selected::waypoint || intruder >= project.intruders.size()) return nullptr;
-  const auto& waypoints = project.intruders[intruder].trajectory.waypoints;
-  return waypoint < waypoints.size() ? &waypoints[waypoint] : nullptr;
-}
-
 }  // namespace
 
 WorldPick pick_at(const WorldCanvas& canvas, const WorldContext& world, const glm::dvec2& mouse) {
@@ -125,7 +117,8 @@ std::optional<Movable> movable(const WorldContext& world, const Selection& what)
     return Movable{what, "Light", project.light.position_m};
   if (what.kind == Selected::camera && glm::any(movable_axes(world.context)))
     return Movable{what, "Camera", world.moment.world_from_camera.translation_m};
-  if (const WaypointSettings* waypoint = waypoint_of(project, what))
+  if (what.kind != Selected::waypoint) return std::nullopt;
+  if (const WaypointSettings* waypoint = waypoint_of(project, what.intruder, what.waypoint))
     return Movable{what, waypoint_title(world.context, what), waypoint->position_m};
   return std::nullopt;
 }

@@ -25,10 +25,10 @@ TEST_CASE("a project is made in the background: its step is told, its options ar
                         made.project.file = options.out;
                         return Result<FirstProject>(made);
                       });
-  CHECK(job.step().empty());
+  CHECK(job.state().step.empty());
   REQUIRE(job.start({.video = "flight.mp4", .out = "/a/flight.json"}));
-  REQUIRE(comes_true([&] { return !job.step().empty(); }));
-  CHECK(job.step() == "looking for the horizon");
+  REQUIRE(comes_true([&] { return !job.state().step.empty(); }));
+  CHECK(job.state().step == "looking for the horizon");
   CHECK(comes_true([&] { return job.state().done == 2 && job.state().total == 5; }));
   go_on = true;
   REQUIRE(comes_true([&] { return !job.is_running(); }));
