@@ -21,8 +21,8 @@
 #include "cli/evaluation_folder.h"
 #include "cli/process.h"
 #include "cli/progress.h"
-#include "evaluation/reports/report.h"
 #include "evaluation/readers/sequence_truth.h"
+#include "evaluation/reports/report.h"
 
 namespace sigs::cli {
 

@@ -17,8 +17,8 @@
 #include "base/text.h"
 #include "cli/process.h"
 #include "cli/progress.h"
-#include "evaluation/readers/clip_truth.h"
 #include "evaluation/opencv_tracker.h"
+#include "evaluation/readers/clip_truth.h"
 #include "evaluation/readers/sequence_truth.h"
 #include "export/frame_stream.h"
 

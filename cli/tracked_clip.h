@@ -10,9 +10,9 @@
 #include "base/result.h"
 #include "cli/labelled_images.h"
 #include "cli/options.h"
+#include "evaluation/metrics/track_score.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/readers/results.h"
-#include "evaluation/metrics/track_score.h"
 
 namespace sigs::cli {
 

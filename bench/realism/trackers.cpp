@@ -13,8 +13,8 @@
 
 #include "base/statistics.h"
 #include "base/threads.h"
-#include "evaluation/opencv_tracker.h"
 #include "evaluation/metrics/overlap.h"
+#include "evaluation/opencv_tracker.h"
 #include "realism/tracker_targets.h"
 
 namespace sigs::bench {

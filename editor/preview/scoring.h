@@ -15,9 +15,9 @@
 #include "editor/document/content_id.h"
 #include "editor/preview/preview_output.h"
 #include "editor/preview/worker_thread.h"
+#include "evaluation/metrics/track_score.h"
 #include "evaluation/readers/clip_truth.h"
 #include "evaluation/readers/results.h"
-#include "evaluation/metrics/track_score.h"
 #include "export/frame_stream.h"
 
 namespace sigs::editor {

@@ -40,7 +40,8 @@ Plot plot_of(const Panel& panel) {
   if (!panel.remark.empty()) plot.x_label += (plot.x_label.empty() ? "" : "; ") + panel.remark;
   PlotSpan x{INFINITY, -INFINITY}, y = x;
   for (const PanelSeries& series : panel.series) {
-    PlotSeries drawn{.title = series.label, .runs = {{}}, .kind = series.is_points ? SeriesKind::marks : SeriesKind::line};
+    PlotSeries drawn{
+        .title = series.label, .runs = {{}}, .kind = series.is_points ? SeriesKind::marks : SeriesKind::line};
     for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
       if (!(std::abs(series.x[i]) < kMost && std::abs(series.y[i]) < kMost)) continue;
       drawn.runs.front().push_back({series.x[i], series.y[i]});

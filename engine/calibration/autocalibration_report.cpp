@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/json.h"
 #include "base/pose.h"
 #include "plot/plot.h"
-#include "base/json.h"
 
 namespace sigs {
 

@@ -78,9 +78,9 @@ struct BoardCalibration {
 // The chosen lens with its errors and standard deviations.
 [[nodiscard]] CalibrationText calibration_text_of(const BoardCalibration& calibration, const CalibrationBoard& board);
 
-// Two panels and two diagrams below them, BGR, 8 bits: the residuals of the chosen model as arrows where they are in the image, means of cells;
-// how many corners were seen in each cell of the image; the residuals by their distance from the principal point, for
-// each model; the error of each view, used and not used.
+// Two panels and two diagrams below them, BGR, 8 bits: the residuals of the chosen model as arrows where they are in
+// the image, means of cells; how many corners were seen in each cell of the image; the residuals by their distance from
+// the principal point, for each model; the error of each view, used and not used.
 [[nodiscard]] cv::Mat board_plot(const BoardCalibration& calibration);
 
 }  // namespace sigs

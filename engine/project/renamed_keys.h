@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/result.h"
 #include "base/json.h"
+#include "base/result.h"
 
 namespace sigs {
 
@@ -23,8 +23,8 @@ struct RenamedKey {
 // The name that a key has today: its new one where it was renamed, else itself.
 [[nodiscard]] std::string current_key(const std::string& key);
 
-// Moves the values that stand under old names in a part of a project file to today's names, and gives back a warning for
-// each. Where both stand there, today's counts and the old one stays as it is.
+// Moves the values that stand under old names in a part of a project file to today's names, and gives back a warning
+// for each. Where both stand there, today's counts and the old one stays as it is.
 //   section  the part's key in the project, "appearance"; empty: the whole project
 //   where    what warnings put before the key, "p.json: "
 std::vector<Warning> rename_old_keys(Json& json, std::string_view section, const std::string& where);

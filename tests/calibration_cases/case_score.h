@@ -26,7 +26,8 @@ struct LensError {
                                         const std::vector<BoardView>& views);
 
 // Where half the views of a case are bad, makes the corners of every fourth that is left wrong: a fifth of them
-// anywhere within 12 px; all of them shifted along a curve by some 6 px, as on a board that is not flat; or one row taken for the next.
+// anywhere within 12 px; all of them shifted along a curve by some 6 px, as on a board that is not flat; or one row
+// taken for the next.
 void spoil(std::vector<BoardView>& views, const made::BoardCase& one, std::uint32_t seed);
 
 }  // namespace sigs::test

@@ -30,7 +30,7 @@ RayFlight turning_at_one_place() {
 }
 
 // A camera that is shaken for 16 s at 25 frames a second: how it turns up to a time, radians.
-glm::dvec3 angle_at(double t) {
+glm::dvec3 shaken_angle_at(double t) {
   return {0.02 * std::sin(5.3 * t) + 0.01 * std::sin(1.1 * t), 0.03 * std::sin(2.9 * t + 1) + 0.004 * std::sin(19 * t),
           0.06 * std::sin(0.8 * t) + 0.01 * std::sin(7.7 * t + 2)};
 }
@@ -53,13 +53,13 @@ GyroCase gyro_case(const Seen& seen, double size = 1) {
   std::vector<SeenTurn> turns;
   for (int k = 0; k < 400; ++k) {
     const double from_s = k * kFrame_s, to_s = from_s + kFrame_s;
-    turns.push_back({from_s, to_s, seen(size * (angle_at(to_s) - angle_at(from_s))) + noisy(2e-4)});
+    turns.push_back({from_s, to_s, seen(size * (shaken_angle_at(to_s) - shaken_angle_at(from_s))) + noisy(2e-4)});
   }
   Channel<glm::dvec3> log;
   for (double t = -1; t < 17; t += kSample_s) {
     log.times_s.push_back(t);
-    log.values.push_back(size * (angle_at(t + 1e-4) - angle_at(t - 1e-4)) / 2e-4 + glm::dvec3(0.01, -0.02, 0.015) +
-                         noisy(0.005));
+    log.values.push_back(size * (shaken_angle_at(t + 1e-4) - shaken_angle_at(t - 1e-4)) / 2e-4 +
+                         glm::dvec3(0.01, -0.02, 0.015) + noisy(0.005));
   }
   return {std::move(turns), RateIntegral(log)};
 }

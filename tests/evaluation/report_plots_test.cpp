@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "plot/plot.h"
 
 #include <doctest/doctest.h>
 
@@ -8,10 +7,11 @@
 #include <string>
 
 #include "base/text.h"
-#include "evaluation/reports/report_files.h"
 #include "evaluation/readers/results.h"
+#include "evaluation/reports/report_files.h"
 #include "evaluation/synthetic_report.h"
 #include "labels/label_text.h"
+#include "plot/axis.h"
 
 namespace sigs::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "evaluation/readers/results.h"
 #include "evaluation/metrics/track_score.h"
+#include "evaluation/readers/results.h"
 #include "support/test_data.h"
 
 namespace sigs::test {

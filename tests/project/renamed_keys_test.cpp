@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "project/renamed_keys.h"
 
-#include <algorithm>
 #include <doctest/doctest.h>
+#include <algorithm>
 
 #include "project/fields.h"
 #include "project/json.h"

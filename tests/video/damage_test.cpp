@@ -187,7 +187,8 @@ TEST_CASE("an MP4 cut short before its index is refused with this reason") {
 TEST_CASE("a file that is not a video is refused with a reason") {
   const TemporaryFolder folder;
   CHECK(error_of(folder / "absent.mp4", ErrorKind::cannot_read) == "no such file");
-  CHECK(error_of(folder.path(), ErrorKind::cannot_read) == "is a folder without images (PNG, TIFF or JPEG), not a video");
+  CHECK(error_of(folder.path(), ErrorKind::cannot_read) ==
+        "is a folder without images (PNG, TIFF or JPEG), not a video");
   write_bytes(folder / "empty.mp4", {});
   CHECK(error_of(folder / "empty.mp4", ErrorKind::cannot_read) == "is empty");
   const std::string text = "This is no video.\nNot at all.\n";

@@ -275,8 +275,7 @@ TEST_CASE("files of times that do not fit are refused with file and line") {
         std::pair{"# [ns]\n-9223372036854775808\n1\n9223372036854775807\n", "line"},
         // From one to the next fits into 64 bits, from the first to the last does not.
         std::pair{"# [ns]\n-9223372036854551616\n1\n922337203685477807\n", "line 4"},
-        std::pair{"-1e308\n0\n1e308\n", "line 3"},
-        std::pair{"# [ns]\n0.5\n1\n2\n", "nanoseconds"}}) {
+        std::pair{"-1e308\n0\n1e308\n", "line 3"}, std::pair{"# [ns]\n0.5\n1\n2\n", "nanoseconds"}}) {
     const std::string text = times;
     CAPTURE(text);
     write_file(folder / "times.txt", text);

@@ -68,7 +68,7 @@ float y_of(const LaneParts& parts, const LaneScale& scale, double error_px) {
 
 void draw_curve(ImDrawList& list, const LaneParts& parts, const ErrorCurves& all, const ErrorCurve& curve) {
   draw_polylines(list, curve_of(curve.errors_px, all.first_frame, parts.strip.ruler, all.scale, parts.curves),
-             result_color(curve.color));
+                 result_color(curve.color));
 }
 
 // Of one tracker, from y down. Nothing reported: a thin line; lost: the whole height.

@@ -78,8 +78,9 @@ void draw_curve(ImDrawList& list, const LaneMarks& marks) {
   if (style.reference && *style.reference > scale.low && *style.reference < scale.high) {
     draw_level(list, marks.strip, y_of(marks, *style.reference), faded(color::kFaint, 0.12));
   }
-  draw_polylines(list, curve_of(marks.values.values, marks.survey->first_frame, marks.strip.ruler, scale, box_of(marks)),
-             style.color);
+  draw_polylines(list,
+                 curve_of(marks.values.values, marks.survey->first_frame, marks.strip.ruler, scale, box_of(marks)),
+                 style.color);
 }
 
 void draw_flags(ImDrawList& list, const LaneMarks& marks) {
