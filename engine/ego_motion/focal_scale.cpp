@@ -145,14 +145,15 @@ constexpr double kMinGyroCorrelation = 0.9;  // of seen and recorded turns; less
 constexpr double kMaxSlopeSd = 0.15;         // of the factor: a field of view that is guessed is off by more
 constexpr double kMaxDisagreement = 0.05;    // of factors that ought to be equal, beside three standard deviations
 constexpr double kUnknownSlopeSd = 0.15;     // of turns about the line of sight, which say nothing beyond it
+constexpr double kMinRollShare = 0.05;       // of the squares of those across it
 
 struct TurnPair {
   glm::dvec3 recorded, seen;  // camera axes
 };
 
-// Seen turns over recorded ones.
+// Seen turns over recorded ones, and the recorded ones' sum of squares.
 struct Slope {
-  double value = 0, sd = 0;
+  double value = 0, sd = 0, recorded = 0;
 };
 
 // Sums over a part of the footage.
@@ -181,7 +182,7 @@ Slope slope_of(std::span<const TurnPair> pairs, std::initializer_list<int> axes,
     const SlopeSums rest{.recorded = all.recorded - part.recorded, .both = all.both - part.both};
     squares += std::pow(rest.slope() - all.slope(), 2);
   }
-  return {all.slope(), std::sqrt(squares * (kSlopeParts - 1) / kSlopeParts)};
+  return {all.slope(), std::sqrt(squares * (kSlopeParts - 1) / kSlopeParts), all.recorded};
 }
 
 bool agree(const Slope& a, const Slope& b) {
@@ -226,7 +227,9 @@ std::optional<FocalScale> focal_scale_by_gyro(std::span<const SeenTurn> turns, c
   const Slope fast = slope_of(pairs, {1, 2}, [&](const TurnPair& pair) { return across(pair) > limit; });
   const Slope slow = slope_of(pairs, {1, 2}, [&](const TurnPair& pair) { return across(pair) <= limit; });
   const Slope roll = slope_of(pairs, {0}, [](const TurnPair&) { return true; });
-  if (!agree(fast, slow) || (roll.sd < kUnknownSlopeSd && !agree(roll, {1, 0}))) return std::nullopt;
+  // A gimbal leaves little of the turns about the line of sight but the gyroscope's noise.
+  const bool rolls = roll.recorded > kMinRollShare * found.recorded && roll.sd < kUnknownSlopeSd;
+  if (!agree(fast, slow) || (rolls && !agree(roll, {1, 0, 0}))) return std::nullopt;
   const double margin = 2 * std::hypot(found.sd, 0.01 * found.value);
   return FocalScale{.value = found.value, .least = found.value - margin, .largest = found.value + margin};
 }
