@@ -15,6 +15,7 @@
 #include "project/fields.h"
 #include "project/json_reading.h"
 #include "project/project.h"
+#include "project/renamed_keys.h"
 #include "project/validate.h"
 
 namespace sigs {
@@ -37,13 +38,6 @@ void make_paths_absolute(Project& project) {
       **text = (folder / **text).lexically_normal().string();
 }
 
-// "attitude_deg.roll" -> /attitude_deg/roll
-Json::json_pointer pointer_of(const std::string& key) {
-  std::string pointer = "/" + key;
-  std::replace(pointer.begin(), pointer.end(), '.', '/');
-  return Json::json_pointer(pointer);
-}
-
 // Of the keys that remain once all fields are removed.
 void warn_of_unknown_keys(const Json& rest, const std::string& key, RecipeLog& log) {
   for (const auto& [name, item] : rest.items())
@@ -63,8 +57,9 @@ void check_groups(const Json& section, const std::string& rest_of_key, const std
   }
 }
 
-void put_section(const Json& section, const std::string& project_key, const std::string& key, Project& project,
+void put_section(Json section, const std::string& project_key, const std::string& key, Project& project,
                  RecipeLog& log) {
+  for (const Warning& old : rename_old_keys(section, project_key, key + ".")) log.warn(old.where, old.what);
   Json rest = section;
   for (const Field& field : fields_of(project)) {
     if (!field.key.starts_with(project_key + ".")) continue;

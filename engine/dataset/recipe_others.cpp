@@ -11,6 +11,7 @@
 #include "dataset/recipe.h"
 #include "dataset/recipe_reading.h"
 #include "project/fields.h"
+#include "project/renamed_keys.h"
 
 namespace sigs {
 
@@ -25,7 +26,20 @@ bool is_one_number(const Field& field) {
 
 bool is_given_beside(const std::vector<std::string>& settings, const std::string& key) {
   return std::any_of(settings.begin(), settings.end(),
-                     [&](const std::string& setting) { return setting.starts_with(key + "="); });
+                     [&](const std::string& setting) { return current_key(setting.substr(0, setting.find('='))) == key; });
+}
+
+// The numbers of "appearance" under the names that settings have today.
+Json with_current_keys(const Json& json, RecipeNode& group) {
+  if (!json.is_object()) return json;
+  Json renamed = Json::object();
+  for (const auto& [key, value] : json.items()) {
+    const std::string today = current_key(kAppearancePrefix + key).substr(std::string_view(kAppearancePrefix).size());
+    if (today != key)
+      group.log().warn(group.key_of("appearance") + "." + key, "is called " + today + " today; read as that");
+    renamed[today] = value;
+  }
+  return renamed;
 }
 
 void read_appearance_number(const Json& json, const std::string& where, const Field& field, RecipeLog& log,
@@ -60,7 +74,8 @@ std::map<std::string, Quantity> read_appearance(RecipeNode& group, const std::ve
   std::map<std::string, Quantity> numbers;
   const Json* const json = group.value("appearance");
   if (json == nullptr) return numbers;
-  RecipeNode node(*json, group.key_of("appearance"), group.log());
+  const Json renamed = with_current_keys(*json, group);
+  RecipeNode node(renamed, group.key_of("appearance"), group.log());
   Project project;
   for (const Field& field : fields_of(project)) {
     if (!field.key.starts_with(kAppearancePrefix) || !is_one_number(field)) continue;

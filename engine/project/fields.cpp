@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "project/json_reading.h"
 #include "project/places.h"
+#include "project/renamed_keys.h"
 
 namespace sigs {
 
@@ -342,7 +343,7 @@ Result<void> set_field(Project& project, const std::string& assignment) {
   const std::string where = "--set " + assignment;
   if (equals == std::string::npos || equals == 0)
     return fail(where, "expected key=value, as in camera.speed_mps=30", ErrorKind::usage);
-  const std::string key = assignment.substr(0, equals);
+  const std::string key = current_key(assignment.substr(0, equals));
   const std::string text = assignment.substr(equals + 1);
   const std::vector<Field> fields = fields_of(project);
   const auto field = std::find_if(fields.begin(), fields.end(), [&key](const Field& f) { return f.key == key; });

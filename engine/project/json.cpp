@@ -13,22 +13,11 @@
 #include "project/fields.h"
 #include "project/json_reading.h"
 #include "project/places.h"
+#include "project/renamed_keys.h"
 
 namespace sigs {
 
 namespace {
-
-// "intruders[0].model.file" -> /intruders/0/model/file
-Json::json_pointer pointer_of(const std::string& key) {
-  std::string pointer = "/";
-  for (const char c : key) {
-    if (c == '.' || c == '[')
-      pointer += '/';
-    else if (c != ']')
-      pointer += c;
-  }
-  return Json::json_pointer(pointer);
-}
 
 // The list under a key, empty where the key is absent. Any other value is an error.
 Result<std::size_t> list_size(const Json& json, const char* pointer, const std::string& where) {
@@ -238,12 +227,13 @@ Result<void> check_sections(const Json& json, const std::string& file, Project& 
 
 Result<ReadProject> parse_project(const std::string& text, const std::filesystem::path& path) {
   const std::string file = path.string();
-  const Result<Json> json = parsed_json(text, file, ErrorKind::bad_project);
+  Result<Json> json = parsed_json(text, file, ErrorKind::bad_project);
   if (!json) return fail(json.error());
   ReadProject read;
   read.project.file = path;
-  Json rest = *json;
   Result<void> step = check_version(*json, file);
+  if (step) read.warnings = rename_old_keys(*json, "", file + ": ");
+  Json rest = *json;
   if (step) step = make_room_for_lists(*json, file, read.project);
   if (step) step = check_sections(*json, file, read.project);
   if (step) step = put_fields(*json, file, read.project, rest);

@@ -109,6 +109,19 @@ Json json_of_value(const std::optional<T>* value) {
 
 }  // namespace
 
+Json::json_pointer pointer_of(std::string_view key) {
+  std::string pointer = "/";
+  for (const char c : key) {
+    if (c == '.' || c == '[')
+      pointer += '/';
+    else if (c == '~')
+      pointer += "~0";
+    else if (c != ']')
+      pointer += c;
+  }
+  return Json::json_pointer(pointer);
+}
+
 std::string put_json(const Json& json, const Field& field) {
   return std::visit([&json](const auto& value) { return put(json, value); }, field.value);
 }

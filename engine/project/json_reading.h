@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "base/nesting.h"
 #include "base/result.h"
@@ -28,6 +29,9 @@ void append_members(Json& object, Json more);
 
 // A value for a message: in one line, shortened where it is longer than some 40 bytes.
 [[nodiscard]] std::string shown(const Json& json);
+
+// Where a key stands in a project file: "intruders[0].model.scale" -> /intruders/0/model/scale.
+[[nodiscard]] Json::json_pointer pointer_of(std::string_view key);
 
 // Sets a field to a JSON value. Returns what is wrong ("expected a number, found \"fast\""); empty where nothing is.
 // Does not check ranges; validate() does.

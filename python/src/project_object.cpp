@@ -13,6 +13,7 @@
 #include "project/json.h"
 #include "project/json_reading.h"
 #include "project/places.h"
+#include "project/renamed_keys.h"
 #include "project/validate.h"
 
 namespace sigs::python {
@@ -50,7 +51,7 @@ py::object dict_of(const Field& field) {
 std::string ProjectObject::value(const std::string& key) const {
   Project copy = project_;
   const std::vector<Field> fields = fields_of(copy);
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.key == key; });
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.key == current_key(key); });
   if (found == fields.end()) throw Raised(no_such_key(fields, key));
   return json_of(*found).dump();
 }
@@ -65,7 +66,7 @@ py::list ProjectObject::fields() const {
 void ProjectObject::assign(const std::string& key, const std::string& json) {
   Project changed = project_;
   const std::vector<Field> fields = fields_of(changed);
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.key == key; });
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.key == current_key(key); });
   if (found == fields.end()) throw Raised(no_such_key(fields, key));
   const Json value = value_or_raise(parsed_json(json, key, ErrorKind::usage));
   if (std::string wrong = put_json(value, *found); !wrong.empty())
