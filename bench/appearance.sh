@@ -95,7 +95,7 @@ for strength in 5 9; do
     noisy $strength $width "$folder/noisy.mkv"
     for every in 60 15 3; do
       "$sigs" appearance "$folder/noisy.mkv" --every $every --json >"$found"
-      rest=$(values - "noise's spread" "noise's persistence")
+      rest=$(values - "noise's spread" "noise's temporal correlation")
       echo "| $truth | $width | $(values $truth "noise at black" "noise at white") | ${rest#* | } |"
     done
   done

@@ -61,7 +61,7 @@ VirtualCamera view_of(double size_px, double supersampling) {
 
 struct Cost {
   double median_ms;
-  double least_ms;
+  double min_ms;
   double processor_ms;  // of all threads
   double triangles;
   double draw_calls;
@@ -100,16 +100,16 @@ int measure(const std::vector<Named>& models, const Options& options) {
     std::fprintf(stderr, "error: %s\n", renderer.error().text().c_str());
     return 69;
   }
-  std::printf(options.as_csv ? "model,faces,size_px,median_ms,least_ms,processor_ms,triangles,draw_calls\n"
+  std::printf(options.as_csv ? "model,faces,size_px,median_ms,min_ms,processor_ms,triangles,draw_calls\n"
                              : "%-24s %8s %8s %10s %10s %13s %10s %6s\n",
-              "model", "faces", "size_px", "median_ms", "least_ms", "processor_ms", "triangles", "calls");
+              "model", "faces", "size_px", "median_ms", "min_ms", "processor_ms", "triangles", "calls");
   for (const Named& model : models)
     for (const double size_px : options.sizes_px) {
       const std::optional<Cost> cost = cost_of(*renderer, model.mesh, size_px, options);
       if (!cost) return 69;
       std::printf(options.as_csv ? "%s,%zu,%g,%.3f,%.3f,%.3f,%.0f,%.0f\n"
                                  : "%-24s %8zu %8g %10.2f %10.2f %13.2f %10.0f %6.0f\n",
-                  model.name.c_str(), model.mesh.indices.size() / 3, size_px, cost->median_ms, cost->least_ms,
+                  model.name.c_str(), model.mesh.indices.size() / 3, size_px, cost->median_ms, cost->min_ms,
                   cost->processor_ms, cost->triangles, cost->draw_calls);
       std::fflush(stdout);
     }

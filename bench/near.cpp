@@ -52,11 +52,11 @@ const std::vector<std::pair<std::string, Settings>> kLights{
 
 // The footage's look, as footage has it.
 const std::vector<std::pair<std::string, Settings>> kLooks{
-    {"plain", {"compositing.blur_px_per_m=0", "appearance.point_spread_px=0"}},
+    {"plain", {"compositing.blur_px_per_m=0", "appearance.psf_sigma_px=0"}},
     {"look",
      {"camera.exposure_s=0.01", "camera.readout_s=0.02", "appearance.haze.visibility_m=8000",
-      "appearance.point_spread_px=0.45", "appearance.sharpening=1", "appearance.black=0.02",
-      "appearance.chroma_spread_px=1.2", "appearance.grain.sd_dark=2", "appearance.grain.sd_bright=3"}}};
+      "appearance.psf_sigma_px=0.45", "appearance.sharpening=1", "appearance.black=0.02",
+      "appearance.chroma_blur_px=1.2", "appearance.grain.sd_dark=2", "appearance.grain.sd_bright=3"}}};
 
 template <class T>
 T must(Result<T> result) {

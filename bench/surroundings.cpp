@@ -85,7 +85,7 @@ Errors sun_errors(cv::Size size_px, int frames) {
       const auto found =
           found_in(posts, size_px, {.roll_rad = -0.08, .pitch_rad = -0.6, .yaw_rad = 1.1}, frames, 60, errors.seconds);
       ++errors.runs;
-      if (found.sun.witness != SunWitness::shadows) continue;
+      if (found.sun.evidence != SunEvidence::shadows) continue;
       const double off_rad = std::remainder(found.sun.azimuth_rad.value - posts.azimuth_rad, 2 * std::numbers::pi);
       errors.add(deg_of_rad(std::abs(off_rad)));
     }

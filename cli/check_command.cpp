@@ -15,7 +15,7 @@
 #include "ego_motion/project_motion.h"
 #include "export/export_project.h"
 #include "project/validate.h"
-#include "scene/likely_mistakes.h"
+#include "scene/lint.h"
 #include "scene/opened_project.h"
 #include "scene/plausibility.h"
 #include "scene/scene.h"

@@ -36,7 +36,7 @@ constexpr const char* kCompareFooter =
     "    --calibration pinhole.yml --out beside.png --csv beside.csv";
 
 constexpr int kEnlarged = 8;
-constexpr int kMostPiece_px = 1600;  // of an enlarged target; larger ones are enlarged less
+constexpr int kMaxPiece_px = 1600;  // of an enlarged target; larger ones are enlarged less
 
 struct CompareOptions {
   fs::path video;
@@ -185,7 +185,7 @@ cv::Mat image_of(const std::vector<CompareColumn>& columns) {
   for (const CompareColumn& column : columns)
     if (column.target)
       size = {std::max(size.width, column.target->image.cols), std::max(size.height, column.target->image.rows)};
-  const int factor = std::clamp(kMostPiece_px / std::max(size.width, size.height), 1, kEnlarged);
+  const int factor = std::clamp(kMaxPiece_px / std::max(size.width, size.height), 1, kEnlarged);
   constexpr int kGap_px = 8, kName_px = 24;
   const int piece_px = size.width * factor + kGap_px;
   cv::Mat image(size.height * factor + kName_px, piece_px * static_cast<int>(columns.size()) - kGap_px, CV_8UC3,

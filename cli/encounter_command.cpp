@@ -36,7 +36,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPlotted = 8;  // encounters in one plot
+constexpr std::size_t kMaxPlotted = 8;  // encounters in one plot
 
 constexpr const char* kEncounterFooter =
     "Examples:\n"
@@ -186,9 +186,9 @@ Result<Flights> chosen(Flights flights, const EncounterOptions& options) {
 using Contents = std::vector<std::pair<fs::path, std::string>>;
 
 Result<std::string> png_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
-  if (encounters.size() > kMostPlotted)
+  if (encounters.size() > kMaxPlotted)
     return fail("--plot " + options.plot.string(),
-                fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMostPlotted,
+                fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMaxPlotted,
                             encounters.size()),
                 ErrorKind::usage);
   const cv::Mat image = encounter_plot(encounters);

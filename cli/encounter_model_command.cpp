@@ -31,7 +31,7 @@ constexpr const char* kEncounterModelFooter =
     "  sigs encounter-model uncor_1200only_fwse_v1p2.txt\n"
     "  sigs encounter-model glider_v1.txt --samples 100 --seed 7 --duration 120 --out tracks.csv --plot tracks.png";
 
-constexpr std::size_t kMostDrawn = 200;  // lines of a plot that can be followed at all
+constexpr std::size_t kMaxDrawn = 200;  // lines of a plot that can be followed at all
 
 struct EncounterModelOptions {
   fs::path file;
@@ -59,7 +59,7 @@ Result<void> check_names(const EncounterModelOptions& options) {
 
 // What was drawn, for the report and the plot.
 struct DrawnFlights {
-  std::vector<ModelFlight> first;  // at most kMostDrawn
+  std::vector<ModelFlight> first;  // at most kMaxDrawn
   std::int64_t redraws = 0;
   std::int64_t outside = 0;
 };
@@ -79,7 +79,7 @@ Result<DrawnFlights> drawn_flights(const EncounterModel& model, const EncounterM
     drawn.redraws += track.redraws;
     drawn.outside += track.is_within_limits ? 0 : 1;
     if (out.is_open()) out << track_csv_rows(track, number, model);
-    if (drawn.first.size() < kMostDrawn) drawn.first.push_back(std::move(track));
+    if (drawn.first.size() < kMaxDrawn) drawn.first.push_back(std::move(track));
   }
   if (out.is_open()) out.close();
   if (!out)
@@ -105,8 +105,8 @@ void print_drawn(const DrawnFlights& drawn, const EncounterModelOptions& options
   if (drawn.outside > 0)
     print_warning({"", count_text(drawn.outside, "flight") +
                            " left the model's limits (below altitude 0, or beyond the speeds of v) in every try"});
-  if (!options.plot.empty() && static_cast<std::size_t>(options.samples) > kMostDrawn)
-    print_warning({options.plot.string(), "shows the first " + std::to_string(kMostDrawn) + " flights"});
+  if (!options.plot.empty() && static_cast<std::size_t>(options.samples) > kMaxDrawn)
+    print_warning({options.plot.string(), "shows the first " + std::to_string(kMaxDrawn) + " flights"});
 }
 
 // The flights, written under names that are taken before.

@@ -21,8 +21,8 @@ constexpr int kEncounterLeft_px = 90;
 constexpr int kLegend_px = 200;  // for the legend
 constexpr int kEncounterTop_px = 34;
 constexpr int kEncounterBottom_px = 44;
-constexpr int kLane_px = 18;         // of a volume's losses
-constexpr double kMostTime_s = 120;  // that the panel of times shows
+constexpr int kLane_px = 18;        // of a volume's losses
+constexpr double kMaxTime_s = 120;  // that the panel of times shows
 const cv::Scalar kEncounterInk(40, 40, 40);
 const cv::Scalar kEncounterLines[] = {{200, 90, 20}, {30, 100, 220}, {40, 150, 40}};
 
@@ -41,7 +41,7 @@ struct EncounterPanel {
   std::string title;
   std::vector<EncounterCurve> curves;
   std::vector<double> levels = {};  // horizontal lines
-  double least_high = 1;            // the axis goes up to this at least
+  double min_high = 1;              // the axis goes up to this at least
   double most_high = 1e300;
 };
 
@@ -55,7 +55,7 @@ std::vector<EncounterPanel> encounter_panels(const EncounterSummary& summary) {
   EncounterPanel times{
       .title = "times, s",
       .curves = {{"closest approach", [](const EncounterRow& row) { return row.quantities.time_to_closest_s; }}},
-      .most_high = kMostTime_s};
+      .most_high = kMaxTime_s};
   // Without a volume there is no distance for tau.
   if (!summary.volumes.empty())
     times.curves.push_back({"modified tau", [](const EncounterRow& row) { return row.of_volumes.front().tau_mod_s; }});
@@ -94,7 +94,7 @@ std::vector<PlacedTick> encounter_ticks(const EncounterAxis& axis) {
 }
 
 EncounterAxis encounter_value_axis(const EncounterPanel& panel, const EncounterSummary& summary) {
-  EncounterAxis axis{0, panel.least_high, kEncounterPanel_px - kEncounterBottom_px, kEncounterTop_px};
+  EncounterAxis axis{0, panel.min_high, kEncounterPanel_px - kEncounterBottom_px, kEncounterTop_px};
   const auto widen = [&](double value) {
     if (!std::isfinite(value)) return;
     axis.low = std::min(axis.low, value);

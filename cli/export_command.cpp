@@ -57,8 +57,8 @@ constexpr SettingText kSettings[] = {
     {"--quality", "export.video.quality", "N", "quality of jpeg: 1 worst to 100 best"},
     {"--method", "compositing.method", "NAME", "direct, classic or plain"},
     {"--masks", "export.masks", "NAME", "video, png or none"},
-    {"--min-pixels", "export.label_least_pixels", "N", "no label where fewer pixels are visible", true},
-    {"--min-visible", "export.label_least_visible_fraction", "F",
+    {"--min-pixels", "export.label_min_pixels", "N", "no label where fewer pixels are visible", true},
+    {"--min-visible", "export.label_min_visible_fraction", "F",
      "no label where less of the intruder is visible, 0 to 1", true},
 };
 

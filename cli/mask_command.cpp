@@ -158,7 +158,7 @@ Result<void> run(const MaskOptions& options) {
   if (!project) return fail(project.error());
   Result<FrameSource> footage = footage_of(*project);
   if (!footage) return fail(footage.error());
-  const OrProblem<FrameRange> range = scene_range(project->footage, shape_of(footage->info()));
+  const Result<FrameRange, Problem> range = scene_range(project->footage, shape_of(footage->info()));
   if (!range) return fail(error_in(*project, range.error()));
   defer_interrupts();
   Result<MaskOutputs> out = reserved(options, *project, footage->info().path);

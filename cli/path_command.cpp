@@ -84,13 +84,13 @@ bool is_called(const RecordedPath& path, const std::string& name) {
 // Those asked for. Error usage where there is none of that name.
 Result<RecordedPaths> chosen_paths(RecordedPaths paths, const PathOptions& options) {
   if (options.name.empty()) return paths;
-  constexpr std::size_t kMostNamed = 10;
+  constexpr std::size_t kMaxNamed = 10;
   std::vector<std::string> others;
   RecordedPaths chosen;
   for (RecordedPath& path : paths) {
     if (is_called(path, options.name))
       chosen.push_back(std::move(path));
-    else if (others.size() < kMostNamed)
+    else if (others.size() < kMaxNamed)
       others.push_back(name_text(path));
   }
   if (!chosen.empty()) return chosen;

@@ -58,14 +58,14 @@ Result<Scene> scene_for_traffic(const Project& project) {
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   Scene scene = bare_scene(project, shape_of(source->info()));
-  const OrProblem<FrameRange> range = scene_range(project.footage, scene.footage);
+  const Result<FrameRange, Problem> range = scene_range(project.footage, scene.footage);
   if (!range) return failed(range.error());
   scene.first_frame = range->first;
   scene.last_frame = range->last;
   SceneFiles files;
-  OrProblem<CameraFlight> flight = camera_flight(project, scene.footage, *range, files);
+  Result<CameraFlight, Problem> flight = camera_flight(project, scene.footage, *range, files);
   if (!flight) return failed(flight.error());
-  take_camera_flight(scene, *std::move(flight));
+  set_camera_motion(scene, *std::move(flight));
   for (const Warning& warning : scene.warnings) print_warning(warning);
   return scene;
 }

@@ -55,7 +55,7 @@ void place(Project& project, const Recipe& recipe, const glm::dvec3& ray, double
   project.intruders[0].trajectory.waypoints = {{.frame = kFrame - 1, .position_m = middle_m - step_m},
                                                {.frame = kFrame + 1, .position_m = middle_m + step_m}};
   project.compositing.blur_px_per_m = recipe.sigma_px ? *recipe.sigma_px / distance_m : kPaperBlur_px_per_m;
-  project.appearance.point_spread_px = 0;
+  project.appearance.psf_sigma_px = 0;
 }
 
 Scene opened(const Project& project, SceneFiles& files) {

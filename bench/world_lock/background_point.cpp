@@ -15,8 +15,8 @@ namespace {
 const cv::Size kWindow(15, 15);
 constexpr int kLevels = 4;
 constexpr float kReturn_px = 0.1F;
-constexpr std::size_t kLeastCorners = 8;
-constexpr double kLeastCorrelation = 0.9;
+constexpr std::size_t kMinCorners = 8;
+constexpr double kMinCorrelation = 0.9;
 constexpr double kFarFromKey_px = 1.5;  // a match that far from where the corners lead is a wrong one
 
 // Median and its standard deviation.
@@ -57,7 +57,7 @@ std::optional<cv::Matx23d> matched(const cv::Mat& key, const cv::Mat& image, con
   cv::Mat(start).convertTo(warp, CV_32F);
   try {
     const cv::TermCriteria effort(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 1e-5);
-    if (cv::findTransformECC(key, image, warp, cv::MOTION_AFFINE, effort, mask, 3) < kLeastCorrelation)
+    if (cv::findTransformECC(key, image, warp, cv::MOTION_AFFINE, effort, mask, 3) < kMinCorrelation)
       return std::nullopt;
   } catch (const cv::Exception&) {
     return std::nullopt;  // the search did not converge
@@ -124,7 +124,7 @@ std::optional<BackgroundStep> BackgroundPoint::next(const Pyramid& before, const
   cv::ellipse(around, {cvRound(at_.x), cvRound(at_.y)}, clip_.source.patch_px, 0, 0, 360, 255, cv::FILLED);
   around &= clip_.world_mask(frame_);
   const Displacements found = displacements(clip_.luma[n], before, after, around, {});
-  if (found.moves.size() < kLeastCorners) return std::nullopt;
+  if (found.moves.size() < kMinCorners) return std::nullopt;
   BackgroundStep step{.step = middle_of(found), .corners = static_cast<int>(found.moves.size()), .growth = growth_};
   step.at = at_ + step.step.px;
   if (!is_in_view(step.at)) return std::nullopt;

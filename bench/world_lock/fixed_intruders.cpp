@@ -43,7 +43,7 @@ Project project_of(const Clip& clip, const CameraKnowledge& camera) {
   project.camera.track = {.file = camera.track, .incomplete = IncompleteTrackChoice::use};
   project.camera.attitude_file = camera.attitude_file;
   project.camera.readout_s = camera.readout_s;
-  project.appearance.point_spread_px = 0;
+  project.appearance.psf_sigma_px = 0;
   return project;
 }
 

@@ -16,7 +16,7 @@ struct ImageMotion {
 [[nodiscard]] ImageMotion image_motion(const Clip& clip);
 
 // Whether a clip's image can be followed, and moves: below that nothing could slip.
-inline constexpr double kLeastTracked = 0.5;
-inline constexpr double kLeastRange_px = 3;
+inline constexpr double kMinTracked = 0.5;
+inline constexpr double kMinRange_px = 3;
 
 }  // namespace sigs::bench

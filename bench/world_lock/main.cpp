@@ -84,9 +84,9 @@ struct Tables {
 void measure(const ClipSource& source, const Options& options, Tables& tables) {
   Clip clip = loaded(source, options.folder);
   const ImageMotion motion = image_motion(clip);
-  const char* verdict = motion.tracked < kLeastTracked     ? "cannot be followed"
-                        : motion.range_px < kLeastRange_px ? "stands still"
-                                                           : "moves";
+  const char* verdict = motion.tracked < kMinTracked     ? "cannot be followed"
+                        : motion.range_px < kMinRange_px ? "stands still"
+                                                         : "moves";
   tables.motion.row(source.name, clip.frame_count(), motion.tracked, motion.step_rms_px, motion.range_px, verdict);
   std::printf("%s: %d frames, %.0f %% followed, %.2f px a frame, within %.0f px: %s\n", source.name.c_str(),
               clip.frame_count(), 100 * motion.tracked, motion.step_rms_px, motion.range_px, verdict);

@@ -12,7 +12,7 @@ namespace {
 constexpr int kMargin_px = 32;
 constexpr int kApart_px = 60;
 // Mean of the weaker squared gradient, (code values a pixel)^2, above what noise makes of a clear sky.
-constexpr double kLeastTexture = 0.5;
+constexpr double kMinTexture = 0.5;
 
 // Smaller eigenvalue of the mean structure tensor of the neighbourhood, CV_32F; 0 outside of the mask.
 cv::Mat texture_of(const cv::Mat& luma, const cv::Mat& mask, cv::Size half_px) {
@@ -50,7 +50,7 @@ std::vector<cv::Point> places_in(const Clip& clip, int frame, int count, cv::Poi
     double most = 0;
     cv::Point at;
     cv::minMaxLoc(texture, nullptr, &most, nullptr, &at);
-    if (most < kLeastTexture) break;
+    if (most < kMinTexture) break;
     places.push_back(at);
     cv::circle(texture, at, kApart_px, 0, cv::FILLED);
   }

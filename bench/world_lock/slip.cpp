@@ -114,7 +114,7 @@ SlipRun slip_of(const Clip& clip, const std::vector<CameraKnowledge>& cameras, s
 }
 
 std::vector<std::vector<cv::Point2d>> offsets_beyond_parallax(const SlipRun& run) {
-  constexpr double kLeastGrowth = 0.005;
+  constexpr double kMinGrowth = 0.005;
   struct Fit {
     cv::Point2d sum;
     double weight = 0, most = 0;
@@ -131,7 +131,7 @@ std::vector<std::vector<cv::Point2d>> offsets_beyond_parallax(const SlipRun& run
   for (const SlipSample& sample : run.samples) {
     const Fit& fit = fits[sample.start];
     left.push_back(sample.offset_px);
-    if (fit.most < kLeastGrowth) continue;
+    if (fit.most < kMinGrowth) continue;
     const cv::Point2d flight_px = fit.sum / fit.weight;
     for (cv::Point2d& offset : left.back()) offset += (sample.growth - 1) * (sample.start_px - flight_px);
   }

@@ -43,8 +43,8 @@ bool finite(const OwnBodySettings& own_body) {
   const PaperOwnBodySettings& paper = own_body.paper;
   const StableOwnBodySettings& stable = own_body.stable;
   for (const double number :
-       {own_body.settled_percent, own_body.soft_edge_px, paper.canny_low, paper.canny_high, paper.least_area_percent,
-        stable.vibration_px, stable.least_area_percent, stable.least_moving_percent})
+       {own_body.settled_percent, own_body.soft_edge_px, paper.canny_low, paper.canny_high, paper.min_area_percent,
+        stable.vibration_px, stable.min_area_percent, stable.min_moving_percent})
     if (!std::isfinite(number)) return false;
   return true;
 }
@@ -63,9 +63,10 @@ bool finite(const LightSettings& light) {
 
 bool finite(const AppearanceSettings& appearance) {
   const GrainSettings& grain = appearance.grain;
-  for (const double number : {appearance.point_spread_px, appearance.sharpening, appearance.sharpening_px,
-                              appearance.chroma_spread_px, appearance.black, appearance.saturation, grain.sd_dark,
-                              grain.sd_bright, grain.sd_chroma, grain.spread_px, grain.persistence})
+  for (const double number :
+       {appearance.psf_sigma_px, appearance.sharpening, appearance.sharpening_px, appearance.chroma_blur_px,
+        appearance.black, appearance.saturation, grain.sd_dark, grain.sd_bright, grain.sd_chroma,
+        grain.correlation_length_px, grain.temporal_correlation})
     if (!std::isfinite(number)) return false;
   return finite(appearance.haze.visibility_m) && finite(appearance.haze.airlight_color) &&
          finite(appearance.codec.quantiser);

@@ -8,7 +8,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr double kLeastSlope = 0.19;  // sine of 11 degrees
+constexpr double kMinSlope = 0.19;  // sine of 11 degrees
 constexpr double kLongest_m = 1e8;
 
 double kept(double along_m) {
@@ -37,7 +37,7 @@ glm::dvec2 dragged_in_plane_m(const PlaneDrag& drag, const glm::dvec2& mouse, co
   const auto& [a, b] = drag.axes;
   const glm::dvec3 normal = glm::cross(a, b);
   const double slope = glm::dot(ray.direction, normal);
-  if (std::abs(slope) < kLeastSlope) {
+  if (std::abs(slope) < kMinSlope) {
     const bool is_first = seen_length(a, ray) >= seen_length(b, ray);
     const double along_m = kept(along_axis_m(drag.start_m, is_first ? a : b, ray));
     return is_first ? glm::dvec2(along_m, 0) : glm::dvec2(0, along_m);

@@ -97,7 +97,7 @@ std::shared_ptr<const ModelImage> SceneRenderer::model_image(const Project& proj
   const ModelSettings& settings = clean.intruders[intruder].model;
   auto image =
       std::make_shared<ModelImage>(ModelImage{.file = resolved(project, settings.file), .turn_rad = wanted.turn_rad});
-  const OrProblem<std::shared_ptr<const Model>> made = scene_model(clean, intruder, files_);
+  const Result<std::shared_ptr<const Model>, Problem> made = scene_model(clean, intruder, files_);
   if (!made) image->problem = made.error().what;
   const std::shared_ptr<const Model> model =
       made ? *made : files_.cross(settings.length_m > 0 ? settings.length_m : kCrossLength_m);

@@ -113,7 +113,7 @@ CameraTurn camera_turn_at(const CameraMotion& motion, double time_s, const Camer
 
 void SurveyBuilder::look_at_camera(double time_s) {
   const CameraMotion& motion = scene_->draft.scene.motion;
-  if (motion.turns.empty() || surveys_.empty()) return;
+  if (motion.attitudes.empty() || surveys_.empty()) return;
   const std::vector<CameraTurn>& before = surveys_.front().camera;
   const CameraTurn turn = camera_turn_at(motion, time_s, before.empty() ? nullptr : &before.back());
   for (Survey& survey : surveys_) survey.camera.push_back(turn);

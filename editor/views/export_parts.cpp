@@ -185,23 +185,23 @@ void draw_quality(const ViewContext& context) {
 void draw_thresholds(const ViewContext& context) {
   ExportSettings output = context.project().output;
   ImGui::BeginDisabled(!has_thresholds(output));
-  begin_setting(label_of("export.label_least_pixels").c_str());
+  begin_setting(label_of("export.label_min_pixels").c_str());
   ImGui::SetNextItemWidth(scaled(150));
-  if (ImGui::DragInt("##least pixels", &output.label_least_pixels, 0.2F, 1, 1'000'000, "%d px",
+  if (ImGui::DragInt("##min pixels", &output.label_min_pixels, 0.2F, 1, 1'000'000, "%d px",
                      ImGuiSliderFlags_AlwaysClamp))
     context.edits.change(
-        "least pixels", [px = output.label_least_pixels](Project& p) { p.output.label_least_pixels = px; },
+        "min pixels", [px = output.label_min_pixels](Project& p) { p.output.label_min_pixels = px; },
         "export least pixels");
   if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
   context.ui_probe.note_item("export/least pixels");
   tooltip_for_item(threshold_help("fewer pixels show the intruder").c_str());
-  begin_setting(label_of("export.label_least_visible_fraction").c_str());
+  begin_setting(label_of("export.label_min_visible_fraction").c_str());
   ImGui::SetNextItemWidth(scaled(150));
-  auto percent = static_cast<float>(100 * output.label_least_visible_fraction);
+  auto percent = static_cast<float>(100 * output.label_min_visible_fraction);
   if (ImGui::SliderFloat("##least visible", &percent, 0, 100, "%.0f %%", ImGuiSliderFlags_AlwaysClamp))
     context.edits.change(
         "least visible",
-        [share = std::round(percent) / 100.0](Project& p) { p.output.label_least_visible_fraction = share; },
+        [share = std::round(percent) / 100.0](Project& p) { p.output.label_min_visible_fraction = share; },
         "export least visible");
   if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
   context.ui_probe.note_item("export/least visible");

@@ -25,7 +25,7 @@ CameraPose camera_pose_at(const ViewContext& context, double time_s) {
   CameraPose pose = camera_pose_at(context.project(), time_s);
   const CameraMotion* const motion = motion_of(context);
   if (motion == nullptr) return pose;
-  pose.rotation = world_from_carrier_at(motion->turns, time_s) * pose.rotation;
+  pose.rotation = world_from_platform_at(motion->attitudes, time_s) * pose.rotation;
   if (motion->path) pose.translation_m = camera_at(*motion, time_s).translation_m + path_shift_m(context);
   return pose;
 }
@@ -44,7 +44,7 @@ glm::dvec3 path_shift_m(const ViewContext& context) {
 
 bool is_turned_by_file(const ViewContext& context) {
   const CameraMotion* const motion = motion_of(context);
-  return !context.project().camera.attitude_file.empty() || (motion != nullptr && !motion->turns.empty());
+  return !context.project().camera.attitude_file.empty() || (motion != nullptr && !motion->attitudes.empty());
 }
 
 glm::bvec3 movable_axes(const ViewContext& context) {

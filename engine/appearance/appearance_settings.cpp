@@ -14,7 +14,7 @@ namespace sigs {
 namespace {
 
 // Chosen with the clips that are kept for tuning (docs/research/realism.md): more change little.
-constexpr int kCarriedFrames = 12;
+constexpr int kPredictedFrames = 12;
 
 // To three digits; more would not be honest, and settings are read by people.
 double rounded(double value) {
@@ -118,15 +118,15 @@ std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance) {
   const PointSpreadFound& sharp = appearance.point_spread;
   const NoiseFound& noise = appearance.noise;
   std::vector<AppearanceQuantity> list{
-      {"point spread", "px", sharp.sigma_px, "appearance.point_spread_px"},
+      {"point spread", "px", sharp.sigma_px, "appearance.psf_sigma_px"},
       {"sharpening", "", sharp.sharpening, "appearance.sharpening"},
       {"sharpening's width", "px", sharp.sharpening_px, "appearance.sharpening_px"},
-      {"chroma spread", "px of chroma", sharp.chroma_spread_px, "appearance.chroma_spread_px"},
+      {"chroma blur", "px of chroma", sharp.chroma_blur_px, "appearance.chroma_blur_px"},
       {"noise at black", "codes", noise.sd_dark, "appearance.grain.sd_dark"},
       {"noise at white", "codes", noise.sd_bright, "appearance.grain.sd_bright"},
       {"noise of chroma", "codes", noise.sd_chroma, "appearance.grain.sd_chroma"},
-      {"noise's spread", "px", noise.spread_px, "appearance.grain.spread_px"},
-      {"noise's persistence", "", noise.persistence, "appearance.grain.persistence"}};
+      {"noise's spread", "px", noise.correlation_length_px, "appearance.grain.correlation_length_px"},
+      {"noise's temporal correlation", "", noise.temporal_correlation, "appearance.grain.temporal_correlation"}};
   const CodecEstimate& codec = appearance.codec;
   list.push_back(
       {"codec's quantiser", unit_of(codec.kind), codec.quantiser, ""});  // the settings' null: frame by frame
@@ -144,9 +144,9 @@ std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance) {
   add_color(list, "sky", light.sky_color, "light.sky_color");
   add_color(list, "ground", light.ground_color, "light.ground_color");
   list.push_back(
-      {"sun's azimuth", "deg", in_degrees(sun.azimuth_rad), "light.sun.azimuth_deg", how_found(sun.witness)});
+      {"sun's azimuth", "deg", in_degrees(sun.azimuth_rad), "light.sun.azimuth_deg", how_found(sun.evidence)});
   // Shadows tell the azimuth alone.
-  const SunWitness of_elevation = sun.witness == SunWitness::shadows ? SunWitness::sky : sun.witness;
+  const SunEvidence of_elevation = sun.evidence == SunEvidence::shadows ? SunEvidence::sky : sun.evidence;
   list.push_back({"sun's elevation", "deg", in_degrees(sun.elevation_rad), "light.sun.elevation_deg",
                   sun.elevation_rad.is_known ? how_found(of_elevation) : ""});
   return list;
@@ -184,7 +184,7 @@ std::vector<std::string> applied_settings(const Appearance& appearance) {
   add("appearance.");
   keys.emplace_back("appearance.haze.airlight");
   keys.emplace_back("appearance.codec.match");
-  keys.emplace_back("appearance.codec.carried_frames");
+  keys.emplace_back("appearance.codec.predicted_frames");
   return keys;
 }
 
@@ -198,12 +198,12 @@ void apply(const Appearance& appearance, Project& project) {
   apply_haze(around.haze, project.appearance.haze);
   if (light_is_known(appearance)) {
     apply_sun(around.sun, project.light.sun);
-    apply(around.light, around.tone.white, project.light);                // which asks for the sun's elevation
-    if (around.sun.witness == SunWitness::given) project.light.sun = {};  // by time and place, at each frame
+    apply(around.light, around.tone.white, project.light);                  // which asks for the sun's elevation
+    if (around.sun.evidence == SunEvidence::given) project.light.sun = {};  // by time and place, at each frame
   }
   project.appearance.codec.match =
       is_lossless_codec(appearance.footage.codec) ? CodecMatchChoice::none : CodecMatchChoice::footage;
-  project.appearance.codec.carried_frames = appearance.codec.predicts ? kCarriedFrames : 0;
+  project.appearance.codec.predicted_frames = appearance.codec.predicts ? kPredictedFrames : 0;
   hold_in_ranges(project);
 }
 

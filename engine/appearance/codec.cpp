@@ -130,7 +130,7 @@ void CodecEstimator::add_ringing(const cv::Mat& luma) {
   constexpr float kNear_px = 3;
   constexpr float kBeside_px = 7;
   constexpr float kFar_px = 20;
-  constexpr int kMostRough = 24;  // beyond: detail of what is in the image
+  constexpr int kMaxRough = 24;  // beyond: detail of what is in the image
   constexpr double kMinSamples = 500;
   cv::Mat distance_px;
   cv::distanceTransform(free_of_edges(luma), distance_px, cv::DIST_L2, 3);
@@ -140,7 +140,7 @@ void CodecEstimator::add_ringing(const cv::Mat& luma) {
     const float* const distance = distance_px.ptr<float>(y);
     for (int x = 1; x + 1 < luma.cols; ++x) {
       const int rough = roughness(row, x);
-      if (rough > kMostRough) continue;
+      if (rough > kMaxRough) continue;
       if (distance[x] >= kNear_px && distance[x] <= kBeside_px) beside += rough, ++beside_count;
       if (distance[x] >= kFar_px) away += rough, ++away_count;
     }

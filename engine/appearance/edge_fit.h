@@ -14,7 +14,7 @@ namespace sigs {
 
 // A Gaussian of the lens over the linear light, the mean over each pixel's square, the transfer curve, then sharpening
 // in code values: code += sharpening * (code - code blurred by a Gaussian of sharpening_px). These are the settings
-// appearance.point_spread_px, .sharpening, .sharpening_px of a project. The order follows the camera's: light is
+// appearance.psf_sigma_px, .sharpening, .sharpening_px of a project. The order follows the camera's: light is
 // blurred before it becomes code values, and cameras sharpen what they are about to encode.
 struct EdgeShape {
   double sigma_px = 0.5;

@@ -24,22 +24,22 @@ struct FoundHazeLine {
 namespace {
 
 constexpr double kSkyFrom_deg = 1, kSkyTo_deg = 8, kSkyBin_deg = 0.25;
-constexpr double kLeastDepression_deg = 0.4, kMostDepression_deg = 35;
+constexpr double kMinDepression_deg = 0.4, kMaxDepression_deg = 35;
 constexpr double kGroundBin_deg = 0.05;  // in which light is collected
 constexpr int kDistanceBins = 24;        // to which a fit is made; even in the logarithm of the depression
-constexpr double kLeastCells = 40;       // of a bin that counts
-constexpr std::size_t kLeastBins = 8;    // that a fit needs
+constexpr double kMinCells = 40;         // of a bin that counts
+constexpr std::size_t kMinBins = 8;      // that a fit needs
 constexpr double kPatches = 0.10;        // by which the land's mean differs from bin to bin, share of its contrast
 constexpr double kTexture = 0.02;        // share of all light by which a bin's mean may be off, besides
 constexpr double kShoulder = 0.2;        // see expanded()
 constexpr double kFloor = 0.004;         // and of all light: noise, coding
 constexpr double kCurve = 0.08;          // share by which the camera's tone curve may be off
-constexpr double kLeastVisibility_m = 100, kMostVisibility_m = 3e5, kStep = 1.02;
-constexpr double kClipped = 0.985;                        // of luma: over-exposed
-constexpr double kMostRelativeSd = 0.5;                   // of a visibility that is known
-constexpr double kLeastFading = 0.9;                      // of the contrast that is left of the farthest land, at most
-constexpr double kMostDip_deg = 1.5, kDipStep_deg = 0.1;  // of an edge in the image below the horizon
-constexpr double kShoulderSd = 0.15;                      // of the visibility, by the shoulder that is not known
+constexpr double kMinVisibility_m = 100, kMaxVisibility_m = 3e5, kStep = 1.02;
+constexpr double kClipped = 0.985;                       // of luma: over-exposed
+constexpr double kMaxRelativeSd = 0.5;                   // of a visibility that is known
+constexpr double kMinFading = 0.9;                       // of the contrast that is left of the farthest land, at most
+constexpr double kMaxDip_deg = 1.5, kDipStep_deg = 0.1;  // of an edge in the image below the horizon
+constexpr double kShoulderSd = 0.15;                     // of the visibility, by the shoulder that is not known
 constexpr double kColorsApart = 0.2;  // natural logarithm of the visibility in red or blue to that in all light
 constexpr double kEdgeSd = 0.5;       // and where the horizon is an edge in the image
 constexpr double kWithGround = 0.5;   // of the airlight's deviation, where ground and sky agree on it
@@ -50,7 +50,7 @@ double squared(double x) {
 
 // Bin of a depression among those that a fit is made to, 0 for the largest; -1 beyond them.
 int distance_bin(double depression_rad) {
-  const double nearest = rad_of_deg(kMostDepression_deg), farthest = rad_of_deg(kLeastDepression_deg);
+  const double nearest = rad_of_deg(kMaxDepression_deg), farthest = rad_of_deg(kMinDepression_deg);
   if (!(depression_rad < nearest) || depression_rad < farthest) return -1;
   const double share = std::log(nearest / depression_rad) / std::log(nearest / farthest);
   return std::min(kDistanceBins - 1, static_cast<int>(share * kDistanceBins));
@@ -113,22 +113,22 @@ FoundHazeLine best_line(const std::vector<HazePoint>& points, const Estimate& sk
     if (around_m > 0) line.cost += squared(std::log(visibility_m / around_m) / kColorsApart);
     return line;
   };
-  for (double v = kLeastVisibility_m; v < kMostVisibility_m; v *= kStep)
+  for (double v = kMinVisibility_m; v < kMaxVisibility_m; v *= kStep)
     if (const HazeLine line = line_at(v); line.cost < found.line.cost) found = {line, v, 0};
   const double degrees = std::max(1.0, static_cast<double>(points.size()) - 2);
   // Bins side by side see the same woods and clouds' shadows: about three of them count as one.
   const double limit = found.line.cost + 3 * std::max(1.0 / 3, found.line.cost / degrees);
   double low = found.visibility_m, high = low;
-  while (low > kLeastVisibility_m && line_at(low).cost < limit) low /= kStep;
-  while (high < kMostVisibility_m && line_at(high).cost < limit) high *= kStep;
-  found.sd_m = high >= kMostVisibility_m ? std::numeric_limits<double>::infinity() : 0.5 * (high - low);
+  while (low > kMinVisibility_m && line_at(low).cost < limit) low /= kStep;
+  while (high < kMaxVisibility_m && line_at(high).cost < limit) high *= kStep;
+  found.sd_m = high >= kMaxVisibility_m ? std::numeric_limits<double>::infinity() : 0.5 * (high - low);
   return found;
 }
 
 // Whether the land is darker than its haze, and grows paler with distance by more than its patches differ.
 bool is_usable(const std::vector<HazePoint>& points, const FoundHazeLine& found) {
   const double far_share = std::exp(-3 * points.back().x / found.visibility_m);
-  return found.line.land < 0 && found.sd_m <= kMostRelativeSd * found.visibility_m && far_share < kLeastFading;
+  return found.line.land < 0 && found.sd_m <= kMaxRelativeSd * found.visibility_m && far_share < kMinFading;
 }
 
 Estimate not_known(double value, std::string why) {
@@ -160,7 +160,7 @@ void Haze::add(const LightImage& image) {
   ++with_angles_;
   if (!image.view.height_m || !(*image.view.height_m > 0) || !std::isfinite(*image.view.height_m)) return;
   ++with_height_;
-  ground_.resize(static_cast<std::size_t>(kMostDepression_deg / kGroundBin_deg));
+  ground_.resize(static_cast<std::size_t>(kMaxDepression_deg / kGroundBin_deg));
   if (image.skyline->from_image) ++with_edge_;
   add_ground(image);
 }
@@ -206,8 +206,8 @@ std::array<Estimate, 3> Haze::sky_at_horizon() const {
   std::array<std::vector<HazePoint>, 3> points;
   for (const Bin& bin : sky_)
     for (std::size_t k = 0; k < 3; ++k)
-      if (bin.count >= kLeastCells) points[k].push_back({bin.x / bin.count, bin.sum[k] / bin.count});
-  if (points[0].size() < kLeastBins) return default_airlight("too little of the sky above the horizon is seen");
+      if (bin.count >= kMinCells) points[k].push_back({bin.x / bin.count, bin.sum[k] / bin.count});
+  if (points[0].size() < kMinBins) return default_airlight("too little of the sky above the horizon is seen");
   if (clipped_ > 0.3 * sky_cells_) return default_airlight("the sky above the horizon is over-exposed");
   std::array<Estimate, 3> sky;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -234,7 +234,7 @@ std::array<std::vector<HazePoint>, 4> Haze::ground_points(double dip_rad) const 
   }
   std::array<std::vector<HazePoint>, 4> points;
   for (const Bin& bin : bins) {
-    if (bin.count < kLeastCells) continue;
+    if (bin.count < kMinCells) continue;
     const double x = bin.x / bin.count;
     points[0].push_back({x, luminance({bin.sum[0], bin.sum[1], bin.sum[2]}) / bin.count});
     for (std::size_t k = 0; k < 3; ++k) points[k + 1].push_back({x, bin.sum[k] / bin.count});
@@ -248,10 +248,10 @@ Haze::Fit Haze::fit(const std::array<Estimate, 3>& sky) const {
   const Estimate limit{.value = luminance({sky[0].value, sky[1].value, sky[2].value}),
                        .sd = luminance({sky[0].sd, sky[1].sd, sky[2].sd})};
   Fit fit;
-  const double most_dip_deg = with_edge_ > 0 ? kMostDip_deg : 0;
+  const double most_dip_deg = with_edge_ > 0 ? kMaxDip_deg : 0;
   for (double dip_deg = 0; dip_deg <= most_dip_deg; dip_deg += kDipStep_deg) {
     auto points = ground_points(rad_of_deg(dip_deg));
-    if (points[0].size() < kLeastBins) continue;
+    if (points[0].size() < kMinBins) continue;
     const FoundHazeLine found = best_line(points[0], limit);
     const double cost = found.line.cost / static_cast<double>(points[0].size());
     if (!fit.points[0].empty() && cost >= fit.cost) continue;
@@ -284,7 +284,7 @@ HazeEstimate Haze::finish() const {
     haze.visibility_m.why = "the camera's calibration is not known";
   else if (with_height_ == 0)
     haze.visibility_m.why = "the camera's height is not known";
-  else if (best.points[0].size() < kLeastBins)
+  else if (best.points[0].size() < kMinBins)
     haze.visibility_m.why = "too little ground is seen";
   else if (!is_usable(best.points[0], found))
     haze.visibility_m.why = "the ground does not grow paler with distance";

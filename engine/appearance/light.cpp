@@ -9,18 +9,18 @@ namespace sigs {
 namespace {
 
 constexpr double kClearSky = 0.17, kClearRatio = 0.16, kWhitening = 2.4;  // light.h; of sky to card
-constexpr double kLeastSky = 0.12;
+constexpr double kMinSky = 0.12;
 constexpr double kBluest = 0.1;  // share of the sky
 constexpr double kRatioPerBin = 0.025;
-constexpr double kClippedSky = 0.985;                              // of luma
-constexpr double kDark = 0.008;                                    // light: darker is no sky by day
-constexpr double kSmooth = 0.012;                                  // of luma, difference from the neighbours: sky
-constexpr float kLeastBlue = 0.8F;                                 // of green, in a sky; fields and earth have less
-constexpr double kLeastSkyShare = 0.02, kLeastGroundShare = 0.03;  // of all cells
-constexpr double kAlbedo = 0.15, kLeastAlbedo = 0.1, kMostAlbedo = 0.45;
+constexpr double kClippedSky = 0.985;                          // of luma
+constexpr double kDark = 0.008;                                // light: darker is no sky by day
+constexpr double kSmooth = 0.012;                              // of luma, difference from the neighbours: sky
+constexpr float kMinBlue = 0.8F;                               // of green, in a sky; fields and earth have less
+constexpr double kMinSkyShare = 0.02, kMinGroundShare = 0.03;  // of all cells
+constexpr double kAlbedo = 0.15, kMinAlbedo = 0.1, kMaxAlbedo = 0.45;
 constexpr double kSunElevation_rad = 0.7;
 constexpr double kGroundBelow_rad = 0.03;  // below the horizon: nearer, with less haze
-constexpr double kMostExposure = 1.5;
+constexpr double kMaxExposure = 1.5;
 constexpr double kCardSd = 0.3;  // of the card's luminance, share: how far clips lie from the law
 
 // Largest difference of a cell's luma from those right and below.
@@ -46,12 +46,12 @@ Part part_of(const LightImage& image, int x, int y) {
   const int rows = image.grid.size().height;
   const bool is_smooth = roughness(image.grid, x, y) < kSmooth;
   const cv::Vec3f& light = image.grid.light(y, x);
-  if (2 * y < rows && is_smooth) return light[2] >= kLeastBlue * light[1] ? Part::sky : Part::neither;
+  if (2 * y < rows && is_smooth) return light[2] >= kMinBlue * light[1] ? Part::sky : Part::neither;
   return 3 * y >= 2 * rows && !is_smooth ? Part::ground : Part::neither;
 }
 
 double sky_of_card(double red_to_blue) {
-  return std::clamp(kClearSky * std::exp(kWhitening * (red_to_blue - kClearRatio)), kLeastSky, 1.0);
+  return std::clamp(kClearSky * std::exp(kWhitening * (red_to_blue - kClearRatio)), kMinSky, 1.0);
 }
 
 std::array<Estimate, 3> known_color(const glm::dvec3& color, double relative_sd) {
@@ -122,7 +122,7 @@ LightEstimator::Bin LightEstimator::bluest() const {
 std::optional<std::string> LightEstimator::why_no_sky() const {
   if (frames_ == 0) return "there is no frame";
   const Bin sky = all_sky();
-  if (sky.count < kLeastSkyShare * cells_ || sky.count <= 0) return "no sky is seen";
+  if (sky.count < kMinSkyShare * cells_ || sky.count <= 0) return "no sky is seen";
   if (clipped_ > 0.5 * sky.count) return "the sky is over-exposed";
   if (luminance(sky.sum / sky.count) < kDark) return "it is too dark for a sky by day";
   return std::nullopt;
@@ -130,14 +130,14 @@ std::optional<std::string> LightEstimator::why_no_sky() const {
 
 void LightEstimator::set_ground(LightEstimate& light, double sun, double sky, double sine) const {
   const double falls_on_it = sun * sine + sky;
-  const bool is_seen = ground_.count > kLeastGroundShare * cells_ && luminance(ground_.sum) > 0;
+  const bool is_seen = ground_.count > kMinGroundShare * cells_ && luminance(ground_.sum) > 0;
   if (!is_seen) {
     light.ground_color = unknown_color(glm::dvec3(kAlbedo * falls_on_it), "no ground is seen");
     return;
   }
   const glm::dvec3 mean = ground_.sum / ground_.count / light.exposure.value;
   const double bright = luminance(mean);
-  const double held = std::clamp(bright, kLeastAlbedo * falls_on_it, kMostAlbedo * falls_on_it);
+  const double held = std::clamp(bright, kMinAlbedo * falls_on_it, kMaxAlbedo * falls_on_it);
   light.ground_color = known_color(mean * (held / bright), 0.3);
 }
 
@@ -158,9 +158,9 @@ LightEstimate LightEstimator::finish(std::optional<double> sun_elevation_rad) co
   const glm::dvec3 blue_sky = blue.sum / blue.count;
   const bool has_color = colored_ > 0.01 * all_sky().count;
   const double part = has_color ? sky_of_card(blue_sky.r / std::max(blue_sky.b, 1e-6)) : 0.5;
-  const double card = std::min(luminance(blue_sky) / part, kMostExposure);
+  const double card = std::min(luminance(blue_sky) / part, kMaxExposure);
   const double sun = card * (1 - part);
-  const double white = std::min(sun + luminance(sky), kMostExposure);
+  const double white = std::min(sun + luminance(sky), kMaxExposure);
   light.exposure = {.value = white, .sd = kCardSd * white, .is_known = has_color};
   light.sun_share = {.value = std::min(sun / white, 1.0), .sd = 0.1 + 0.2 * part, .is_known = has_color};
   if (!has_color) light.exposure.why = light.sun_share.why = "gray footage does not show how blue the sky is";

@@ -116,12 +116,12 @@ void GridRays::fit(const LightGrid& grid, const Camera* camera) {
 
 namespace {
 
-constexpr int kBand = 3;               // cells above and below the edge, where the two are compared
-constexpr double kLeastStep = 0.025;   // of luma, 6 codes of 8 bits
-constexpr double kMostStep = 0.3;      // more does not count for more
-constexpr double kLeastColumns = 0.6;  // share of the columns that the edge has to be in
-constexpr double kRougher = 0.7;       // texture above, at most this share of that below
-constexpr double kSmoothSky = 0.008;   // smooth, whatever is below
+constexpr int kBand = 3;              // cells above and below the edge, where the two are compared
+constexpr double kMinStep = 0.025;    // of luma, 6 codes of 8 bits
+constexpr double kMaxStep = 0.3;      // more does not count for more
+constexpr double kMinColumns = 0.6;   // share of the columns that the edge has to be in
+constexpr double kRougher = 0.7;      // texture above, at most this share of that below
+constexpr double kSmoothSky = 0.008;  // smooth, whatever is below
 constexpr double kMaxRoll_rad = 0.79, kRollStep_rad = 0.06, kPitchStep_rad = 0.012, kMaxPitch_rad = 1.2;
 constexpr double kRefined_rad = 0.0014;   // of a clean edge, a third of a cell
 constexpr double kHills_rad = 0.004;      // by which the land's edge misses the level
@@ -182,7 +182,7 @@ std::vector<std::vector<double>> steps_of(const Columns& columns) {
                                          std::vector<double>(static_cast<std::size_t>(columns.rows) + 1));
   for (std::size_t i = 0; i < steps.size(); ++i)
     for (int y = kBand; has_room(y, columns.rows); ++y)
-      steps[i][static_cast<std::size_t>(y)] = std::clamp(columns.step(i, y), -kMostStep, kMostStep);
+      steps[i][static_cast<std::size_t>(y)] = std::clamp(columns.step(i, y), -kMaxStep, kMaxStep);
   return steps;
 }
 
@@ -270,9 +270,8 @@ double texture_beside(const LightGrid& grid, const std::vector<EdgePoint>& point
 }
 
 bool is_skyline(const LightGrid& grid, const Columns& columns, const std::vector<EdgePoint>& points) {
-  const auto strong =
-      std::count_if(points.begin(), points.end(), [](const EdgePoint& p) { return p.step > kLeastStep; });
-  if (static_cast<double>(strong) < kLeastColumns * static_cast<double>(columns.at.size())) return false;
+  const auto strong = std::count_if(points.begin(), points.end(), [](const EdgePoint& p) { return p.step > kMinStep; });
+  if (static_cast<double>(strong) < kMinColumns * static_cast<double>(columns.at.size())) return false;
   const double above = texture_beside(grid, points, -1), below = texture_beside(grid, points, 1);
   // Of an even slope of brightness, as a sky without ground has, every line is an edge; a real one stands out.
   double steepest = 0, whole = 0;

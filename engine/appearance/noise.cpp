@@ -122,22 +122,22 @@ class NoiseFit {
     return variance > 0 && covariance > 0.97 * variance;
   }
 
-  [[nodiscard]] Fitted spread_px() const {
-    const double spread_px = spread_of_ratio(shared_.value, kNoiseBlock_px);
+  [[nodiscard]] Fitted correlation_length_px() const {
+    const double correlation_length_px = spread_of_ratio(shared_.value, kNoiseBlock_px);
     const double more_px = spread_of_ratio(shared_.value + shared_.sd, kNoiseBlock_px);
-    return {spread_px, more_px - spread_px};
+    return {correlation_length_px, more_px - correlation_length_px};
   }
 
   // Nothing where no frame followed.
-  [[nodiscard]] std::optional<Fitted> persistence() const {
+  [[nodiscard]] std::optional<Fitted> temporal_correlation() const {
     if (kept_.value < 0) return std::nullopt;
     const double changing = 1 - repeated_ / static_cast<double>(plain_.size());
     return Fitted{std::min(0.99, 1 - (1 - kept_.value) * changing), kept_.sd * changing};
   }
 
   // Variance of luma by brightness, of noise alone.
-  [[nodiscard]] NoiseLine line(double spread_px) const {
-    const double left = block_rest(spread_px, kNoiseBlock_px).variance;
+  [[nodiscard]] NoiseLine line(double correlation_length_px) const {
+    const double left = block_rest(correlation_length_px, kNoiseBlock_px).variance;
     std::vector<NoiseLevel> corrected = levels_;
     for (NoiseLevel& level : corrected) level.variance = std::max(0.0, level.variance - kRounding) / left;
     return line_through(corrected);
@@ -153,8 +153,8 @@ class NoiseFit {
             std::max(0.05 * floor.value, floor.value / std::sqrt(static_cast<double>(floor.count)))};
   }
 
-  [[nodiscard]] Panel panel(const NoiseLine& line, double spread_px) const {
-    const double left = block_rest(spread_px, kNoiseBlock_px).variance;
+  [[nodiscard]] Panel panel(const NoiseLine& line, double correlation_length_px) const {
+    const double left = block_rest(correlation_length_px, kNoiseBlock_px).variance;
     PanelSeries all{.label = "blocks", .is_points = true}, floors{.label = "noise", .is_points = true};
     const double top = std::max(0.5, 4 * std::max(line.dark, line.bright));
     for (const NoiseLevel& level : levels_) {
@@ -227,13 +227,13 @@ class NoiseFit {
 
   // Blocks in which no more lasts than noise does: the rest would be texture.
   [[nodiscard]] std::vector<const NoiseBlock*> without_texture(const Bin& bin) const {
-    constexpr double kMostTexture = 0.25;  // of the noise that does not last
+    constexpr double kMaxTexture = 0.25;  // of the noise that does not last
     if (kept_.value < 0) return bin.blocks;
     const double change = change_floor(bin.blocks).value;
     std::vector<const NoiseBlock*> plain;
     for (const NoiseBlock* const block : bin.blocks) {
       const double lasting = kept_.value * (block->variance + block->next_variance) / 2;
-      if (is_repeated(*block) || block->covariance - lasting < kMostTexture * change) plain.push_back(block);
+      if (is_repeated(*block) || block->covariance - lasting < kMaxTexture * change) plain.push_back(block);
     }
     return plain;
   }
@@ -241,20 +241,20 @@ class NoiseFit {
   // Strong compression takes all noise from some blocks and leaves errors of its own in others: no variance is shared
   // by many. The middle one is taken, where it is little.
   [[nodiscard]] static Floor left_by_codec(const std::vector<double>& variances) {
-    constexpr double kMostLeft = 4;
+    constexpr double kMaxLeft = 4;
     if (std::ssize(variances) < kFewestBlocks) return {};
     const double middle = quantile(variances, 0.5);
-    return {middle, middle < kMostLeft, static_cast<int>(variances.size() / 2)};
+    return {middle, middle < kMaxLeft, static_cast<int>(variances.size() / 2)};
   }
 
   // Brightnesses that few blocks have and in which all of them vary much are of an object: its edges and its texture.
   void leave_out_objects() {
-    constexpr double kMostAboveUsual = 10;
+    constexpr double kMaxAboveUsual = 10;
     std::vector<double> by_blocks;
     for (const NoiseLevel& level : levels_)
       by_blocks.insert(by_blocks.end(), level.blocks.size() / kFewestBlocks + 1, level.variance);
     const double usual = quantile(by_blocks, 0.5);
-    std::erase_if(levels_, [&](const NoiseLevel& level) { return level.variance > kMostAboveUsual * usual + 0.5; });
+    std::erase_if(levels_, [&](const NoiseLevel& level) { return level.variance > kMaxAboveUsual * usual + 0.5; });
   }
 
   // What neighbours share of the noise: the mean over the blocks up to reach_ times the floor.
@@ -314,7 +314,7 @@ class NoiseFit {
   // shows what they share of noise; in the others the variance is a mixture of both.
   void take_rest_of_texture() {
     constexpr double kOfTexture = 0.7;  // what they share of smooth texture, the plane being subtracted
-    constexpr double kMostOfNoise = 0.55;
+    constexpr double kMaxOfNoise = 0.55;
     std::vector<double> ratios;
     for (const NoiseLevel& level : levels_)
       if (level.weight >= 60) ratios.push_back(level.shared);
@@ -323,7 +323,7 @@ class NoiseFit {
     if (ratios.empty()) return;
     std::sort(ratios.begin(), ratios.end());
     shared_ = {ratios[0], std::max(0.02, ratios[std::min<std::size_t>(1, ratios.size() - 1)] - ratios[0])};
-    if (shared_.value > kMostOfNoise) return;
+    if (shared_.value > kMaxOfNoise) return;
     for (NoiseLevel& level : levels_)
       level.variance *= std::clamp((kOfTexture - level.shared) / (kOfTexture - shared_.value), 0.2, 1.0);
   }
@@ -345,8 +345,8 @@ class NoiseFit {
 NoiseFound Noise::finish() const {
   NoiseFound found;
   const auto give_up = [&](const std::string& why) {
-    for (Estimate* const estimate :
-         {&found.sd_dark, &found.sd_bright, &found.sd_chroma, &found.spread_px, &found.persistence})
+    for (Estimate* const estimate : {&found.sd_dark, &found.sd_bright, &found.sd_chroma, &found.correlation_length_px,
+                                     &found.temporal_correlation})
       if (!estimate->is_known && estimate->why.empty()) estimate->why = why;
     if (found.panels.empty()) found.panels.push_back({.title = "noise", .remark = "not known: " + why});
     return found;
@@ -358,18 +358,18 @@ NoiseFound Noise::finish() const {
   const NoiseFit fit(blocks_, black_, white_, pairs_ > 0);
   if (!fit.has_levels()) return give_up("no flat parts: all is textured");
   if (fit.is_without_noise()) return give_up("flat parts have no noise at all: a drawing, or the codec removed it");
-  Fitted spread = fit.spread_px();
+  Fitted spread = fit.correlation_length_px();
   const bool is_left_of_image = spread.value > kWidestSpread_px;
   if (is_left_of_image) spread = {0, 0};
   const NoiseLine line = fit.line(spread.value);
   found.sd_dark = sd_estimate(line.dark, line.dark_sd);
   found.sd_bright = sd_estimate(line.bright, line.bright_sd);
   if (is_left_of_image)
-    found.spread_px.why = "neighbours share nearly all: that is what is left of the image, not noise";
+    found.correlation_length_px.why = "neighbours share nearly all: that is what is left of the image, not noise";
   else if (found.sd_dark.value <= found.sd_dark.sd && found.sd_bright.value <= found.sd_bright.sd)
-    found.spread_px.why = "too little noise";
+    found.correlation_length_px.why = "too little noise";
   else
-    found.spread_px = {spread.value, spread.sd, true, ""};
+    found.correlation_length_px = {spread.value, spread.sd, true, ""};
   found.panels.push_back(fit.panel(line, spread.value));
   found.panels.back().remark =
       fmt::format("sd {:.2f} at black, {:.2f} at white; {} blocks{}", found.sd_dark.value, found.sd_bright.value,
@@ -382,15 +382,15 @@ NoiseFound Noise::finish() const {
                           : layout_ == PixelLayout::rgb ? "RGB footage has no chroma planes"
                                                         : "no flat parts in chroma";
   if (pairs_ == 0) {
-    found.persistence.why = "one frame alone";
-  } else if (fit.stands_still() && fit.persistence().value_or(Fitted{1, 0}).value > 0.3) {
-    found.persistence.why = "the camera stands still: fixed texture and lasting noise look the same";
+    found.temporal_correlation.why = "one frame alone";
+  } else if (fit.stands_still() && fit.temporal_correlation().value_or(Fitted{1, 0}).value > 0.3) {
+    found.temporal_correlation.why = "the camera stands still: fixed texture and lasting noise look the same";
   } else {
-    const std::optional<Fitted> persistence = fit.persistence();
-    if (persistence)
-      found.persistence = {persistence->value, persistence->sd, true, ""};
+    const std::optional<Fitted> temporal_correlation = fit.temporal_correlation();
+    if (temporal_correlation)
+      found.temporal_correlation = {temporal_correlation->value, temporal_correlation->sd, true, ""};
     else
-      found.persistence.why = "the codec repeats all flat parts from frame to frame";
+      found.temporal_correlation.why = "the codec repeats all flat parts from frame to frame";
   }
   return found;
 }

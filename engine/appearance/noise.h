@@ -15,8 +15,8 @@ struct NoiseFound {
   Estimate sd_dark;
   Estimate sd_bright;
   Estimate sd_chroma;
-  Estimate spread_px;
-  Estimate persistence;
+  Estimate correlation_length_px;
+  Estimate temporal_correlation;
   std::vector<Panel> panels;
 };
 
@@ -25,8 +25,8 @@ struct NoiseFound {
 // Among blocks of about the same brightness those with the least variance have no texture: their variance is that of
 // the noise, where many of them agree. Where they do not, because all is textured, the change from a frame to the next
 // is taken, if it is smaller. A change of zero says nothing of the noise (the codec repeated the block), but counts in
-// the persistence, which is how such noise looks. The variance of rounding to whole codes, 1/12, is subtracted:
-// compositing rounds as well.
+// the temporal_correlation, which is how such noise looks. The variance of rounding to whole codes, 1/12, is
+// subtracted: compositing rounds as well.
 class Noise {
  public:
   // Frames of one clip in order, all of the same layout and colours.

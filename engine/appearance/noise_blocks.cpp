@@ -12,7 +12,7 @@ namespace sigs {
 
 namespace {
 
-constexpr int kMostBlocks = 6000;  // of a frame
+constexpr int kMaxBlocks = 6000;  // of a frame
 
 template <int n>
 using Rest = std::array<float, n * n>;
@@ -94,7 +94,7 @@ std::vector<NoiseBlock> noise_blocks(const Frame& frame, const Frame* next) {
   const bool is_limited = frame.layout != PixelLayout::rgb && frame.color.range == ColorRange::limited;
   const bool has_chroma = frame.layout != PixelLayout::gray && frame.layout != PixelLayout::rgb;
   const int rows = luma.rows / n, columns = luma.cols / n;
-  const int every = std::max(1, rows * columns / kMostBlocks);
+  const int every = std::max(1, rows * columns / kMaxBlocks);
   std::vector<NoiseBlock> blocks;
   for (int i = 0; i < rows; i += every) {
     for (int j = 0; j < columns; ++j) {
@@ -120,8 +120,8 @@ std::vector<NoiseBlock> noise_blocks(const Frame& frame, const Frame* next) {
 }
 
 NoiseLine line_through(const std::vector<NoiseLevel>& levels, bool is_level) {
-  constexpr double kNarrow = 0.25;     // of the brightness
-  constexpr double kMostUnsure = 0.7;  // deviation of an end's variance, as a share of the mean of both
+  constexpr double kNarrow = 0.25;    // of the brightness
+  constexpr double kMaxUnsure = 0.7;  // deviation of an end's variance, as a share of the mean of both
   double low = 1, high = 0;
   for (const NoiseLevel& level : levels) {
     low = std::min(low, level.brightness);
@@ -167,14 +167,14 @@ NoiseLine line_through(const std::vector<NoiseLevel>& levels, bool is_level) {
     line.dark_sd = scatter * (line.is_level ? line.dark : std::sqrt(usual_weight * bb / determinant));
     line.bright_sd = scatter * (line.is_level ? line.bright : std::sqrt(usual_weight * aa / determinant));
   }
-  const double sure = kMostUnsure * (line.dark + line.bright) / 2 + 0.02;
+  const double sure = kMaxUnsure * (line.dark + line.bright) / 2 + 0.02;
   if (!line.is_level && std::max(line.dark_sd, line.bright_sd) > sure) return line_through(levels, true);
   return line;
 }
 
 double lasting_share(std::span<const NoiseBlock* const> blocks) {
-  constexpr double kOfTexture = 0.7;    // what neighbours share of smooth texture, the plane being subtracted
-  constexpr double kMostOfNoise = 0.4;  // noise of which they share more is too much like texture
+  constexpr double kOfTexture = 0.7;   // what neighbours share of smooth texture, the plane being subtracted
+  constexpr double kMaxOfNoise = 0.4;  // noise of which they share more is too much like texture
   constexpr double kOfRounding = 1.0 / 12;
   double variance = 0, change = 0, shared = 0, shared_change = 0;
   for (const NoiseBlock* const block : blocks) {
@@ -188,7 +188,7 @@ double lasting_share(std::span<const NoiseBlock* const> blocks) {
   const double noise_only = std::max(0.1 * change, change - kOfRounding * static_cast<double>(blocks.size()));
   const double of_noise = std::clamp(shared_change / noise_only, 0.0, 1.0);
   double lasting_noise = lasting;
-  if (of_noise < kMostOfNoise)
+  if (of_noise < kMaxOfNoise)
     lasting_noise *= std::clamp((kOfTexture - (shared - shared_change) / lasting) / (kOfTexture - of_noise), 0.0, 1.0);
   return lasting_noise / (lasting_noise + change);
 }
@@ -198,11 +198,13 @@ namespace {
 using Vector = std::vector<double>;
 
 // Correlation of neighbours `apart` samples from each other: the Gaussian's with itself.
-Vector correlations(double spread_px, int n) {
+Vector correlations(double correlation_length_px, int n) {
   constexpr int kKernelReach = 40;
   Vector kernel(2 * kKernelReach + 1);
   for (int k = -kKernelReach; k <= kKernelReach; ++k)
-    kernel[k + kKernelReach] = spread_px > 0 ? std::exp(-0.5 * k * k / (spread_px * spread_px)) : (k == 0 ? 1.0 : 0.0);
+    kernel[k + kKernelReach] = correlation_length_px > 0
+                                   ? std::exp(-0.5 * k * k / (correlation_length_px * correlation_length_px))
+                                   : (k == 0 ? 1.0 : 0.0);
   Vector found(n);
   for (int apart = 0; apart < n; ++apart)
     for (std::size_t k = 0; k + apart < kernel.size(); ++k) found[apart] += kernel[k] * kernel[k + apart];
@@ -242,8 +244,8 @@ Vector shifted(const Vector& row) {
 // With C the covariance of the block's noise, P the projection on the plane (P = sum of p p' over three orthonormal p),
 // Q = 1 - P and S the shift along rows, the expected sums are tr(Q C) and tr(S Q C Q). All but Q are products of a
 // matrix along rows and one along columns, so only rows of n numbers are multiplied.
-BlockRest block_rest(double spread_px, int n) {
-  const Vector correlation = correlations(spread_px, n);
+BlockRest block_rest(double correlation_length_px, int n) {
+  const Vector correlation = correlations(correlation_length_px, n);
   const Vector level(n, 1 / std::sqrt(static_cast<double>(n)));
   Vector slope(n);
   for (int i = 0; i < n; ++i) slope[i] = i - 0.5 * (n - 1);

@@ -67,8 +67,8 @@ struct BlockRest {
   double correlation = 0;  // sum of products of horizontal neighbours over n * (n - 1), expected
 };
 
-// spread_px: sigma of the Gaussian, 0 or more; n: width of the block, at most 32.
-[[nodiscard]] BlockRest block_rest(double spread_px, int n);
+// correlation_length_px: sigma of the Gaussian, 0 or more; n: width of the block, at most 32.
+[[nodiscard]] BlockRest block_rest(double correlation_length_px, int n);
 
 // The spread whose block_rest has this ratio of correlation to variance, 0 to 4.
 [[nodiscard]] double spread_of_ratio(double ratio, int n);

@@ -67,7 +67,7 @@ std::vector<EdgeSample> chroma_samples(const Frame& frame, const StraightEdge& e
 // The blur of chroma beyond that of luma, in samples of the chroma planes. Nothing where the fit has failed: chroma
 // that is sharper than luma or wider than the profile.
 //   luma_sigma_px  of the same edge
-std::optional<double> chroma_spread_px(const EdgeSample& chroma, double luma_sigma_px) {
+std::optional<double> chroma_blur_px(const EdgeSample& chroma, double luma_sigma_px) {
   constexpr double kWidest_px = 5;  // luma samples; wider ones do not end within the profile
   const Fitted sigma = fitted_sigma(chroma, {.sigma_px = 2});
   if (sigma.value > kWidest_px || sigma.sd > 0.3 * sigma.value + 0.2) return std::nullopt;
@@ -77,8 +77,8 @@ std::optional<double> chroma_spread_px(const EdgeSample& chroma, double luma_sig
 }
 
 constexpr int kEdgesAFrame = 24;
-constexpr std::size_t kMostEdges = 120;    // of which a sigma is fitted
-constexpr std::size_t kMostTogether = 30;  // fitted together
+constexpr std::size_t kMaxEdges = 120;    // of which a sigma is fitted
+constexpr std::size_t kMaxTogether = 30;  // fitted together
 constexpr int kFewestEdges = 24;
 constexpr int kFewestAgreeing = 8;
 constexpr double kLowQuantile = 0.1;
@@ -181,7 +181,7 @@ std::vector<const PointSpread::Edge*> PointSpread::counted_edges() const {
 PointSpread::SharpEnd PointSpread::sharp_end() const {
   const std::vector<const Edge*> counted = counted_edges();
   SharpEnd end{.edges_counted = counted.size()};
-  for (const Edge* const* const edge : thinned(counted, kMostEdges)) end.edges.push_back(*edge);
+  for (const Edge* const* const edge : thinned(counted, kMaxEdges)) end.edges.push_back(*edge);
   for (int round = 0; round < 2; ++round) {
     std::vector<double> values, errors;
     end.sigmas_px.clear();
@@ -205,7 +205,7 @@ PointSpread::SharpEnd PointSpread::sharp_end() const {
     }
     if (std::ssize(counted) < kFewestEdges || is_one_direction(end)) break;  // nothing but the edges' own sigmas counts
     std::vector<EdgeSample> together;
-    for (const Edge* const* const edge : thinned(end.agreeing, kMostTogether)) together.push_back((*edge)->luma);
+    for (const Edge* const* const edge : thinned(end.agreeing, kMaxTogether)) together.push_back((*edge)->luma);
     if (together.empty()) break;
     end.shape = best_shape(together, {.sigma_px = end.sigma_px.value});
   }
@@ -214,13 +214,13 @@ PointSpread::SharpEnd PointSpread::sharp_end() const {
 
 // A horizon or a road has many edges and yet is one object, whose own softness counts each time.
 bool PointSpread::is_one_direction(const SharpEnd& end) {
-  constexpr double kMostAlike = 0.9;  // length of the mean of unit vectors at twice the edges' angles
+  constexpr double kMaxAlike = 0.9;  // length of the mean of unit vectors at twice the edges' angles
   glm::dvec2 sum(0);
   for (const Edge* const edge : end.edges) {
     const glm::dvec2 n = edge->line.normal;
     sum += glm::dvec2(n.x * n.x - n.y * n.y, 2 * n.x * n.y);
   }
-  return glm::length(sum) > kMostAlike * static_cast<double>(end.edges.size());
+  return glm::length(sum) > kMaxAlike * static_cast<double>(end.edges.size());
 }
 
 std::string PointSpread::why_not(const SharpEnd& end) const {
@@ -247,7 +247,7 @@ void PointSpread::find_luma(PointSpreadFound& found, const SharpEnd& end) const 
   std::vector<double> sigmas, amounts, sizes;
   for (std::size_t part = 0; part < kParts; ++part) {
     std::vector<EdgeSample> rest;
-    const std::vector<const Edge* const*> together = thinned(end.agreeing, kMostTogether);
+    const std::vector<const Edge* const*> together = thinned(end.agreeing, kMaxTogether);
     for (std::size_t i = 0; i < together.size(); ++i)
       if (i % kParts != part) rest.push_back((*together[i])->luma);
     const EdgeShape shape = fitted_shape(rest, end.shape, end.shape.sharpening > 0).shape;
@@ -296,7 +296,7 @@ void PointSpread::find_luma(PointSpreadFound& found, const SharpEnd& end) const 
 
 void PointSpread::find_chroma(PointSpreadFound& found, const SharpEnd& end) const {
   constexpr int kFewest = 6;
-  Estimate& spread = found.chroma_spread_px;
+  Estimate& spread = found.chroma_blur_px;
   if (layout_ == PixelLayout::gray || layout_ == PixelLayout::rgb) {
     spread = {0, 0, false,
               layout_ == PixelLayout::gray ? "gray footage has no chroma" : "RGB footage has no chroma planes"};
@@ -306,7 +306,7 @@ void PointSpread::find_chroma(PointSpreadFound& found, const SharpEnd& end) cons
   PanelSeries points{.label = "measured", .is_points = true};
   for (std::size_t i = 0; i < end.edges.size(); ++i) {
     for (const EdgeSample& chroma : end.edges[i]->chroma) {
-      const std::optional<double> one = chroma_spread_px(chroma, end.sigmas_px[i].value);
+      const std::optional<double> one = chroma_blur_px(chroma, end.sigmas_px[i].value);
       if (!one) continue;
       spreads_px.push_back(*one);
       if (spreads_px.size() > 12) continue;
@@ -335,7 +335,7 @@ PointSpreadFound PointSpread::finish() const {
   PointSpreadFound found{.sigma_px = {.value = kDefaultPointSpread_px},
                          .sharpening = {.value = kDefaultSharpening},
                          .sharpening_px = {.value = kDefaultSharpening_px},
-                         .chroma_spread_px = {.value = is_jpeg ? kDefaultJpegChromaSpread_px : kDefaultChromaSpread_px},
+                         .chroma_blur_px = {.value = is_jpeg ? kDefaultJpegChromaBlur_px : kDefaultChromaBlur_px},
                          .edges_found = static_cast<int>(edges_.size())};
   const SharpEnd end = edges_.empty() ? SharpEnd{} : sharp_end();
   const std::string why = why_not(end);

@@ -15,19 +15,19 @@ namespace sigs {
 // the codec, which spreads it further: so inserted aircraft are like the real ones in the tuning clips of
 // bench/realism.
 inline constexpr double kDefaultPointSpread_px = 0.45;
-inline constexpr double kDefaultChromaSpread_px = 0.9;
+inline constexpr double kDefaultChromaBlur_px = 0.9;
 // Of JPEG images, which no other compression has gone before: a sensor sees red and blue in every second row and
 // column; read between linearly, these spread with a standard deviation of 2 px / sqrt(6), which is 0.4 samples of
 // 4:2:0.
-inline constexpr double kDefaultJpegChromaSpread_px = 0.4;
+inline constexpr double kDefaultJpegChromaBlur_px = 0.4;
 inline constexpr double kDefaultSharpening = 0.4;
 inline constexpr double kDefaultSharpening_px = 0.8;
 
 struct PointSpreadFound {
-  Estimate sigma_px;  // settings appearance.point_spread_px, .sharpening, .sharpening_px, .chroma_spread_px
+  Estimate sigma_px;  // settings appearance.psf_sigma_px, .sharpening, .sharpening_px, .chroma_blur_px
   Estimate sharpening;
   Estimate sharpening_px;
-  Estimate chroma_spread_px;  // samples of the chroma planes
+  Estimate chroma_blur_px;  // samples of the chroma planes
   int edges_found = 0;
   int edges_used = 0;  // the sharpest, on which the shape was fitted
   std::vector<Panel> panels;

@@ -54,19 +54,19 @@ Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footag
   const auto known = std::make_shared<KnownCamera>(
       KnownCamera{.scene = bare_scene(project, shape_of(footage)), .has_height = !height_is_guess});
   Scene& scene = known->scene;
-  const OrProblem<FrameRange> range = scene_range(project.footage, scene.footage);
+  const Result<FrameRange, Problem> range = scene_range(project.footage, scene.footage);
   if (!range) return failed(range.error());
   SceneFiles files;
   if (!project.footage.calibration.empty()) {
-    OrProblem<Camera> camera = scene_camera(project, footage.size_px, files);
+    Result<Camera, Problem> camera = scene_camera(project, footage.size_px, files);
     if (!camera) return failed(camera.error());
     scene.camera = *std::move(camera);
     known->has_calibration = true;
   }
-  OrProblem<CameraFlight> flight = camera_flight(project, scene.footage, *range, files);
+  Result<CameraFlight, Problem> flight = camera_flight(project, scene.footage, *range, files);
   if (!flight) return failed(flight.error());
-  take_camera_flight(scene, *std::move(flight));
-  const OrProblem<cv::Mat> own_body = scene_own_body(project, footage.size_px, files);
+  set_camera_motion(scene, *std::move(flight));
+  const Result<cv::Mat, Problem> own_body = scene_own_body(project, footage.size_px, files);
   if (!own_body) return failed(own_body.error());
   if (!own_body->empty()) own_body->convertTo(known->own_body, CV_8U, 255);
   for (const Warning& warning : scene.warnings) warn(warning);

@@ -11,10 +11,10 @@ namespace sigs {
 
 namespace {
 
-constexpr std::size_t kLeastSamples = 12;
-constexpr double kLeastExplained = 0.8;
-constexpr double kLeastSpread = 0.22;  // natural logarithm of the luminance, largest less least within a band
-constexpr double kLeastAzimuthSd_rad = 0.14, kLeastElevationSd_rad = 0.2;
+constexpr std::size_t kMinSamples = 12;
+constexpr double kMinExplained = 0.8;
+constexpr double kMinSpread = 0.22;  // natural logarithm of the luminance, largest less least within a band
+constexpr double kMinAzimuthSd_rad = 0.14, kMinElevationSd_rad = 0.2;
 constexpr int kCoarse_deg = 4;
 
 double angle_from_sun(const SkySample& s, double azimuth_rad, double elevation_rad) {
@@ -89,23 +89,23 @@ double clear_sky_indicatrix(double angle_rad) {
 }
 
 std::optional<SkySun> sun_of_sky(const std::vector<SkySample>& samples) {
-  if (samples.size() < kLeastSamples) return std::nullopt;
+  if (samples.size() < kMinSamples) return std::nullopt;
   if (std::all_of(samples.begin(), samples.end(), [&](const SkySample& s) { return s.band == samples[0].band; }))
     return std::nullopt;
   const double total = left_over(samples, [](const SkySample& s) { return std::log(s.luminance); });
   // A slope of this spread across a band has a twelfth of its square as variance.
-  const double least = static_cast<double>(samples.size()) * kLeastSpread * kLeastSpread / 12;
+  const double least = static_cast<double>(samples.size()) * kMinSpread * kMinSpread / 12;
   if (!(total > least)) return std::nullopt;
   const Best best = best_sun(samples);
-  if (best.cost > (1 - kLeastExplained) * total) return std::nullopt;
+  if (best.cost > (1 - kMinExplained) * total) return std::nullopt;
   // Neighbouring samples are alike: about four count as one.
   const double limit = best.cost * (1 + 4.0 / std::max(1.0, static_cast<double>(samples.size()) - 4)) + 1e-9;
   SkySun sun{.azimuth_rad = best.azimuth_rad, .elevation_rad = best.elevation_rad};
   sun.azimuth_sd_rad = reach([&](double d) { return misfit(samples, best.azimuth_rad + d, best.elevation_rad); }, limit,
-                             kLeastAzimuthSd_rad);
+                             kMinAzimuthSd_rad);
   sun.elevation_sd_rad =
       reach([&](double d) { return misfit(samples, best.azimuth_rad, std::clamp(best.elevation_rad + d, 0.0, 1.55)); },
-            limit, kLeastElevationSd_rad);
+            limit, kMinElevationSd_rad);
   return sun;
 }
 

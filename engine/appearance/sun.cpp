@@ -16,13 +16,13 @@ namespace {
 
 constexpr double kDefaultAzimuth_rad = 2.88, kDefaultElevation_rad = 0.436;  // 165 and 25 degrees
 constexpr int kGroundEvery = 2;
-constexpr int kLeastPatches = 10;
-constexpr double kLeastAgreement = 0.75;  // resultant of the doubled directions, 0 none to 1 all
-constexpr double kLeastSense = 0.5;       // majority of the votes for what casts the shadow, -1 to 1
-constexpr double kShadowSd_rad = 0.07;    // of the level, the lens, and of things that are not upright
-constexpr double kBlueRatio = 0.75;       // of red to blue: clear sky
-constexpr double kLeastBlueSky = 0.6;     // of the sky
-constexpr double kLeastSkyCells = 30;
+constexpr int kMinPatches = 10;
+constexpr double kMinAgreement = 0.75;  // resultant of the doubled directions, 0 none to 1 all
+constexpr double kMinSense = 0.5;       // majority of the votes for what casts the shadow, -1 to 1
+constexpr double kShadowSd_rad = 0.07;  // of the level, the lens, and of things that are not upright
+constexpr double kBlueRatio = 0.75;     // of red to blue: clear sky
+constexpr double kMinBlueSky = 0.6;     // of the sky
+constexpr double kMinSkyCells = 30;
 constexpr double kTurn_rad = 2 * std::numbers::pi;
 
 double between_half_turns(double angle_rad) {
@@ -48,15 +48,15 @@ glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad) {
           -std::sin(elevation_rad)};
 }
 
-std::string how_found(SunWitness witness) {
+std::string how_found(SunEvidence evidence) {
   switch (witness) {
-    case SunWitness::given:
+    case SunEvidence::given:
       return "by time and place";
-    case SunWitness::shadows:
+    case SunEvidence::shadows:
       return "by shadows on the ground";
-    case SunWitness::sky:
+    case SunEvidence::sky:
       return "by the sky's brightness";
-    case SunWitness::none:
+    case SunEvidence::none:
       break;
   }
   return "";
@@ -106,14 +106,14 @@ void Sun::set_by_shadows(SunEstimate& sun) const {
   }
   const double agreement = weight > 0 ? std::abs(sum) / weight : 0;
   const auto count = static_cast<double>(patches_.size());
-  if (count < kLeastPatches || agreement < kLeastAgreement) return;
+  if (count < kMinPatches || agreement < kMinAgreement) return;
   const double axis = 0.5 * std::arg(sum);
   double sense = 0, votes = 0;
   for (const Patch& p : patches_) {
     sense += std::cos(p.direction_rad - axis) > 0 ? p.sense : -p.sense;
     votes += std::abs(p.sense);
   }
-  if (votes < 0.25 * count || std::abs(sense) < kLeastSense * votes) return;
+  if (votes < 0.25 * count || std::abs(sense) < kMinSense * votes) return;
   const double away = sense > 0 ? axis : axis + std::numbers::pi;
   // Each patch's own deviation follows from the agreement (Mardia 1972, for doubled angles). The patches of a clip are
   // of the same few things, seen again.
@@ -121,16 +121,16 @@ void Sun::set_by_shadows(SunEstimate& sun) const {
   sun.azimuth_rad = {.value = between_half_turns(away + std::numbers::pi), .is_known = true};
   sun.azimuth_rad.sd = std::hypot(
       kShadowSd_rad, each / std::sqrt(std::max(1.0, count * kGroundEvery / std::max(kGroundEvery, with_level_))));
-  sun.witness = SunWitness::shadows;
+  sun.evidence = SunEvidence::shadows;
 }
 
 void Sun::set_by_sky(SunEstimate& sun) const {
-  if (blue_cells_ < kLeastBlueSky * sky_cells_) return;
+  if (blue_cells_ < kMinBlueSky * sky_cells_) return;
   std::vector<SkySample> samples;
   for (std::size_t band = 0; band < kElevations; ++band)
     for (std::size_t i = 0; i < kAzimuths; ++i) {
       const SkyBin& bin = sky_[band][i];
-      if (bin.count < kLeastSkyCells || bin.sum <= 0) continue;
+      if (bin.count < kMinSkyCells || bin.sum <= 0) continue;
       const auto middle = [](std::size_t k, double step) { return (static_cast<double>(k) + 0.5) * step; };
       samples.push_back({.azimuth_rad = middle(i, kTurn_rad / kAzimuths),
                          .elevation_rad = rad_of_deg(5) + middle(band, rad_of_deg(5)),
@@ -141,9 +141,9 @@ void Sun::set_by_sky(SunEstimate& sun) const {
   const std::optional<SkySun> found = sun_of_sky(samples);
   if (!found) return;
   sun.elevation_rad = {.value = found->elevation_rad, .sd = found->elevation_sd_rad, .is_known = true};
-  if (sun.witness == SunWitness::shadows) return;
+  if (sun.evidence == SunEvidence::shadows) return;
   sun.azimuth_rad = {.value = between_half_turns(found->azimuth_rad), .sd = found->azimuth_sd_rad, .is_known = true};
-  sun.witness = SunWitness::sky;
+  sun.evidence = SunEvidence::sky;
 }
 
 namespace {
@@ -155,7 +155,7 @@ SunEstimate by_time_and_place(const GivenSun& given) {
   const glm::dvec3 to_sun = glm::normalize(given.to_sun_in_world);
   return {.azimuth_rad = {std::atan2(to_sun.y, to_sun.x), sd_with(given.azimuth_range_rad), true, ""},
           .elevation_rad = {std::asin(std::clamp(-to_sun.z, -1.0, 1.0)), sd_with(given.elevation_range_rad), true, ""},
-          .witness = SunWitness::given};
+          .evidence = SunEvidence::given};
 }
 
 }  // namespace
@@ -179,7 +179,7 @@ SunEstimate Sun::finish(const std::optional<GivenSun>& given) const {
 }
 
 void apply(const SunEstimate& sun, LightSettings& settings) {
-  if (sun.witness == SunWitness::given) return;
+  if (sun.evidence == SunEvidence::given) return;
   settings.sun.azimuth_deg = deg_of_rad(sun.azimuth_rad.value);
   settings.sun.elevation_deg = deg_of_rad(sun.elevation_rad.value);
 }
@@ -188,15 +188,15 @@ namespace {
 
 // Lengths on the ground are in parts of the camera's height above it.
 constexpr double kNearest = 0.55, kFarthest = 2.25, kHalfWidth = 1.5;
-constexpr double kLeastCell = 0.0032;
+constexpr double kMinCell = 0.0032;
 constexpr double kPixelsPerCell = 1.6;  // at the image's middle, seen squarely
 constexpr int kMiddle_cells = 41;       // window of the median that is the ground's own brightness
 constexpr double kShadowDark = 0.76;    // of that, as displayed: a shadow has half of the light or less
 constexpr int kNode = 8;                // cells
-constexpr int kLeastArea = 14;          // cells
-constexpr double kLeastRatio = 1.7;     // of length to width
+constexpr int kMinArea = 14;            // cells
+constexpr double kMinRatio = 1.7;       // of length to width
 constexpr double kLongest_cells = 60;
-constexpr double kLeastEnd = 0.06;  // by which the brightness beyond an end differs from the ground's
+constexpr double kMinEnd = 0.06;  // by which the brightness beyond an end differs from the ground's
 
 // The ground laid flat: rows ahead (farther ones lower in the matrix), columns to the right. 0 where nothing is seen.
 struct FlatGround {
@@ -227,7 +227,7 @@ FlatGround flat_ground(const cv::Mat& luma, const Camera& camera, const glm::dqu
   const glm::dvec3 axis = world_from_camera * glm::dvec3(1, 0, 0);
   ground.heading_rad = std::atan2(axis.y, axis.x);
   const double pixel_rad = 1 / std::max(camera.lens.pixels_per_radian({1, 0, 0}), 1.0);
-  const double cell = std::max(kLeastCell, kPixelsPerCell * pixel_rad);
+  const double cell = std::max(kMinCell, kPixelsPerCell * pixel_rad);
   const cv::Size size(static_cast<int>(2 * kHalfWidth / cell), static_cast<int>((kFarthest - kNearest) / cell));
   if (size.width < kMiddle_cells || size.height < kMiddle_cells) return ground;
   const glm::dquat camera_from_level =
@@ -270,7 +270,7 @@ double sense_of(const FlatGround& ground, const cv::Mat_<uchar>& middle, const S
   const double dx = reach * std::cos(shape.angle_rad), dy = reach * std::sin(shape.angle_rad);
   const double begin = std::abs(brightness_at(ground, middle, shape.x - dx, shape.y - dy) - 1);
   const double end = std::abs(brightness_at(ground, middle, shape.x + dx, shape.y + dy) - 1);
-  if (std::max(begin, end) < kLeastEnd || std::max(begin, end) < 2 * std::min(begin, end)) return 0;
+  if (std::max(begin, end) < kMinEnd || std::max(begin, end) < 2 * std::min(begin, end)) return 0;
   return begin > end ? 1 : -1;
 }
 
@@ -293,9 +293,9 @@ std::vector<Sun::Patch> shadow_patches(const cv::Mat& luma, const Camera& camera
     const int area = boxes.at<int>(i, cv::CC_STAT_AREA);
     const cv::Rect box(boxes.at<int>(i, cv::CC_STAT_LEFT), boxes.at<int>(i, cv::CC_STAT_TOP),
                        boxes.at<int>(i, cv::CC_STAT_WIDTH), boxes.at<int>(i, cv::CC_STAT_HEIGHT));
-    if (area < kLeastArea || std::max(box.width, box.height) > kLongest_cells) continue;
+    if (area < kMinArea || std::max(box.width, box.height) > kLongest_cells) continue;
     const Shape shape = shape_of(labels(box) == i, box);
-    if (shape.ratio < kLeastRatio) continue;
+    if (shape.ratio < kMinRatio) continue;
     // From columns (right) and rows (ahead) to world X and the right of it.
     const double direction = ground.heading_rad + std::numbers::pi / 2 - shape.angle_rad;
     patches.push_back({direction, std::sqrt(static_cast<double>(area)), sense_of(ground, middle, shape)});

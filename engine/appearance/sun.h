@@ -16,13 +16,13 @@
 
 namespace sigs {
 
-enum class SunWitness { none, given, shadows, sky };
+enum class SunEvidence { none, given, shadows, sky };
 
 // Where the sun is, rad. Azimuth from world X to the right, elevation above the horizon (SunSettings, in rad).
 struct SunEstimate {
-  Estimate azimuth_rad;                   // not known: behind the camera: what people point a camera at is lit
-  Estimate elevation_rad;                 // not known: 25 degrees
-  SunWitness witness = SunWitness::none;  // of the azimuth
+  Estimate azimuth_rad;                      // not known: behind the camera: what people point a camera at is lit
+  Estimate elevation_rad;                    // not known: 25 degrees
+  SunEvidence evidence = SunEvidence::none;  // of the azimuth
 };
 
 // Where the sun is by time and place. While the footage is taken it moves by the two ranges.
@@ -33,7 +33,7 @@ struct GivenSun {
 };
 
 // By what an azimuth of this witness was found, for people: "by time and place". Empty for none.
-[[nodiscard]] std::string how_found(SunWitness witness);
+[[nodiscard]] std::string how_found(SunEvidence evidence);
 
 // The unit vector towards the sun, world axes (Z down).
 [[nodiscard]] glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad);

@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kRingFrom_px = 2.5, kRingTo_px = 9;  // beyond the overshoot; a 4x4 or 8x8 transform reaches so far
 constexpr double kFarFrom_px = 14;                    // beyond what a macroblock of 16x16 reaches from most edges
-constexpr int kLeastLookPixels = 8;
-constexpr std::size_t kLeastFrames = 5;
+constexpr int kMinLookPixels = 8;
+constexpr std::size_t kMinFrames = 5;
 
 // Mean absolute response of Immerkaer's operator as the standard deviation of white noise (J. Immerkaer, "Fast noise
 // variance estimation", CVIU 64(2), 1996). Planes and straight edges along the axes give nothing.
 std::optional<double> noise_over(const cv::Mat& plane, const cv::Mat& where) {
-  if (cv::countNonZero(where) < kLeastLookPixels) return std::nullopt;
+  if (cv::countNonZero(where) < kMinLookPixels) return std::nullopt;
   const cv::Matx33f kernel(1, -2, 1, -2, 4, -2, 1, -2, 1);
   cv::Mat response;
   cv::filter2D(plane, response, CV_32F, kernel);
@@ -31,7 +31,7 @@ std::optional<double> noise_over(const cv::Mat& plane, const cv::Mat& where) {
 }
 
 std::optional<double> sd_over(const cv::Mat& plane, const cv::Mat& where) {
-  if (cv::countNonZero(where) < kLeastLookPixels) return std::nullopt;
+  if (cv::countNonZero(where) < kMinLookPixels) return std::nullopt;
   cv::Scalar mean, sd;
   cv::meanStdDev(plane, mean, sd, where);
   return sd[0];
@@ -73,7 +73,7 @@ double percentile(const std::vector<float>& sorted, double percent) {
 cv::Mat interior_of(const cv::Mat& mask) {
   cv::Mat inner;
   cv::erode(mask, inner, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
-  return cv::countNonZero(inner) >= kLeastLookPixels ? inner : mask;
+  return cv::countNonZero(inner) >= kMinLookPixels ? inner : mask;
 }
 
 void add_grain(TargetLook& look, const TargetSilhouette& target, const cv::Mat& far) {
@@ -126,7 +126,7 @@ std::optional<double> block_steps(const TargetSilhouette& target, const cv::Mat&
       ++counts[column];
       ++counts[row];
     }
-  if (counts[0] < kLeastLookPixels || counts[1] < kLeastLookPixels) return std::nullopt;
+  if (counts[0] < kMinLookPixels || counts[1] < kMinLookPixels) return std::nullopt;
   return sums[1] / counts[1] - sums[0] / counts[0];
 }
 
@@ -221,7 +221,7 @@ std::optional<TargetLook> target_look(const Frame& frame, const Box& box) {
 }
 
 void add_flicker(TargetLook& look, std::span<const TargetLook> successive) {
-  if (successive.size() < kLeastFrames) return;
+  if (successive.size() < kMinFrames) return;
   const auto roughness_of = [&](const std::function<double(const TargetLook&)>& value) {
     std::vector<double> course;
     for (const TargetLook& one : successive) course.push_back(value(one));

@@ -15,12 +15,12 @@ namespace sigs {
 namespace {
 
 constexpr double kThreshold_sd = 4.5;
-constexpr double kLeastThreshold = 5;  // code values: below it, blocks of the codec would be taken for the target
-constexpr double kLeastSd = 0.5;       // rounding to 8 bits alone gives 0.29
+constexpr double kMinThreshold = 5;  // code values: below it, blocks of the codec would be taken for the target
+constexpr double kMinSd = 0.5;       // rounding to 8 bits alone gives 0.29
 constexpr int kMinPixels = 12;
-constexpr int kLeastMargin_px = 22;   // as far as the codec's macroblock at the target's edge reaches, and some more
-constexpr double kLeastSpeck = 0.03;  // of the largest piece's area
-constexpr std::size_t kMostSamples = 5000;  // of the background; more change the surface by less than its deviation
+constexpr int kMinMargin_px = 22;   // as far as the codec's macroblock at the target's edge reaches, and some more
+constexpr double kMinSpeck = 0.03;  // of the largest piece's area
+constexpr std::size_t kMaxSamples = 5000;  // of the background; more change the surface by less than its deviation
 constexpr int kRefits = 4;
 constexpr double kOutlier_sd = 2.5;
 
@@ -50,10 +50,10 @@ struct Sample {
   double value = 0;
 };
 
-// Pixels under a mask, on a grid that leaves some kMostSamples of them.
+// Pixels under a mask, on a grid that leaves some kMaxSamples of them.
 std::vector<Sample> samples_of(const cv::Mat& plane, const cv::Mat& around) {
   // An odd step, which meets both kinds of pixels of a pattern that alternates.
-  const int every = static_cast<int>(std::sqrt(plane.total() / kMostSamples)) / 2 * 2 + 1;
+  const int every = static_cast<int>(std::sqrt(plane.total() / kMaxSamples)) / 2 * 2 + 1;
   std::vector<Sample> samples;
   for (int y = 0; y < plane.rows; y += every)
     for (int x = 0; x < plane.cols; x += every)
@@ -65,7 +65,7 @@ std::vector<Sample> samples_of(const cv::Mat& plane, const cv::Mat& around) {
 Surface surface_through(const cv::Mat& plane, const cv::Mat& around) {
   const std::vector<Sample> samples = samples_of(plane, around);
   Terms found = Terms::zeros();
-  double limit = std::numeric_limits<double>::infinity(), sd = kLeastSd;
+  double limit = std::numeric_limits<double>::infinity(), sd = kMinSd;
   for (int fit = 0; fit < kRefits; ++fit) {
     auto normal = 1e-6 * cv::Matx<double, 6, 6>::eye();  // too few samples: the least surface
     Terms right = Terms::zeros();
@@ -77,7 +77,7 @@ Surface surface_through(const cv::Mat& plane, const cv::Mat& around) {
     found = normal.solve(right, cv::DECOMP_CHOLESKY);
     std::vector<double> off;
     for (const Sample& sample : samples) off.push_back(std::abs(sample.value - found.dot(sample.terms)));
-    sd = std::max(kLeastSd, 1.4826 * median_of(off));  // of a Gaussian
+    sd = std::max(kMinSd, 1.4826 * median_of(off));  // of a Gaussian
     limit = kOutlier_sd * sd;
   }
   Surface surface{.values = cv::Mat(plane.size(), CV_32FC1), .sd = sd};
@@ -138,7 +138,7 @@ Pieces pieces_of(const cv::Mat& mask, const cv::Rect& inner) {
     const cv::Rect piece(statistics.at<int>(i, cv::CC_STAT_LEFT), statistics.at<int>(i, cv::CC_STAT_TOP),
                          statistics.at<int>(i, cv::CC_STAT_WIDTH), statistics.at<int>(i, cv::CC_STAT_HEIGHT));
     if (i == largest) pieces.is_cut = is_on_edge(piece, inner);
-    if (i != largest && (area_of(i) < 3 || area_of(i) < kLeastSpeck * area_of(largest) || is_on_edge(piece, inner)))
+    if (i != largest && (area_of(i) < 3 || area_of(i) < kMinSpeck * area_of(largest) || is_on_edge(piece, inner)))
       continue;
     pieces.mask.setTo(255, labels == i);
   }
@@ -148,7 +148,7 @@ Pieces pieces_of(const cv::Mat& mask, const cv::Rect& inner) {
 // The target within `inner`, a rectangle of the image.
 std::optional<TargetSilhouette> silhouette_in(const Frame& frame, const cv::Rect& inner) {
   const cv::Rect image({0, 0}, frame.size_px());
-  const int margin_px = std::max(kLeastMargin_px, std::max(inner.width, inner.height) * 35 / 100);
+  const int margin_px = std::max(kMinMargin_px, std::max(inner.width, inner.height) * 35 / 100);
   const cv::Rect wanted(inner.x - margin_px, inner.y - margin_px, inner.width + 2 * margin_px,
                         inner.height + 2 * margin_px);
   TargetSilhouette found{.patch = wanted & image};
@@ -161,7 +161,7 @@ std::optional<TargetSilhouette> silhouette_in(const Frame& frame, const cv::Rect
   found.difference = planes[0] - luma.values;
   found.background_sd = luma.sd;
   cv::Mat differs = cv::Mat::zeros(found.patch.size(), CV_8UC1);
-  const cv::Mat inside = cv::abs(found.difference(inner_in_patch)) > std::max(kLeastThreshold, kThreshold_sd * luma.sd);
+  const cv::Mat inside = cv::abs(found.difference(inner_in_patch)) > std::max(kMinThreshold, kThreshold_sd * luma.sd);
   inside.copyTo(differs(inner_in_patch));
   const Pieces pieces = pieces_of(differs, inner_in_patch);
   found.mask = pieces.mask;
@@ -204,12 +204,12 @@ constexpr double kProfileReach_px = 6;
 constexpr int kStepsPerPixel = 4;
 constexpr int kSteps = static_cast<int>(2 * kProfileReach_px) * kStepsPerPixel + 1;
 constexpr int kMiddle = kSteps / 2;
-constexpr double kLeastContrast = 12;  // code values
-constexpr double kLeastContrast_sd = 6;
-constexpr double kLeastChromaContrast = 4;
-constexpr std::size_t kLeastProfiles = 6;
-constexpr std::size_t kMostProfiles = 400;  // more do not change a median
-constexpr double kFall = 0.9;               // of an extremum: below it, the extremum has been passed
+constexpr double kMinContrast = 12;  // code values
+constexpr double kMinContrast_sd = 6;
+constexpr double kMinChromaContrast = 4;
+constexpr std::size_t kMinProfiles = 6;
+constexpr std::size_t kMaxProfiles = 400;  // more do not change a median
+constexpr double kFall = 0.9;              // of an extremum: below it, the extremum has been passed
 
 using Profile = std::array<float, kSteps>;  // from the inside to the outside
 
@@ -228,7 +228,7 @@ std::vector<Normal> normals_of(const cv::Mat& mask) {
   cv::Sobel(soft, across_y, CV_32F, 0, 1);
   std::vector<cv::Point> outline;
   cv::findNonZero(mask - inner, outline);
-  const std::size_t every = outline.size() / kMostProfiles + 1;
+  const std::size_t every = outline.size() / kMaxProfiles + 1;
   std::vector<Normal> normals;
   for (std::size_t i = 0; i < outline.size(); i += every) {
     const cv::Point2f inward(across_x.at<float>(outline[i]), across_y.at<float>(outline[i]));
@@ -268,14 +268,14 @@ struct Edge {
 };
 
 // The falling edge of a profile that is positive inside.
-std::optional<Edge> falling_edge(const Profile& profile, double least_contrast) {
+std::optional<Edge> falling_edge(const Profile& profile, double min_contrast) {
   int top = std::min(kMiddle + 2 * kStepsPerPixel, kSteps - 1);  // inwards over the first extremum
   for (int j = top; j >= 0; --j) {
     if (profile[static_cast<std::size_t>(j)] > profile[static_cast<std::size_t>(top)]) top = j;
     if (j < kMiddle && profile[static_cast<std::size_t>(j)] < kFall * profile[static_cast<std::size_t>(top)]) break;
   }
   const float contrast = profile[static_cast<std::size_t>(top)];
-  if (contrast < least_contrast) return std::nullopt;
+  if (contrast < min_contrast) return std::nullopt;
   const auto upper = crossing(profile, top, 0.9F * contrast), half = crossing(profile, top, 0.5F * contrast),
              lower = crossing(profile, top, 0.1F * contrast);
   if (!upper || !half || !lower) return std::nullopt;
@@ -339,10 +339,10 @@ std::optional<double> chroma_width(const TargetSilhouette& target, const std::ve
     Profile profile;
     for (int j = 0; j < kSteps; ++j)
       profile[static_cast<std::size_t>(j)] = (cb.at<float>(i, j) * inside.x + cr.at<float>(i, j) * inside.y) / length;
-    if (const auto edge = falling_edge(profile, std::max(kLeastChromaContrast, kLeastContrast_sd * target.chroma_sd)))
+    if (const auto edge = falling_edge(profile, std::max(kMinChromaContrast, kMinContrast_sd * target.chroma_sd)))
       widths.push_back(edge->width_px);
   }
-  if (widths.size() < kLeastProfiles) return std::nullopt;
+  if (widths.size() < kMinProfiles) return std::nullopt;
   return quantile_of_profile(widths, 0.5);
 }
 
@@ -356,13 +356,13 @@ EdgeProfiles edge_profiles(const TargetSilhouette& target) {
   std::vector<Edge> edges;
   for (int i = 0; i < values.rows; ++i) {
     const Profile profile = upright(profile_at(values, i));
-    const auto edge = falling_edge(profile, std::max(kLeastContrast, kLeastContrast_sd * target.background_sd));
+    const auto edge = falling_edge(profile, std::max(kMinContrast, kMinContrast_sd * target.background_sd));
     if (!edge) continue;
     profiles.push_back(profile);
     edges.push_back(*edge);
   }
   EdgeProfiles found{.count = static_cast<int>(edges.size()), .chroma_width_px = chroma_width(target, normals)};
-  if (edges.size() < kLeastProfiles) return found;
+  if (edges.size() < kMinProfiles) return found;
   std::vector<double> widths, slopes;
   for (const Edge& edge : edges) {
     widths.push_back(edge.width_px);

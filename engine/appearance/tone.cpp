@@ -14,7 +14,7 @@ constexpr double kShadow = 0.05;        // of white: darker things are shadows
 constexpr double kClippedTone = 0.985;  // of luma
 constexpr double kNoColor = 4.0 / 255;  // of R', G', B' from each other: 2 codes of chroma
 constexpr double kFewColored = 0.001;   // share of the cells that noise may colour
-constexpr double kLeastClouds = 0.02;   // of the sky
+constexpr double kMinClouds = 0.02;     // of the sky
 constexpr double kNeutral = 0.25;
 
 std::size_t level_of(float luma) {
@@ -83,7 +83,7 @@ void Tone::set_tint(ToneEstimate& tone) const {
     sum += neutral_[i];
     count += neutral_count_[i];
   }
-  if (count < kLeastClouds * sky || count <= 0 || luminance(sum) <= 0) return;
+  if (count < kMinClouds * sky || count <= 0 || luminance(sum) <= 0) return;
   const glm::dvec3 tint = sum / luminance(sum);
   for (int k = 0; k < 3; ++k) tone.tint[static_cast<std::size_t>(k)] = {.value = tint[k], .sd = 0.05, .is_known = true};
 }

@@ -78,7 +78,7 @@ Result<void> check_kept(const fs::path& output, const std::vector<fs::path>& inp
 
 }  // namespace
 
-std::string wrong_with_file_name(const std::string& name) {
+std::string file_name_error(const std::string& name) {
   constexpr std::size_t kMax = 200;  // bytes
   if (name.empty()) return "is empty; it becomes a file's name";
   if (name.size() > kMax) return "is longer than 200 bytes; it becomes a file's name";

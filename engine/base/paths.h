@@ -15,7 +15,7 @@ namespace sigs {
 // Says why a text cannot be the name of a file or folder; empty where it can. The name must have 1 to 200 bytes
 // (extensions are appended to it, and file systems allow 255), no slash, no control character and no dot at its
 // beginning.
-[[nodiscard]] std::string wrong_with_file_name(const std::string& name);
+[[nodiscard]] std::string file_name_error(const std::string& name);
 
 // The extension with its dot, letters A to Z in lower case: ".png" for "A.PNG"; empty where there is none.
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);

@@ -10,7 +10,7 @@ namespace sigs {
 
 namespace {
 
-constexpr std::size_t kMostInGroup = 12;
+constexpr std::size_t kMaxInGroup = 12;
 
 struct Extent {
   glm::vec3 low, high;
@@ -58,7 +58,7 @@ PointTree point_tree_of(std::vector<glm::vec3> points_m) {
     const std::span<glm::vec3> points(tree.points_m.data() + first, count);
     const Extent extent = extent_of(points);
     tree.groups[i] = group_of(points, extent, first);
-    if (count <= kMostInGroup) continue;
+    if (count <= kMaxInGroup) continue;
     sort_halves(points, extent);
     tree.groups[i].halves = tree.groups.size();
     tree.groups.push_back({.first = first, .count = count / 2});

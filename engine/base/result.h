@@ -42,8 +42,8 @@ struct Warning {
 };
 
 // A value, or the error that prevented it. Functions that can fail for reasons outside the program return it.
-template <class T>
-using Result = tl::expected<T, Error>;
+template <class T, class E = Error>
+using Result = tl::expected<T, E>;
 
 // The failure to return: return fail("gopro.xml: camera_matrix", "expected 9 numbers, found 8");
 [[nodiscard]] inline tl::unexpected<Error> fail(std::string where, std::string what,

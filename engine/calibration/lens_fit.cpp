@@ -210,13 +210,13 @@ FreeIntrinsics none_free(FitModel model) {
 
 LensFit refined(std::span<const FitView> views, LensFit start, const FreeIntrinsics& free, const FitLimits& limits) {
   constexpr double kConverged = 1e-10;  // relative gain of a step
-  constexpr double kMostDamping = 1e10;
+  constexpr double kMaxDamping = 1e10;
   start.cost = cost_of(views, start, limits.huber_px);
   double lambda = 1e-3;
-  for (int i = 0; i < limits.iterations && lambda < kMostDamping && std::isfinite(start.cost); ++i) {
+  for (int i = 0; i < limits.iterations && lambda < kMaxDamping && std::isfinite(start.cost); ++i) {
     const std::vector<ViewEquations> equations = all_equations(views, start, free, limits.huber_px);
     double gain = -1;
-    for (; gain < 0 && lambda < kMostDamping; lambda *= 10) {
+    for (; gain < 0 && lambda < kMaxDamping; lambda *= 10) {
       LensFit next = stepped(start, equations, free, lambda);
       next.cost = is_sane(next) ? cost_of(views, next, limits.huber_px) : kInfinity;
       if (!(next.cost <= start.cost)) continue;

@@ -9,7 +9,7 @@ namespace sigs {
 
 namespace {
 
-constexpr int kVariables = 3 + kMostIntrinsics;  // of the point, of the lens
+constexpr int kVariables = 3 + kMaxIntrinsics;  // of the point, of the lens
 
 // A number with its derivatives by all variables (forward differentiation).
 struct Jet {
@@ -153,7 +153,7 @@ LensParameters lens_of(FitModel model, const Intrinsics& intrinsics) {
 
 std::optional<ProjectedPoint> projected(FitModel model, const Intrinsics& intrinsics,
                                         const Eigen::Vector3d& p_in_optical) {
-  std::array<Jet, kMostIntrinsics> lens;
+  std::array<Jet, kMaxIntrinsics> lens;
   const int count = intrinsic_count(model);
   for (int i = 0; i < count; ++i) lens[i] = Jet::variable(intrinsics[i], 3 + i);
   std::array<Jet, 3> point;
@@ -163,7 +163,7 @@ std::optional<ProjectedPoint> projected(FitModel model, const Intrinsics& intrin
   ProjectedPoint result;
   result.at_px = {at->x.value, at->y.value};
   result.by_point << at->x.by.head<3>().transpose(), at->y.by.head<3>().transpose();
-  result.by_intrinsics << at->x.by.tail<kMostIntrinsics>().transpose(), at->y.by.tail<kMostIntrinsics>().transpose();
+  result.by_intrinsics << at->x.by.tail<kMaxIntrinsics>().transpose(), at->y.by.tail<kMaxIntrinsics>().transpose();
   if (!result.at_px.allFinite() || !result.by_point.allFinite() || !result.by_intrinsics.allFinite())
     return std::nullopt;
   return result;

@@ -27,7 +27,7 @@ enum class FitModel {
 // Number of intrinsics with fx fy cx cy: 4, 9, 8, 12.
 [[nodiscard]] int intrinsic_count(FitModel model);
 
-constexpr int kMostIntrinsics = 12;
+constexpr int kMaxIntrinsics = 12;
 
 // fx fy cx cy, then the coefficients in OpenCV's order.
 using Intrinsics = Eigen::VectorXd;
@@ -38,7 +38,7 @@ using Intrinsics = Eigen::VectorXd;
 struct ProjectedPoint {
   Eigen::Vector2d at_px;
   Eigen::Matrix<double, 2, 3> by_point;
-  Eigen::Matrix<double, 2, kMostIntrinsics> by_intrinsics;  // columns beyond intrinsic_count() are 0
+  Eigen::Matrix<double, 2, kMaxIntrinsics> by_intrinsics;  // columns beyond intrinsic_count() are 0
 };
 
 // The pixel of a point by the model's formula (OpenCV's projectPoints and fisheye::projectPoints), also beyond the

@@ -25,8 +25,8 @@ constexpr double kLargestError = 2.5;    // of that
 constexpr double kSmallError_px = 0.1;   // no view below is left out
 constexpr double kCornerDeviations = 5;
 constexpr double kSmallResidual_px = 0.3;  // no corner below is left out
-constexpr double kMostCornersLeftOut = 0.25;
-constexpr int kMostRounds = 8;
+constexpr double kMaxCornersLeftOut = 0.25;
+constexpr int kMaxRounds = 8;
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return kNoError;
@@ -146,7 +146,7 @@ Agreement agreement_of(const LensFit& fit, std::span<const FitView> views) {
   }
   const double most_px = std::max(kSmallError_px, kLargestError * quantile(agreement.error_px, kReferenceShare));
   for (std::size_t v = 0; v < views.size(); ++v)
-    agreement.view.push_back(agreement.error_px[v] <= most_px && left_out[v] <= kMostCornersLeftOut);
+    agreement.view.push_back(agreement.error_px[v] <= most_px && left_out[v] <= kMaxCornersLeftOut);
   return agreement;
 }
 
@@ -248,7 +248,7 @@ std::optional<RobustFit> robust_fit(FitModel model, std::span<const FitView> vie
   fit.intrinsics = converted(start, model, largest_angle_rad(start, views));
   refine_poses(fit, views);
   Agreement agreement = agreement_of(fit, views);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     if (agreement.view_count() < kFewest) return std::nullopt;
     fit = fitted(std::move(fit), views, agreement);
     if (!std::isfinite(fit.cost)) return std::nullopt;

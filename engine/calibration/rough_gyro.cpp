@@ -20,15 +20,15 @@ namespace {
 
 constexpr double kFirstFocal = 0.8;  // of the image's width
 constexpr int kFirstRounds = 4;
-constexpr double kLeastCorrelation = 0.85;
+constexpr double kMinCorrelation = 0.85;
 constexpr double kSpan_s = 0.2;  // from the middle frame to either side
 constexpr int kMiddles = 240;    // frames from which features are followed
 constexpr int kParts = 12;
-constexpr int kLeastFeatures = 20;
+constexpr int kMinFeatures = 20;
 constexpr std::size_t kFeaturesEach = 60;
 constexpr int kRounds = 8;
-constexpr double kLeastScale_px = 0.05;
-constexpr double kLeastRelative = 0.008;  // the scale of cheap gyroscopes
+constexpr double kMinScale_px = 0.05;
+constexpr double kMinRelative = 0.008;  // the scale of cheap gyroscopes
 constexpr double kStabilized_rad = 0.0017;
 constexpr int kUnknowns = 6;  // ln focal, distortion, offset, turn of the gyroscope's axes
 
@@ -178,7 +178,7 @@ class GyroFit {
       misses.push_back(miss(lens, solution.values, t));
       if (misses.back()) lengths.push_back(misses.back()->norm());
     }
-    const double scale = scale_of(lengths, kLeastScale_px);
+    const double scale = scale_of(lengths, kMinScale_px);
     solution.residual_px = scale;
     solution.parts.assign(kParts, {Eigen::MatrixXd::Zero(kUnknowns, kUnknowns), Eigen::VectorXd::Zero(kUnknowns)});
     for (std::size_t i = 0; i < triples_.size(); ++i) {
@@ -258,7 +258,7 @@ GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const Disto
     found.offset_s = offset->offset_s;
     found.offset_sd_s = offset->offset_sd_s;
     found.correlation = offset->correlation;
-    if (offset->correlation < kLeastCorrelation)
+    if (offset->correlation < kMinCorrelation)
       return refused(found, fmt::format("the images do not follow the gyroscope (correlation {:.2f}): stabilised, on a "
                                         "gimbal, another flight, or hardly a turn",
                                         offset->correlation));
@@ -266,12 +266,12 @@ GyroAnswer lens_by_gyro(const PixelTracks& tracks, const Track& log, const Disto
     if (std::abs(offset->slope - 1) < 0.03) break;
   }
   const GyroFit fit(tracks, rates, *offset, gyro_alignment(turns, rates, *offset), log.readout_s.value_or(0), prior);
-  if (fit.triples() < kLeastFeatures * kParts) return refused(found, "too few features can be followed");
+  if (fit.triples() < kMinFeatures * kParts) return refused(found, "too few features can be followed");
   const GyroFit::Solution solution = fit.solved(lens.focal_px, cancel);
   if (!solution.values.allFinite()) return refused(found, "the fit to the gyroscope does not converge");
   found.offset_s += solution.values(2);
   found.answer.fit = fit_of([&fit](const Eigen::VectorXd& u) { return fit.lens_of(u); }, solution.values,
-                            clustered_covariance(solution.parts, fit.known()), kParts, kLeastRelative);
+                            clustered_covariance(solution.parts, fit.known()), kParts, kMinRelative);
   found.answer.fit->residual_px = solution.residual_px;
   return found;
 }

@@ -144,13 +144,13 @@ double student_95(int degrees) {
 }
 
 RoughFit fit_of(const LensOf& lens_of, const Eigen::VectorXd& found, const Eigen::MatrixXd& covariance, int parts,
-                double least_relative) {
+                double min_relative) {
   RoughFit fit{.lens = lens_of(found), .distortion_sd = std::sqrt(covariance(1, 1)), .parts = parts};
   const double t = student_95(parts - 1);
   const double middle = fit.lens.horizontal_field_rad();
   const Eigen::Matrix2d two = covariance.topLeftCorner<2, 2>();
   const Eigen::Matrix2d axes = two.llt().matrixL();
-  const double floor = t / student_95(1000) * 1.96 * least_relative * std::sin(middle / 2) * 2;
+  const double floor = t / student_95(1000) * 1.96 * min_relative * std::sin(middle / 2) * 2;
   double up2 = floor * floor;
   double down2 = floor * floor;
   for (int axis = 0; axis < 2; ++axis) {
@@ -171,11 +171,11 @@ RoughFit fit_of(const LensOf& lens_of, const Eigen::VectorXd& found, const Eigen
   return fit;
 }
 
-double scale_of(std::vector<double> lengths, double least_px) {
-  if (lengths.empty()) return least_px;
+double scale_of(std::vector<double> lengths, double min_px) {
+  if (lengths.empty()) return min_px;
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
-  return std::max(least_px, *middle);
+  return std::max(min_px, *middle);
 }
 
 namespace {

@@ -89,17 +89,17 @@ struct PartSums {
 using LensOf = std::function<RoughLens(const Eigen::VectorXd&)>;
 
 // The fit with limits of the field: how far it moves along the axes of the covariance, times t of the parts.
-//   least_relative  standard deviation of the focal length that no data can take away, 0.01: 1 %
+//   min_relative  standard deviation of the focal length that no data can take away, 0.01: 1 %
 [[nodiscard]] RoughFit fit_of(const LensOf& lens_of, const Eigen::VectorXd& found, const Eigen::MatrixXd& covariance,
-                              int parts, double least_relative);
+                              int parts, double min_relative);
 
 // Weight by Geman and McClure of a miss, and the scale for it: the median length of the misses, but no less than
-// least_px.
+// min_px.
 [[nodiscard]] inline double weight_of(double miss2, double scale) {
   const double share = 1 + miss2 / (scale * scale);
   return 1 / (share * share);
 }
-[[nodiscard]] double scale_of(std::vector<double> lengths, double least_px);
+[[nodiscard]] double scale_of(std::vector<double> lengths, double min_px);
 
 // The field of view that a camera has written into its file: not measured, and of a mode that the footage may have been
 // cropped from since.

@@ -39,7 +39,7 @@ class ChainFinder {
     cv::Canny(dx_, dy_, open_, kLow, kHigh, true);
   }
 
-  std::vector<EdgeChain> all(double least_px) {
+  std::vector<EdgeChain> all(double min_px) {
     std::vector<EdgeChain> chains;
     for (int y = 0; y < open_.rows; ++y)
       for (int x = 0; x < open_.cols; ++x) {
@@ -49,7 +49,7 @@ class ChainFinder {
         open_(y, x) = 255;
         const EdgeChain other = followed({x, y}, -1);
         if (!other.empty()) chain.insert(chain.end(), other.begin() + 1, other.end());
-        if (cv::norm(chain.back() - chain.front()) >= least_px) chains.push_back(std::move(chain));
+        if (cv::norm(chain.back() - chain.front()) >= min_px) chains.push_back(std::move(chain));
       }
     return chains;
   }
@@ -141,7 +141,7 @@ EdgeChain thinned(const EdgeChain& chain) {
 
 }  // namespace
 
-std::vector<EdgeChain> long_edges(const cv::Mat& luma, double least_length) {
+std::vector<EdgeChain> long_edges(const cv::Mat& luma, double min_length) {
   if (luma.empty() || luma.type() != CV_8UC1) return {};
   cv::Mat reduced = luma;
   int scale = 1;
@@ -150,9 +150,9 @@ std::vector<EdgeChain> long_edges(const cv::Mat& luma, double least_length) {
   if (reduced.cols < 16 || reduced.rows < 16) return {};
   std::vector<EdgeChain> chains;
   const cv::Rect2d inner(kBorder_px, kBorder_px, reduced.cols - 2 * kBorder_px, reduced.rows - 2 * kBorder_px);
-  for (EdgeChain& chain : ChainFinder(reduced).all(least_length * reduced.cols)) {
+  for (EdgeChain& chain : ChainFinder(reduced).all(min_length * reduced.cols)) {
     std::erase_if(chain, [&](const cv::Point2d& p) { return !inner.contains(p); });
-    if (chain.size() < 12 || cv::norm(chain.back() - chain.front()) < least_length * reduced.cols) continue;
+    if (chain.size() < 12 || cv::norm(chain.back() - chain.front()) < min_length * reduced.cols) continue;
     if (!is_smooth(chain)) continue;
     EdgeChain kept = thinned(chain);
     for (cv::Point2d& p : kept) p = (p + cv::Point2d(0.5, 0.5)) * scale - cv::Point2d(0.5, 0.5);
@@ -163,17 +163,17 @@ std::vector<EdgeChain> long_edges(const cv::Mat& luma, double least_length) {
 
 namespace {
 
-constexpr double kLeastLength = 0.15;  // of the image's width
+constexpr double kMinLength = 0.15;  // of the image's width
 constexpr int kTries = 73;
 constexpr double kFirst = -0.6;
 constexpr double kStep = 0.0125;
 constexpr double kAgree_px = 0.35;      // a line that misses by so much has half of the weight
 constexpr double kAngleStep_rad = 0.2;  // edges closer than this in direction ...
 constexpr double kOffsetStep = 0.06;    // ... and in place, of the radius, are one
-constexpr int kLeastLines = 8;
-constexpr double kLeastShare = 0.6;  // of the lines that have to agree
+constexpr int kMinLines = 8;
+constexpr double kMinShare = 0.6;  // of the lines that have to agree
 constexpr double kLargestSd = 0.04;
-constexpr double kLeastSd = 0.01;
+constexpr double kMinSd = 0.01;
 constexpr int kDraws = 200;
 
 using Costs = std::array<double, kTries>;
@@ -240,7 +240,7 @@ struct Line {
 
 void LinesRoad::add(int frame, const cv::Mat& luma) {
   size_px_ = luma.size();
-  seen_.push_back({frame, long_edges(luma, kLeastLength)});
+  seen_.push_back({frame, long_edges(luma, kMinLength)});
 }
 
 LinesAnswer LinesRoad::answer() const {
@@ -266,8 +266,8 @@ LinesAnswer LinesRoad::answer() const {
     lines.push_back(line.cost);
   }
   found.lines = static_cast<int>(lines.size());
-  if (found.lines < kLeastLines) {
-    found.reason = fmt::format("{} long, smooth edges were found, {} are needed", found.lines, kLeastLines);
+  if (found.lines < kMinLines) {
+    found.reason = fmt::format("{} long, smooth edges were found, {} are needed", found.lines, kMinLines);
     return found;
   }
   const auto sum_of = [&](auto&& pick) {
@@ -284,8 +284,8 @@ LinesAnswer LinesRoad::answer() const {
   for (int draw = 0; draw < kDraws; ++draw)
     sum2 += std::pow(
         distortion_at(least_at(sum_of([&](std::size_t) { return chance.below(lines.size()); }))) - found.distortion, 2);
-  found.sd = std::hypot(std::sqrt(sum2 / kDraws), kLeastSd);
-  if (found.agree < kLeastShare * found.lines)
+  found.sd = std::hypot(std::sqrt(sum2 / kDraws), kMinSd);
+  if (found.agree < kMinShare * found.lines)
     found.reason =
         fmt::format("{} of {} long edges stay curved whatever the distortion", found.lines - found.agree, found.lines);
   else if (found.sd > kLargestSd)

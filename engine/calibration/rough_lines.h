@@ -12,9 +12,9 @@ namespace sigs {
 using EdgeChain = std::vector<cv::Point2d>;
 
 // Long edges of an image that bend little: edges by Canny (1986), places across them by a parabola through the steepest
-// slopes. Each is at least `least_length` of the image's width long from end to end, deviates from its chord by less
+// slopes. Each is at least `min_length` of the image's width long from end to end, deviates from its chord by less
 // than a fifteenth of that, and follows a smooth curve to 0.5 px. In pixels of `luma`, CV_8UC1.
-[[nodiscard]] std::vector<EdgeChain> long_edges(const cv::Mat& luma, double least_length);
+[[nodiscard]] std::vector<EdgeChain> long_edges(const cv::Mat& luma, double min_length);
 
 // The distortion that straight lines of the world show, by which their images bend (Brown 1971, "Close-range camera
 // calibration": the plumb-line method). It tells nothing of the focal length.

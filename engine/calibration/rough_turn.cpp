@@ -23,9 +23,9 @@ constexpr std::array<int, 4> kGaps{6, 18, 54, 120};  // frames
 constexpr int kStarts = 96;                          // frames from which pairs begin
 constexpr int kTurnParts = 12;                       // of the time in which the image moves
 constexpr std::size_t kPairsEach = 4;                // of a part
-constexpr std::size_t kLeastParts = 4;
-constexpr std::size_t kLeastCommon = 30;    // features
-constexpr double kLeastMotion = 0.03;       // of the image's width
+constexpr std::size_t kMinParts = 4;
+constexpr std::size_t kMinCommon = 30;      // features
+constexpr double kMinMotion = 0.03;         // of the image's width
 constexpr double kTurnLeastScale_px = 0.1;  // of the reduced image
 constexpr int kFields = 14;                 // first values tried
 constexpr double kFirstField_rad = 0.12;
@@ -55,9 +55,9 @@ std::vector<Pair> all_moving_pairs(const PixelTracks& tracks) {
       const TrackedFrame& after = tracks.frames[static_cast<std::size_t>(first + gap)];
       if (before.stretch != after.stretch) break;
       Pair pair{.features = common_pixels(before, after), .part = first + gap / 2};
-      if (pair.features.size() < kLeastCommon) break;
+      if (pair.features.size() < kMinCommon) break;
       pair.motion_px = median_motion_px(pair.features);
-      if (pair.motion_px > kLeastMotion * tracks.size_px.width) pairs.push_back(std::move(pair));
+      if (pair.motion_px > kMinMotion * tracks.size_px.width) pairs.push_back(std::move(pair));
     }
   return pairs;
 }
@@ -205,7 +205,7 @@ class TurnFit {
       if (turn) pair.after_from_before = *turn;
       return !turn;
     });
-    return pairs_.size() >= kLeastParts;
+    return pairs_.size() >= kMinParts;
   }
 
   void step(bool moves) {
@@ -298,7 +298,7 @@ std::size_t parts_in(const std::vector<Pair>& pairs) {
 
 RoughAnswer lens_by_turn(const PixelTracks& tracks, const DistortionPrior& prior) {
   std::vector<Pair> pairs = moving_pairs(tracks);
-  if (parts_in(pairs) < kLeastParts)
+  if (parts_in(pairs) < kMinParts)
     return {.fit = std::nullopt, .reason = "the image moves too little, or too few features can be followed"};
   TurnFit fit(tracks, std::move(pairs), prior);
   if (!fit.solve()) return {.fit = std::nullopt, .reason = "the image does not move as that of a turning camera"};
@@ -313,7 +313,7 @@ RoughAnswer lens_by_turn(const PixelTracks& tracks, const DistortionPrior& prior
         .reason = fmt::format("the camera travels past what it sees (rotations miss by {:.2f} px, planes by {:.2f})",
                               misses.turned_px, misses.free_px)};
   const std::vector<PartSums> parts = fit.used_parts();
-  if (parts.size() < kLeastParts) return {.fit = std::nullopt, .reason = "too little of the footage has a turn"};
+  if (parts.size() < kMinParts) return {.fit = std::nullopt, .reason = "too little of the footage has a turn"};
   RoughFit found = fit_of([&fit](const Eigen::VectorXd& u) { return fit.lens_of(u); }, fit.values(),
                           clustered_covariance(parts, fit.known()), static_cast<int>(parts.size()), kTurnLeastRelative);
   found.residual_px = fit.residual_px();

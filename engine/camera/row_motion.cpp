@@ -49,7 +49,7 @@ std::optional<glm::dvec2> RowMotion::pixel(const Lens& lens, const glm::dvec3& p
   return found;
 }
 
-RowMotion::Turn RowMotion::turn_of_row(double row) const {
+RowMotion::Turn RowMotion::row_transform(double row) const {
   const Pose<frame::Camera, frame::Body> at = at_row(row);
   const Pose<frame::Camera, frame::Body> middle = at_row((rows_ - 1) / 2.0);
   const glm::dquat turn = middle.rotation * glm::conjugate(at.rotation);

@@ -43,7 +43,7 @@ class RowMotion {
       return ray == glm::dvec3(0) ? ray : turn * glm::normalize(ray) + shift;
     }
   };
-  [[nodiscard]] Turn turn_of_row(double row) const;
+  [[nodiscard]] Turn row_transform(double row) const;
 
   // Largest distance, in pixels, between the image of the reference point as the shutter sees it in any row of the
   // image and as it would at the frame's time; 0 where it has no image.
@@ -54,7 +54,7 @@ class RowMotion {
   std::vector<Pose<frame::Camera, frame::Body>> nodes_;
 };
 
-// RowMotion::turn_of_row for the rows of whatever image is warped; null: all rows are seen at once.
-using TurnOfRow = std::function<RowMotion::Turn(double row)>;
+// RowMotion::row_transform for the rows of whatever image is warped; null: all rows are seen at once.
+using RowTransform = std::function<RowMotion::Turn(double row)>;
 
 }  // namespace sigs

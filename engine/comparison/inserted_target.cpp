@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLoose = 1.2;  // of an inserted target's box, as the real ones' boxes are loose
 constexpr double kLooseMargin_px = 3;
-constexpr double kMostResizing = 1.6;  // of the first guess: a silhouette that is only told in part is not trusted more
+constexpr double kMaxResizing = 1.6;  // of the first guess: a silhouette that is only told in part is not trusted more
 
 Box loosened(const Box& box) {
   const double by_x = 0.5 * (kLoose - 1) * box.width + kLooseMargin_px;
@@ -27,7 +27,7 @@ cv::Point2d middle_of(const Box& box) {
 
 // By which factor an inserted target is to be seen larger, so that its silhouette is as wide as the real one's.
 double resizing(const TargetLook& look, const TargetLook& real) {
-  return std::clamp(static_cast<double>(real.box.width) / look.box.width, 1 / kMostResizing, kMostResizing);
+  return std::clamp(static_cast<double>(real.box.width) / look.box.width, 1 / kMaxResizing, kMaxResizing);
 }
 
 // How far the areas differ once both are as wide: logarithm of their ratio, without its sign.

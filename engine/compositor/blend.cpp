@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "base/ensure.h"
-#include "compositor/shared_chroma.h"
+#include "compositor/subsampled_chroma.h"
 #include "video/bit_depth.h"
 #include "video/color_space.h"
 #include "video/frame.h"
@@ -46,7 +46,7 @@ class IntoFrame {
 template <class Sample>
 class IntoPatch {
  public:
-  explicit IntoPatch(CodePatch& patch) : patch_(patch), top_(patch.bit_depth) {}
+  explicit IntoPatch(FloatPatch& patch) : patch_(patch), top_(patch.bit_depth) {}
 
   void put(int plane, int y, int x, float code, float opacity) const {
     PatchPlane& to = patch_.planes[static_cast<std::size_t>(plane)];
@@ -55,7 +55,7 @@ class IntoPatch {
   }
 
  private:
-  CodePatch& patch_;
+  FloatPatch& patch_;
   TopCode<Sample> top_;
 };
 
@@ -98,7 +98,7 @@ class PlaneWriter {
 
   template <class Pixels>
   std::int64_t rewrite_shared(const cv::Rect& rect, const Pixels& pixels) {
-    SharedChroma chroma(frame_, rect);
+    SubsampledChroma chroma(frame_, rect);
     std::int64_t count = 0;
     for (int y = rect.y; y < rect.br().y; ++y) {
       const auto row = pixels.row(y);
@@ -114,7 +114,7 @@ class PlaneWriter {
   }
 
   template <class Row>
-  std::int64_t rewrite_row(int y, const cv::Range& columns, const Row& row, SharedChroma& chroma) const {
+  std::int64_t rewrite_row(int y, const cv::Range& columns, const Row& row, SubsampledChroma& chroma) const {
     const Sample* const luma = frame_.planes[0].template ptr<Sample>(y);
     std::int64_t count = 0;
     for (int x = columns.start; x < columns.end; ++x) {
@@ -211,10 +211,10 @@ std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space) {
   });
 }
 
-CodePatch blended_patch(const Frame& frame, const Layer& layer, BlendSpace space, int margin_px,
-                        const cv::Mat& own_body) {
+FloatPatch blended_patch(const Frame& frame, const Layer& layer, BlendSpace space, int margin_px,
+                         const cv::Mat& own_body) {
   ENSURE((layer.rect & cv::Rect({0, 0}, frame.size_px())) == layer.rect);
-  CodePatch patch = patch_of(frame, layer.rect, margin_px, own_body);
+  FloatPatch patch = patch_of(frame, layer.rect, margin_px, own_body);
   if (layer.empty()) return patch;
   with_sample_type(frame.bit_depth, [&](auto sample) {
     using Sample = decltype(sample);

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "base/image.h"
-#include "compositor/code_patch.h"
+#include "compositor/float_patch.h"
 #include "video/frame.h"
 
 namespace sigs {
@@ -23,12 +23,12 @@ enum class BlendSpace {
 // The layer lies within the image. Gives back how many pixels were rewritten.
 std::int64_t blend_over(Frame& frame, const Layer& layer, BlendSpace space);
 
-// The same into a copy of the samples around the layer, not rounded (compositor/code_patch.h), for stages that work on
+// The same into a copy of the samples around the layer, not rounded (compositor/float_patch.h), for stages that work on
 // what the layer changes. The frame stays as it is.
 //   margin_px  of the copy beyond the layer, on each side
 //   own_body   as for patch_of()
-[[nodiscard]] CodePatch blended_patch(const Frame& frame, const Layer& layer, BlendSpace space, int margin_px,
-                                      const cv::Mat& own_body);
+[[nodiscard]] FloatPatch blended_patch(const Frame& frame, const Layer& layer, BlendSpace space, int margin_px,
+                                       const cv::Mat& own_body);
 
 // Puts pixels of an 8-bit BGR image into the frame's own planes, in the part of it that rect names. Gives back how
 // many were rewritten.

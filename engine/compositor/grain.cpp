@@ -8,7 +8,7 @@
 
 #include "base/image.h"
 #include "compositor/blur.h"
-#include "compositor/code_patch.h"
+#include "compositor/float_patch.h"
 #include "video/bit_depth.h"
 
 namespace sigs {
@@ -42,22 +42,23 @@ float white(std::uint64_t key, int x, int y) {
 }
 
 // Weights of the present field and of those before it. Their squares sum to one.
-std::vector<float> weights_in_time(double persistence) {
-  const double p2 = persistence * persistence;
-  // Cut after K, neighbouring frames correlate by persistence (1 - p2^K) / (1 - p2^(K + 1)).
+std::vector<float> weights_in_time(double temporal_correlation) {
+  const double p2 = temporal_correlation * temporal_correlation;
+  // Cut after K, neighbouring frames correlate by temporal_correlation (1 - p2^K) / (1 - p2^(K + 1)).
   int count = 1;
-  for (double power = 1; persistence > 0 && power * (1 - p2) > 0.01; power *= p2) ++count;
+  for (double power = 1; temporal_correlation > 0 && power * (1 - p2) > 0.01; power *= p2) ++count;
   double squares = 0;
   std::vector<float> weights;
   for (int k = 0; k < count; ++k) squares += std::pow(p2, k);
-  for (int k = 0; k < count; ++k) weights.push_back(static_cast<float>(std::pow(persistence, k) / std::sqrt(squares)));
+  for (int k = 0; k < count; ++k)
+    weights.push_back(static_cast<float>(std::pow(temporal_correlation, k) / std::sqrt(squares)));
   return weights;
 }
 
 // White in space, correlated in time.
 cv::Mat uncorrelated_field(const Grain& grain, int plane, std::int64_t frame, const cv::Rect& rect) {
   cv::Mat field = cv::Mat::zeros(rect.size(), CV_32FC1);
-  const std::vector<float> weights = weights_in_time(grain.persistence);
+  const std::vector<float> weights = weights_in_time(grain.temporal_correlation);
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const std::uint64_t key = key_of(grain, plane, frame - static_cast<std::int64_t>(k));
     for (int y = 0; y < rect.height; ++y) {
@@ -129,7 +130,7 @@ void add_to(PatchPlane& plane, const cv::Mat& change, double times = 1) {
 
 // Of R'G'B', beside luma, which red has already. BT.709, full range: R' = Y' + 1.5748 Cr, B' = Y' + 1.8556 Cb, and G'
 // such that luma stays.
-void add_chroma_to_rgb(CodePatch& patch, const cv::Mat& of_luma, const cv::Mat& cb, const cv::Mat& cr) {
+void add_chroma_to_rgb(FloatPatch& patch, const cv::Mat& of_luma, const cv::Mat& cb, const cv::Mat& cr) {
   constexpr double kRedOfCr = 1.5748;
   constexpr double kBlueOfCb = 1.8556;
   add_to(patch.planes[1], of_luma);
@@ -143,16 +144,16 @@ void add_chroma_to_rgb(CodePatch& patch, const cv::Mat& of_luma, const cv::Mat& 
 }  // namespace
 
 cv::Mat noise_field(const Grain& grain, int plane, std::int64_t frame, const cv::Rect& rect) {
-  if (grain.spread_px == 0) return uncorrelated_field(grain, plane, frame, rect);
-  const int margin = blur_margin_px(grain.spread_px);
-  cv::Mat kernel = sampled_gaussian(grain.spread_px, margin);
+  if (grain.correlation_length_px == 0) return uncorrelated_field(grain, plane, frame, rect);
+  const int margin = blur_margin_px(grain.correlation_length_px);
+  cv::Mat kernel = sampled_gaussian(grain.correlation_length_px, margin);
   kernel /= cv::norm(kernel);
   cv::Mat field = uncorrelated_field(grain, plane, frame, grown(rect, margin));
   cv::sepFilter2D(field, field, CV_32F, kernel, kernel);
   return field(cv::Rect({margin, margin}, rect.size())).clone();
 }
 
-std::int64_t add_grain(CodePatch& patch, const Grain& grain, std::int64_t frame) {
+std::int64_t add_grain(FloatPatch& patch, const Grain& grain, std::int64_t frame) {
   if (grain.is_none()) return 0;
   const bool is_rgb = patch.layout == PixelLayout::rgb;
   const bool is_limited = !is_rgb && patch.color.range == ColorRange::limited;

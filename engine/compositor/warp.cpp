@@ -110,8 +110,9 @@ int nearest_source(std::span<const Source> sources, const glm::dvec3& ray) {
 // One row of pixels after the other, with the corners' rays on both sides of it.
 class Warper {
  public:
-  Warper(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target, const TurnOfRow& turn_of_row)
-      : lens_(lens), target_(target), turn_of_row_(turn_of_row) {
+  Warper(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target,
+         const RowTransform& row_transform)
+      : lens_(lens), target_(target), row_transform_(row_transform) {
     for (const RenderedView& drawn : views) sources_.push_back(source_of(drawn));
   }
 
@@ -131,8 +132,8 @@ class Warper {
   void find_lower_rays(int j) {
     const std::span<const glm::dvec3> rays = lens_.corner_rays(target_.x, target_.y + j, target_.width + 1);
     lower_.assign(rays.begin(), rays.end());
-    if (!turn_of_row_) return;
-    const RowMotion::Turn turn = turn_of_row_(target_.y + j - 0.5);
+    if (!row_transform_) return;
+    const RowMotion::Turn turn = row_transform_(target_.y + j - 0.5);
     for (glm::dvec3& ray : lower_) ray = turn * ray;
   }
 
@@ -163,7 +164,7 @@ class Warper {
 
   LensTable& lens_;
   cv::Rect target_;
-  const TurnOfRow& turn_of_row_;
+  const RowTransform& row_transform_;
   std::vector<Source> sources_;
   std::vector<glm::dvec3> upper_;
   std::vector<glm::dvec3> lower_;
@@ -316,9 +317,9 @@ AreaMean AreaReader::mean_over(const Quadrilateral& corners) {
 }
 
 Layer warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target,
-             const TurnOfRow& turn_of_row) {
+             const RowTransform& row_transform) {
   ENSURE(!views.empty());
-  return Warper(views, lens, target, turn_of_row).layer();
+  return Warper(views, lens, target, row_transform).layer();
 }
 
 Layer warped(std::span<const RenderedView> views, const Camera& camera, const cv::Rect& target) {

@@ -26,10 +26,10 @@ struct RenderedView {
 // (AreaReader). Pixels that have no ray stay empty. Several views (the faces of a cube around the camera)
 // must not overlap in direction; each pixel asks the one whose axis its upper left ray is nearest to. Energy is kept:
 // the sum over pixels is the sum over the view, times the ratio of their pixel areas.
-//   turn_of_row  of a rolling shutter: where the rays of a row lead in the views; null: as they are. Rows count in
+//   row_transform  of a rolling shutter: where the rays of a row lead in the views; null: as they are. Rows count in
 //                pixels of target, so the upper edge of row y is y - 0.5
 [[nodiscard]] Layer warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target,
-                           const TurnOfRow& turn_of_row = nullptr);
+                           const RowTransform& row_transform = nullptr);
 
 // The same through a table that is made for this one layer.
 [[nodiscard]] Layer warped(std::span<const RenderedView> views, const Camera& camera, const cv::Rect& target);

@@ -259,7 +259,7 @@ Project project_without_settings(const std::filesystem::path& file) {
 void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>& settings) {
   static_cast<void>(node.value("sigs_dataset"));
   recipe.name = node.needed_text("name");
-  if (const std::string wrong = wrong_with_file_name(recipe.name); !wrong.empty()) node.log().wrong("name", wrong);
+  if (const std::string wrong = file_name_error(recipe.name); !wrong.empty()) node.log().wrong("name", wrong);
   recipe.seed = read_seed(node);
   recipe.settings = read_settings(node, recipe.base);
   add_settings(settings, recipe.settings, recipe.base, node.log());

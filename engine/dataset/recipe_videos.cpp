@@ -134,7 +134,7 @@ std::vector<FlightPlan> flights_in(RecipeNode& group, bool is_sampled) {
 
 void check_split(const std::string& split, RecipeNode& group, const Recipe& recipe) {
   const std::vector<std::string> there = names_of(recipe.splits);
-  if (const std::string wrong = wrong_with_file_name(split); !split.empty() && !wrong.empty())
+  if (const std::string wrong = file_name_error(split); !split.empty() && !wrong.empty())
     group.log().wrong(group.key_of("split"), wrong);
   if (!split.empty() && !there.empty() && !has(there, split))
     group.log().wrong(group.key_of("split"), fmt::format("no such split: \"{}\"; there are {}", split, listed(there)));
@@ -233,8 +233,7 @@ void read_splits(RecipeNode& recipe_node, Recipe& recipe) {
       if (name == "keep_together") continue;
       const double share = item.is_number() ? item.get<double>() : -1;
       if (!(share >= 0 && share <= 1)) node.log().wrong(node.key_of(name), "expected a share from 0 to 1");
-      if (const std::string wrong = wrong_with_file_name(name); !wrong.empty())
-        node.log().wrong(node.key_of(name), wrong);
+      if (const std::string wrong = file_name_error(name); !wrong.empty()) node.log().wrong(node.key_of(name), wrong);
       recipe.splits.push_back({name, share});
       sum += share;
     }

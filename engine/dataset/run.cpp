@@ -285,14 +285,14 @@ Result<DatasetReport> DatasetRun::all() {
 }
 
 Result<void> check_names(const Plan& plan) {
-  if (const std::string wrong = wrong_with_file_name(plan.name); !wrong.empty())
+  if (const std::string wrong = file_name_error(plan.name); !wrong.empty())
     return fail(fmt::format("dataset \"{}\"", plan.name), wrong);
   std::set<std::string> names;
   for (const PlannedVideo& video : plan.videos) {
     if (const std::string wrong = wrong_with_video_name(video.name); !wrong.empty())
       return fail(fmt::format("video \"{}\"", video.name), wrong);
     if (!names.insert(video.name).second) return fail(fmt::format("video \"{}\"", video.name), "is planned twice");
-    if (const std::string wrong = wrong_with_file_name(split_of(video)); !wrong.empty())
+    if (const std::string wrong = file_name_error(split_of(video)); !wrong.empty())
       return fail(fmt::format("split \"{}\"", video.split), wrong);
   }
   return {};
@@ -358,7 +358,7 @@ Result<DatasetReport> made_in(const fs::path& dataset, const Plan& plan, const D
 }  // namespace
 
 Result<int> frames_of(const Project& project, const VideoInfo& footage) {
-  const OrProblem<FrameRange> range = scene_range(project.footage, shape_of(footage));
+  const Result<FrameRange, Problem> range = scene_range(project.footage, shape_of(footage));
   if (!range) return fail(error_of(project, range.error()));
   return range->last - range->first + 1;
 }

@@ -26,9 +26,9 @@ using OrReason = tl::expected<T, std::string>;
 using QuantityValues = std::map<std::string, double>;
 
 constexpr double kWaypointStep_s = 0.5;
-constexpr double kLeastStep_s = 1e-6;  // frames of footage may have the same time
-constexpr double kMaxGap_s = 30;       // of a recording
-constexpr int kTrackRedraws = 1000;    // of a drawn flight that leaves the model's limits
+constexpr double kMinStep_s = 1e-6;  // frames of footage may have the same time
+constexpr double kMaxGap_s = 30;     // of a recording
+constexpr int kTrackRedraws = 1000;  // of a drawn flight that leaves the model's limits
 constexpr double kMaxDrawn_s = 3600;
 
 // A flight in axes north, east, down, at seconds after the video's first frame.
@@ -58,7 +58,7 @@ OrReason<VideoTimes> video_times(const QuantityValues& values, const FlightConte
     const auto frame =
         static_cast<int>(frames.first + (std::int64_t(frames.last - frames.first) * i + steps / 2) / steps);
     const double since_s = time_of_frame_s(context.footage, frame) - times.ends.first_s;
-    if (!times.since_s.empty() && since_s - times.since_s.back() < kLeastStep_s) continue;
+    if (!times.since_s.empty() && since_s - times.since_s.back() < kMinStep_s) continue;
     times.frames.push_back(frame);
     times.since_s.push_back(since_s);
   }

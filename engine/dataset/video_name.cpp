@@ -59,7 +59,7 @@ std::string wrong_with_pattern(const std::string& pattern) {
 std::string wrong_with_video_name(const std::string& name) {
   if (std::find(kOwnNames.begin(), kOwnNames.end(), lower_case(name)) != kOwnNames.end())
     return "is kept for what the dataset has beside its videos; choose another name";
-  return wrong_with_file_name(name);
+  return file_name_error(name);
 }
 
 }  // namespace sigs

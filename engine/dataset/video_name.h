@@ -21,7 +21,7 @@ struct NameParts {
 // What is wrong with a pattern, as "has no such part: {plane}". Empty: nothing.
 [[nodiscard]] std::string wrong_with_pattern(const std::string& pattern);
 
-// What is wrong with the name of a video, which becomes that of a folder: what wrong_with_file_name() says, or that the
+// What is wrong with the name of a video, which becomes that of a folder: what file_name_error() says, or that the
 // name belongs to a file of the dataset itself. Empty: nothing.
 [[nodiscard]] std::string wrong_with_video_name(const std::string& name);
 

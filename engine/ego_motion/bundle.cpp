@@ -16,7 +16,7 @@ namespace {
 using Block63 = Eigen::Matrix<double, 6, 3>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kLeastInverseDepth = -0.02;  // a little below 0, lest noise about 0 become a mean above it
+constexpr double kMinInverseDepth = -0.02;  // a little below 0, lest noise about 0 become a mean above it
 constexpr double kLargestInverseDepth = 50;
 
 double median_of(std::vector<double>& values) {
@@ -78,12 +78,12 @@ class Adjustment {
     const double unknown =
         3 * static_cast<double>(bundle_.landmarks.size()) + 6 * static_cast<double>(bundle_.frames.size());
     const double share = std::sqrt(std::max(0.2, 1 - unknown / std::max(1.0, all)));
-    sigma_ = std::max(settings_.least_sigma_rad, std::max(least_sigma(), median_of(lengths) * kSigmaOfMedian) / share);
+    sigma_ = std::max(settings_.min_sigma_rad, std::max(min_sigma(), median_of(lengths) * kSigmaOfMedian) / share);
   }
 
   // Sigma if the best three tenths of all trusted observations were the best of normal errors: the median over those
   // that keep their weight can shrink with them, this cannot.
-  [[nodiscard]] double least_sigma() const {
+  [[nodiscard]] double min_sigma() const {
     constexpr double kShare = 0.3;
     std::vector<double> lengths;
     for (std::size_t i = 0; i < projections_.size(); ++i)
@@ -96,7 +96,7 @@ class Adjustment {
   }
 
   void weigh(double scale) {
-    scale = std::max(scale, settings_.least_scale_rad);
+    scale = std::max(scale, settings_.min_scale_rad);
     constexpr double kObservation = 3;  // sigmas at which an observation has a quarter of its weight
     constexpr double kLandmark = 1.5;   // the same of a landmark's root mean square
     weights_.resize(projections_.size());
@@ -216,7 +216,7 @@ class Adjustment {
     const Eigen::Vector3d d = inverses_[l] * right;
     Landmark& landmark = bundle_.landmarks[l];
     landmark.direction = (landmark.direction + tangents_of(landmark.direction) * d.head<2>()).normalized();
-    landmark.inverse_depth = std::clamp(landmark.inverse_depth + d(2), kLeastInverseDepth, kLargestInverseDepth);
+    landmark.inverse_depth = std::clamp(landmark.inverse_depth + d(2), kMinInverseDepth, kLargestInverseDepth);
   }
 
   [[nodiscard]] BundleFit fit() const {
@@ -276,7 +276,7 @@ constexpr double kSkyTrust = 0.02;
 constexpr double kHills_rad = 0.052;
 constexpr double kSky_rad = 0.105;
 constexpr double kNear = 0.015;  // inverse depth, per unit of length; some 70 seconds of flight away
-constexpr std::size_t kLeastNear = 15;
+constexpr std::size_t kMinNear = 15;
 constexpr double kRough = 0.3;  // of the median inverse depth: what hills make it differ by
 
 }  // namespace
@@ -289,7 +289,7 @@ std::optional<Eigen::Vector3d> ground_of(std::span<const Landmark> landmarks) {
       near.push_back(&landmark);
       depths.push_back(landmark.inverse_depth);
     }
-  if (near.size() < kLeastNear) return std::nullopt;
+  if (near.size() < kMinNear) return std::nullopt;
   const double scale = kRough * median_of(depths);
   Eigen::Vector3d ground = Eigen::Vector3d::Zero();
   for (int round = 0; round < 8; ++round) {

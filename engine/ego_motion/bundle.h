@@ -47,8 +47,8 @@ struct Bundle {
 };
 
 struct BundleSettings {
-  double least_sigma_rad = 1e-5;  // of an observation
-  double least_scale_rad = 1e-4;  // of weights: what agrees as well as this is not distinguished, see adjust()
+  double min_sigma_rad = 1e-5;    // of an observation
+  double min_scale_rad = 1e-4;    // of weights: what agrees as well as this is not distinguished, see adjust()
   double start_sigma_rad = 2e-3;  // the first round takes no observation for wrong that misses by less
   double inverse_depth_sd = 0.3;  // what is expected of landmarks beforehand, per unit of length
   double acceleration_sd = 0.3;   // change of velocity in a second, units per second
@@ -63,7 +63,7 @@ struct BundleFit {
 
 // Least squares with weights of Geman and McClure, of single observations and of whole landmarks, whose scale shrinks
 // from round to round (graduated non-convexity): what moves on its own loses its weight. Changes frames and landmarks.
-// The scale does not fall below least_scale_rad, lest the few that agree best by chance, among many that are as good,
+// The scale does not fall below min_scale_rad, lest the few that agree best by chance, among many that are as good,
 // take all the weight. Landmarks that are not trusted count for as much less, and nothing for the scale.
 [[nodiscard]] BundleFit adjust(Bundle& bundle, const BundleSettings& settings, CancelFlag cancel = nullptr);
 

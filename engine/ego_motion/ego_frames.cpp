@@ -44,7 +44,7 @@ std::string ranges_text(std::span<const int> numbers) {
   return text;
 }
 
-void add_doubtful_frames(EgoMotion& motion, const std::string& where) {
+void add_low_confidence_frames(EgoMotion& motion, const std::string& where) {
   const std::vector<int> still = still_frames(motion);
   const bool has_gyro = motion.gyro && motion.gyro->is_fused;
   if (!has_gyro)

@@ -23,7 +23,7 @@ namespace sigs {
 namespace {
 
 constexpr int kHorizonEvery = 10;           // frames
-constexpr double kLeastCorrelation = 0.7;   // below it log and footage are not of the same flight
+constexpr double kMinCorrelation = 0.7;     // below it log and footage are not of the same flight
 constexpr double kStabilized_rad = 0.0017;  // 0.1 degrees turned by the camera itself
 // The share of the work that is done when all features are followed, and when the log is compared.
 constexpr double kFollowed = 0.8;
@@ -66,7 +66,7 @@ class Estimate {
     const std::vector<FrameRotation> of_images = rotations;
     if (motion_.gyro && motion_.gyro->is_fused) rotations = fused(rotations, times_s_, recorded_);
     fill(of_images, rotations);
-    add_doubtful_frames(motion_, path_);
+    add_low_confidence_frames(motion_, path_);
     report(1);
     return std::move(motion_);
   }
@@ -173,7 +173,7 @@ class Estimate {
                             .drift_sd = offset->drift_sd,
                             .correlation = offset->correlation,
                             .slope = offset->slope,
-                            .is_fused = offset->correlation >= kLeastCorrelation};
+                            .is_fused = offset->correlation >= kMinCorrelation};
     offset_ = *offset;
     camera_from_gyro_ = gyro_alignment(turns, rates, offset_);
     return true;

@@ -14,14 +14,14 @@ constexpr int kWindow_px = 15;  // of Lucas and Kanade: wide enough for cloud ed
 constexpr int kLevels = 3;      // above the reduced image: motions up to 7 * 2^3 px
 constexpr int kIterations = 8;
 constexpr double kStop_px = 0.02;
-constexpr float kReturn_px = 0.3F;     // a feature followed back misses its start by no more
-constexpr char kPerCell = 2;           // features; more in one place tell the same again
-constexpr float kFar_px = 3;           // features look different after a longer way
-constexpr float kApart_px = 6;         // features of one scene move alike to this, most of them
-constexpr int kBorder_px = 8;          // of the image and of the own body: half a window
-constexpr float kLeastCorner = 5e-5F;  // smallest eigenvalue, in OpenCV's units; about that of noise of sigma 2
-constexpr int kCorner_px = 5;          // of the window that a corner's strength is summed over
-constexpr float kRepeated = 1.5F;      // codes; frames that repeat one another differ less, even when coded again
+constexpr float kReturn_px = 0.3F;   // a feature followed back misses its start by no more
+constexpr char kPerCell = 2;         // features; more in one place tell the same again
+constexpr float kFar_px = 3;         // features look different after a longer way
+constexpr float kApart_px = 6;       // features of one scene move alike to this, most of them
+constexpr int kBorder_px = 8;        // of the image and of the own body: half a window
+constexpr float kMinCorner = 5e-5F;  // smallest eigenvalue, in OpenCV's units; about that of noise of sigma 2
+constexpr int kCorner_px = 5;        // of the window that a corner's strength is summed over
+constexpr float kRepeated = 1.5F;    // codes; frames that repeat one another differ less, even when coded again
 const cv::Size kWindow{kWindow_px, kWindow_px};
 
 cv::Mat allowed_in(cv::Size reduced_size, const cv::Mat& own_body) {
@@ -194,7 +194,7 @@ void FeatureTracker::detect() {
                                cv::Rect({0, 0}, allowed_.size());
       cv::cornerMinEigenVal(reduced_(wide_px), corner_, kCorner_px);
       cv::minMaxLoc(corner_(area_px - wide_px.tl()), nullptr, &best, nullptr, &at, allowed_(area_px));
-      if (best < kLeastCorner) continue;
+      if (best < kMinCorner) continue;
       points_.emplace_back(static_cast<float>(area_px.x + at.x), static_cast<float>(area_px.y + at.y));
       key_points_.push_back(points_.back());
       responses_.emplace_back();

@@ -21,9 +21,9 @@ constexpr double kScaleRatio = 1.14;                    // to the next one; 0.35
 constexpr std::array<std::size_t, 3> kGaps{6, 18, 54};  // frames
 constexpr std::size_t kStarts = 40;                     // frames from which pairs begin, spread over the footage
 constexpr std::size_t kPairs = 18;                      // of frames, those with the most motion
-constexpr std::size_t kLeastPairs = 6;
-constexpr std::size_t kLeastCommon = 24;  // features
-constexpr double kLeastMotion_px = 3;
+constexpr std::size_t kMinPairs = 6;
+constexpr std::size_t kMinCommon = 24;  // features
+constexpr double kMinMotion_px = 3;
 constexpr double kAgree_px = 0.5;  // features that miss by this have a quarter of the weight
 constexpr double kInlier_px = 2;
 constexpr double kLargestCost = 0.58;  // beyond it the motion is not a rotation
@@ -60,9 +60,9 @@ std::vector<std::vector<RayPair>> moving_pairs(std::span<const FrameRays> frames
       if (first + gap >= frames.size()) break;
       std::vector<RayPair> rays = common_rays(frames[first], frames[first + gap]);
       std::erase_if(rays, [](const RayPair& r) { return !(r.before.x() > 0 && r.after.x() > 0); });
-      if (rays.size() < kLeastCommon) continue;
+      if (rays.size() < kMinCommon) continue;
       const double motion_rad = median_motion_rad(rays);
-      if (motion_rad > kLeastMotion_px * pixel_rad) candidates.push_back({motion_rad, std::move(rays)});
+      if (motion_rad > kMinMotion_px * pixel_rad) candidates.push_back({motion_rad, std::move(rays)});
     }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.motion_rad > b.motion_rad; });
@@ -101,7 +101,7 @@ double least_at(const Costs& costs) {
 
 std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double pixel_rad, CancelFlag cancel) {
   const std::vector<std::vector<RayPair>> pairs = moving_pairs(frames, pixel_rad);
-  if (pairs.size() < kLeastPairs) return std::nullopt;
+  if (pairs.size() < kMinPairs) return std::nullopt;
   std::vector<Costs> costs(pairs.size());
   parallel_for(static_cast<int>(pairs.size()), static_cast<int>(std::thread::hardware_concurrency()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);

@@ -12,9 +12,9 @@ namespace sigs {
 
 namespace {
 
-constexpr double kBiasSd_radps = 0.03;   // of consumer gyroscopes at the start
-constexpr double kBiasWalk = 5e-5;       // rad/s in the square root of a second
-constexpr double kLeastTurn_rad = 1e-5;  // standard deviation of a recorded turn between frames
+constexpr double kBiasSd_radps = 0.03;  // of consumer gyroscopes at the start
+constexpr double kBiasWalk = 5e-5;      // rad/s in the square root of a second
+constexpr double kMinTurn_rad = 1e-5;   // standard deviation of a recorded turn between frames
 constexpr double kUnknown_rad = 3.14;
 
 // Recorded less seen, of frames k - 1 to k, in the axes of the start.
@@ -42,7 +42,7 @@ double gyro_variance(std::span<const FrameRotation> seen, std::span<const Record
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   const double sigma = 1.4826 * *middle;
-  return std::max({sigma * sigma - of_images, 0.05 * sigma * sigma, kLeastTurn_rad * kLeastTurn_rad});
+  return std::max({sigma * sigma - of_images, 0.05 * sigma * sigma, kMinTurn_rad * kMinTurn_rad});
 }
 
 // What the rotation sought is less the one seen (3), how far the images have drifted (3), both in the axes of the

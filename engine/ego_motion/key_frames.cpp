@@ -34,8 +34,8 @@ class KeyAdjuster {
         keys_(keys),
         pixel_rad_(pixel_rad),
         cancel_(cancel) {
-    bundle_settings_.least_sigma_rad = kFloor_px * pixel_rad;
-    bundle_settings_.least_scale_rad = kScale_px * pixel_rad;
+    bundle_settings_.min_sigma_rad = kFloor_px * pixel_rad;
+    bundle_settings_.min_scale_rad = kScale_px * pixel_rad;
   }
 
   KeyFrames solved() {

@@ -57,10 +57,10 @@ class Estimating {
     if (!footage) return fail(project_.file.string() + ": footage.video", footage.error().text(), footage.error().kind);
     for (const Warning& warning : footage->info().warnings) found_.warnings.push_back(warning);
     const FootageShape shape = shape_of(footage->info());
-    const OrProblem<Camera> camera = scene_camera(project_, shape.size_px, files_);
+    const Result<Camera, Problem> camera = scene_camera(project_, shape.size_px, files_);
     if (!camera) return fail(error_of(project_, camera.error()));
     for (const Warning& warning : camera->warnings) found_.warnings.push_back(warning);
-    const OrProblem<cv::Mat> own_body = scene_own_body(project_, shape.size_px, files_);
+    const Result<cv::Mat, Problem> own_body = scene_own_body(project_, shape.size_px, files_);
     if (!own_body) return fail(error_of(project_, own_body.error()));
     read_log();
     note_stated_attitude(shape);
@@ -92,10 +92,10 @@ class Estimating {
   }
 
   void note_stated_attitude(const FootageShape& shape) {
-    const OrProblem<FrameRange> range = scene_range(project_.footage, shape);
+    const Result<FrameRange, Problem> range = scene_range(project_.footage, shape);
     if (!range) return;
-    const OrProblem<CameraFlight> flight = camera_flight(project_, shape, *range, files_);
-    if (!flight || flight->motion.turns.empty()) return;
+    const Result<CameraFlight, Problem> flight = camera_flight(project_, shape, *range, files_);
+    if (!flight || flight->motion.attitudes.empty()) return;
     found_.found.stated_at_start = attitude_of(camera_at(flight->motion, time_of_frame_s(shape, 0)).rotation);
     if (flight->earth) found_.found.heading_of_world_rad = flight->earth->heading_rad();
   }

@@ -17,7 +17,7 @@ namespace {
 constexpr int kTrials = 60;                // with half of the pairs astray a pair of good ones is missed once in 3e7
 constexpr double kTukey = 4.685;           // 95 % efficient on normal errors
 constexpr double kMadToSigma = 0.8493218;  // of the length of an error in two directions: 1 / sqrt(2 ln 2)
-constexpr double kLeastSigma_rad = 1e-7;
+constexpr double kMinSigma_rad = 1e-7;
 
 double miss(const Eigen::Matrix3d& turn, const RayPair& pair) {
   return (turn * pair.before - pair.after).norm();
@@ -49,7 +49,7 @@ double sigma_of(std::vector<double> misses, double limit) {
   if (misses.empty()) return limit;
   const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
   std::nth_element(misses.begin(), middle, misses.end());
-  return std::max(kLeastSigma_rad, *middle * kMadToSigma);
+  return std::max(kMinSigma_rad, *middle * kMadToSigma);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace sigs {
 namespace {
 
 constexpr double kStep_s = 0.005;
-constexpr std::size_t kLeastTurns = 20;
+constexpr std::size_t kMinTurns = 20;
 constexpr int kParts = 4;
 
 struct Comparison {
@@ -34,7 +34,7 @@ Comparison compared(std::span<const SeenTurn> turns, const RateIntegral& rates, 
     mean_seen += both.back()[0];
     mean_recorded += both.back()[1];
   }
-  if (both.size() < kLeastTurns) return {};
+  if (both.size() < kMinTurns) return {};
   mean_seen /= static_cast<double>(both.size());
   mean_recorded /= static_cast<double>(both.size());
   double seen2 = 0;
@@ -73,12 +73,12 @@ class OffsetSearch {
   [[nodiscard]] double offset_s(std::size_t i) const { return first_s_ + static_cast<double>(i) * kStep_s; }
 
  private:
-  static constexpr std::size_t kSome = 1500;     // turns
-  static constexpr std::size_t kMostStride = 4;  // of 5 ms
+  static constexpr std::size_t kSome = 1500;    // turns
+  static constexpr std::size_t kMaxStride = 4;  // of 5 ms
   static constexpr double kCoarseShare = 0.6;
   static constexpr double kCoarseMargin = 0.1;
-  static constexpr double kFineMargin = 0.1;      // four standard deviations of a correlation by 1500 turns
-  static constexpr std::size_t kMostByAll = 400;  // offsets
+  static constexpr double kFineMargin = 0.1;     // four standard deviations of a correlation by 1500 turns
+  static constexpr std::size_t kMaxByAll = 400;  // offsets
 
   // One of each group of neighbours, by chance: turns at equal distances could all be of one phase of a vibration.
   void pick_some() {
@@ -92,14 +92,14 @@ class OffsetSearch {
     // sides, and a quarter of it leaves three quarters of the height. Rates that change slowly have a wider peak.
     double length_s = std::numeric_limits<double>::infinity();
     for (const SeenTurn& turn : some_) length_s = std::min(length_s, turn.to_s - turn.from_s);
-    stride_ = static_cast<std::size_t>(std::clamp(length_s / 2 / kStep_s, 1.0, static_cast<double>(kMostStride)));
+    stride_ = static_cast<std::size_t>(std::clamp(length_s / 2 / kStep_s, 1.0, static_cast<double>(kMaxStride)));
   }
 
   // Where too few of the picked turns lie in the log, by all.
   void compare_some(std::size_t i) {
     Comparison c = compared(some_, rates_, offset_s(i));
-    if (c.count < kLeastTurns && !all_are_picked_) c = compared(turns_, rates_, offset_s(i));
-    by_some_[i] = c.count < kLeastTurns ? kNothing : c.correlation;
+    if (c.count < kMinTurns && !all_are_picked_) c = compared(turns_, rates_, offset_s(i));
+    by_some_[i] = c.count < kMinTurns ? kNothing : c.correlation;
     control_.report(kShareOfSome * static_cast<double>(++compared_) / static_cast<double>(count_));
   }
 
@@ -122,18 +122,18 @@ class OffsetSearch {
   }
 
   [[nodiscard]] std::optional<std::size_t> best_by_all(std::vector<std::size_t> good) const {
-    if (good.size() > kMostByAll) {
+    if (good.size() > kMaxByAll) {
       std::stable_sort(good.begin(), good.end(),
                        [&](std::size_t a, std::size_t b) { return *by_some_[a] > *by_some_[b]; });
-      good.resize(kMostByAll);
+      good.resize(kMaxByAll);
       std::sort(good.begin(), good.end());
     }
     std::optional<std::size_t> best;
     double highest = kNothing;
     for (std::size_t n = 0; n < good.size() && !control_.is_cancelled(); ++n) {
-      const Comparison c = all_are_picked_ ? Comparison{.correlation = *by_some_[good[n]], .count = kLeastTurns}
+      const Comparison c = all_are_picked_ ? Comparison{.correlation = *by_some_[good[n]], .count = kMinTurns}
                                            : compared(turns_, rates_, offset_s(good[n]));
-      if (c.count >= kLeastTurns && c.correlation > highest) {
+      if (c.count >= kMinTurns && c.correlation > highest) {
         highest = c.correlation;
         best = good[n];
       }
@@ -189,7 +189,7 @@ void add_drift(TimeOffset& offset, std::span<const SeenTurn> turns, const RateIn
   double so = 0;
   double sto = 0;
   const std::size_t length = turns.size() / kParts;
-  if (length < 2 * kLeastTurns) {
+  if (length < 2 * kMinTurns) {
     offset.drift_sd = std::numeric_limits<double>::infinity();
     return;
   }
@@ -248,7 +248,7 @@ Eigen::Vector3d RateIntegral::up_to(double time_s) const {
 
 std::optional<TimeOffset> time_offset(std::span<const SeenTurn> turns, const RateIntegral& rates, double max_offset_s,
                                       const StepControl& control) {
-  if (turns.size() < kLeastTurns || rates.empty()) return std::nullopt;
+  if (turns.size() < kMinTurns || rates.empty()) return std::nullopt;
   const std::optional<Peak> found = peak(turns, rates, 0, max_offset_s, control);
   if (!found) return std::nullopt;
   const Comparison at_peak = compared(turns, rates, found->offset_s);

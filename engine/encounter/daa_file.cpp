@@ -18,9 +18,9 @@ namespace sigs {
 
 namespace {
 
-constexpr double kMostPlace_m = 1e9;    // beyond the Moon
-constexpr double kMostSpeed_mps = 1e6;  // beyond any vehicle
-constexpr double kMostTime_s = 1e12;
+constexpr double kMaxPlace_m = 1e9;    // beyond the Moon
+constexpr double kMaxSpeed_mps = 1e6;  // beyond any vehicle
+constexpr double kMaxTime_s = 1e12;
 
 // --- Columns.
 
@@ -178,9 +178,9 @@ Result<Line> line_of(const std::vector<std::string_view>& values, const Header& 
     const double scaled = *value * column.factor / (is_place_on_earth ? kDegree_rad : 1);
     const double limit = quantity == Quantity::latitude          ? 90
                          : quantity == Quantity::longitude       ? 360
-                         : quantity == Quantity::time            ? kMostTime_s
-                         : kind_of(quantity) == UnitKind::length ? kMostPlace_m
-                         : kind_of(quantity) == UnitKind::speed  ? kMostSpeed_mps
+                         : quantity == Quantity::time            ? kMaxTime_s
+                         : kind_of(quantity) == UnitKind::length ? kMaxPlace_m
+                         : kind_of(quantity) == UnitKind::speed  ? kMaxSpeed_mps
                                                                  : 1e6;
     // Degrees may have gained a rounding on their way.
     if (std::abs(scaled) > limit * (1 + 1e-12))

@@ -44,7 +44,7 @@ std::string number(double value) {
 }
 
 // What the ownship's own acceleration asks for: |v|^2 + s.(a_intruder - a_own) > 0, or the distance is greatest there.
-double least_closing_speed_mps(const PlannedApproach& approach, const EncounterTrack& own) {
+double min_closing_speed_mps(const PlannedApproach& approach, const EncounterTrack& own) {
   constexpr double kStep_s = 1e-3;
   const double before_s = std::max(own.first_s, approach.time_s - kStep_s);
   const double after_s = std::min(own.last_s, approach.time_s + kStep_s);
@@ -70,10 +70,10 @@ std::string why_not(const PlannedApproach& approach, const EncounterTrack& own) 
 }
 
 std::string why_nearer(const PlannedApproach& approach, const EncounterTrack& own, const NearestMoment& nearest) {
-  const double least_mps = least_closing_speed_mps(approach, own);
-  if (approach.closing_speed_mps <= least_mps)
+  const double min_mps = min_closing_speed_mps(approach, own);
+  if (approach.closing_speed_mps <= min_mps)
     return fmt::format("closing speed: above {} m/s is needed, as the camera itself speeds towards the intruder then",
-                       number(std::ceil(least_mps * 1000) / 1000));
+                       number(std::ceil(min_mps * 1000) / 1000));
   return fmt::format("closing speed: {} m/s is too little for the camera's turns, which bring it to {} m at {} s",
                      number(approach.closing_speed_mps), number(nearest.horizontal_m), number(nearest.time_s));
 }

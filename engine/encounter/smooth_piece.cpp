@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kN = kPieceNodes;
 constexpr double kShortest_s = 1e-3;
-constexpr double kLongest_s = 20;  // of a piece, where there are not more than kMostPieces of that length
-constexpr double kMostPieces = 1e5;
+constexpr double kLongest_s = 20;  // of a piece, where there are not more than kMaxPieces of that length
+constexpr double kMaxPieces = 1e5;
 constexpr double kCubic_m = 1e-8;
 constexpr double kRounding = 1e-13;
 constexpr double kUnitRounding = 1.2e-16;  // of a number, relative
@@ -231,7 +231,7 @@ class Isolation {
 void for_each_smooth_piece(const RelativeMotionAt& motion, double begin_s, double end_s,
                            const std::vector<double>& knots_s, double rounding_m,
                            const std::function<void(const SmoothPiece&)>& visit) {
-  const double longest_s = std::max(kLongest_s, (end_s - begin_s) / kMostPieces);
+  const double longest_s = std::max(kLongest_s, (end_s - begin_s) / kMaxPieces);
   const auto cut_evenly = [&](double from_s, double to_s) {
     const auto parts = static_cast<int>(std::ceil((to_s - from_s) / longest_s));
     for (int i = 0; i < parts; ++i)

@@ -18,9 +18,9 @@ namespace sigs {
 
 namespace {
 
-constexpr std::size_t kMostVariables = 64;  // the published ones have at most 16
+constexpr std::size_t kMaxVariables = 64;  // the published ones have at most 16
 constexpr std::size_t kLongestLabel_bytes = 64;
-constexpr double kMostBins = 10000;
+constexpr double kMaxBins = 10000;
 constexpr double kGreatestCount = 1e15;  // below 2^53, so that counts and their sums are exact
 
 // The sections and the file's name: what every part of the reader needs.
@@ -77,7 +77,7 @@ Result<Labels> labels_in(const Sections& sections, std::string_view name) {
     for (const std::string_view label : csv_fields(line.text)) {
       if (const Result<void> good = check_label(labels, label, place); !good) return fail(good.error());
       labels.emplace_back(line_text(label));
-      if (labels.size() > kMostVariables) return fail(place, "more than 64 labels");
+      if (labels.size() > kMaxVariables) return fail(place, "more than 64 labels");
     }
   }
   if (labels.empty()) return fail(place, "there are no labels");
@@ -85,7 +85,7 @@ Result<Labels> labels_in(const Sections& sections, std::string_view name) {
 }
 
 Result<std::vector<int>> bins_in(const Sections& sections, std::string_view name, std::size_t count) {
-  const Result<std::vector<double>> numbers = sections.numbers(name, static_cast<double>(count), 1, kMostBins);
+  const Result<std::vector<double>> numbers = sections.numbers(name, static_cast<double>(count), 1, kMaxBins);
   if (!numbers) return fail(numbers.error());
   std::vector<int> bins;
   for (const double number : *numbers) {

@@ -14,12 +14,12 @@ namespace sigs {
 
 namespace {
 
-constexpr int kMostLines = 100000;
-constexpr std::size_t kMostShown = 40;  // bytes of a stranger's text in a message
+constexpr int kMaxLines = 100000;
+constexpr std::size_t kMaxShown = 40;  // bytes of a stranger's text in a message
 
 std::string shown(std::string_view text) {
-  const std::string line = line_text(text.substr(0, kMostShown));
-  return text.size() > kMostShown ? line + "..." : line;
+  const std::string line = line_text(text.substr(0, kMaxShown));
+  return text.size() > kMaxShown ? line + "..." : line;
 }
 
 Result<double> number_of(std::string_view word, const std::string& place, double low, double high) {
@@ -43,7 +43,7 @@ Result<std::vector<ModelSection>> model_sections(std::string_view text, const st
   for (int number = 1; !text.empty(); ++number) {
     const std::string_view line = trimmed(next_line(text));
     if (line.empty()) continue;
-    if (number > kMostLines)
+    if (number > kMaxLines)
       return fail(fmt::format("{}: line {}", file, number), "more lines than any encounter model has");
     if (line.front() == '#') {
       const std::string_view name = trimmed(line.substr(1));

@@ -13,7 +13,7 @@ namespace sigs {
 
 namespace {
 
-constexpr double kLeastRelativeSpeed_mps = 1e-6;
+constexpr double kMinRelativeSpeed_mps = 1e-6;
 
 glm::dvec2 direction_ne(double heading_rad) {
   return {std::cos(heading_rad), std::sin(heading_rad)};
@@ -53,7 +53,7 @@ Result<double> closing_speed_mps(const SampledPoint& own, const SampledPoint& ot
   const double radicand = (other.speed_mps - std::abs(across_mps)) * (other.speed_mps + std::abs(across_mps));
   const double rounding = 1e-12 * own.speed_mps * own.speed_mps;
   const double speed_mps = own.speed_mps * std::cos(bearing_rad) + std::sqrt(std::max(0.0, radicand));
-  if (radicand < -rounding || speed_mps < kLeastRelativeSpeed_mps)
+  if (radicand < -rounding || speed_mps < kMinRelativeSpeed_mps)
     return fail("bearing", fmt::format("at {} deg an intruder of {} m/s does not come closer to an ownship of {} m/s",
                                        short_number_text(deg_of_rad(bearing_rad)), short_number_text(other.speed_mps),
                                        short_number_text(own.speed_mps)));

@@ -185,17 +185,17 @@ Json json_of(const FootageTruth& footage) {
 Json json_of(const TrackPolicy& policy, const TrackReport& report) {
   return {{"truth", policy.truth == TruthBox::visible ? "visible" : "silhouette"},
           {"from_frame", policy.from_frame},
-          {"least_visible_fraction", policy.min_visible_fraction},
+          {"min_visible_fraction", policy.min_visible_fraction},
           {"in_words", policies_of(report)}};
 }
 
 Json json_of(const DetectionPolicy& policy, const DetectionReport& report) {
-  return {{"least_area_px2", policy.min_area_px2},         {"match_overlap", policy.match_overlap},
-          {"false_overlap", policy.false_overlap},         {"least_score", policy.min_score},
-          {"longest_range_m", policy.max_range_m},         {"nearest_range_m", policy.max_closest_range_m},
-          {"least_encounter_s", policy.min_encounter_s},   {"longest_gap_s", policy.max_gap_s},
-          {"detect_range_m", policy.detect_range_m},       {"window_s", policy.window_s},
-          {"least_window_share", policy.min_window_share}, {"in_words", policies_of(report)}};
+  return {{"min_area_px2", policy.min_area_px2},         {"match_overlap", policy.match_overlap},
+          {"false_overlap", policy.false_overlap},       {"min_score", policy.min_score},
+          {"longest_range_m", policy.max_range_m},       {"nearest_range_m", policy.max_closest_range_m},
+          {"min_encounter_s", policy.min_encounter_s},   {"longest_gap_s", policy.max_gap_s},
+          {"detect_range_m", policy.detect_range_m},     {"window_s", policy.window_s},
+          {"min_window_share", policy.min_window_share}, {"in_words", policies_of(report)}};
 }
 
 Json json_of(const DetectionRate& rate) {
@@ -288,7 +288,7 @@ std::string evaluation_json(const TrackReport& report) {
 std::string evaluation_json(const DetectionReport& report) {
   Json json{{"sigs_evaluation", 1},
             {"kind", "detect"},
-            {"films", json_lines(report.clips)},
+            {"videos", json_lines(report.clips)},
             {"policy", json_of(report.policy, report)},
             {"detectors", scores_of(report.scores)},
             {"remarks", json_lines(report.remarks)}};

@@ -113,7 +113,7 @@ std::string report_html(const DetectionReport& report, const std::vector<ReportP
   if (const std::vector<TableColumn> encounters = encounters_of(report); !encounters.front().cells.empty())
     body += element("h2", "Encounters") + "\n" + table_html(encounters);
   return page("Detectors on " + clips, body + plots_html(images) + element("h2", "What is counted") + "\n" +
-                                           list_of(policies_of(report)) + element("h2", "Films") + "\n" +
+                                           list_of(policies_of(report)) + element("h2", "Videos") + "\n" +
                                            list_of(report.clips));
 }
 

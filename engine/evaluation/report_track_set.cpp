@@ -231,8 +231,8 @@ std::string evaluation_json(const TrackSetReport& report) {
                      {"clips", clips_json(report)},
                      {"policy",
                       {{"truth", report.policy.truth == TruthBox::visible ? "visible" : "silhouette"},
-                       {"least_visible_fraction", report.policy.min_visible_fraction},
-                       {"least_side_px", report.min_side_px},
+                       {"min_visible_fraction", report.policy.min_visible_fraction},
+                       {"min_side_px", report.min_side_px},
                        {"in_words", policies_of(report)}}},
                      {"trackers", trackers},
                      {"remarks", remarks}};

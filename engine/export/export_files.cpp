@@ -114,8 +114,8 @@ LabelSequence label_sequence(const Project& project, const VideoInfo& footage, c
       .images = project.name,
       .own_body = scene.own_body,
       .camera = scene.camera,
-      .thresholds = {.min_pixels = project.output.label_least_pixels,
-                     .min_visible_fraction = project.output.label_least_visible_fraction},
+      .thresholds = {.min_pixels = project.output.label_min_pixels,
+                     .min_visible_fraction = project.output.label_min_visible_fraction},
       .volumes = project.output.encounter};
   for (std::size_t i = 0; i < scene.intruders.size(); ++i)
     sequence.intruders.push_back({.id = static_cast<int>(i),

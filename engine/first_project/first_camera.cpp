@@ -179,7 +179,7 @@ std::optional<Followed> followed(Project project, const Track& track, TrackPosit
                                  std::string& why_not) {
   project.camera.track.position = position;
   project.camera.track.attitude = attitude;
-  OrProblem<CameraFlight> flight = flight_by_log(project, track, footage, range);
+  Result<CameraFlight, Problem> flight = flight_by_log(project, track, footage, range);
   if (flight) return Followed{std::move(project), *std::move(flight)};
   why_not = flight.error().what;
   return std::nullopt;

@@ -85,12 +85,12 @@ glm::dvec3 aim(const Scene& scene, double middle_s) {
   const std::optional<glm::dvec3> top = ray_at(0.1), bottom = ray_at(0.9);
   if (scene.horizon_is_known && top && bottom) {
     const double wanted_rad = 0.14 * angle_between(*top, *bottom);
-    double least_rad = rad_of_deg(2) + wanted_rad / 4;
+    double min_rad = rad_of_deg(2) + wanted_rad / 4;
     for (int row = 10; row <= 75; ++row) {
       const std::optional<glm::dvec3> ray = ray_at(row / 100.0);
       if (!ray) continue;
       const double off_rad = std::abs(elevation_of(attitude * *ray) - wanted_rad);
-      if (off_rad < least_rad) best = ray, least_rad = off_rad;
+      if (off_rad < min_rad) best = ray, min_rad = off_rad;
     }
   }
   if (best) return *best;

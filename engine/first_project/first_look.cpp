@@ -191,7 +191,7 @@ FirstProjectNote set_light(const FirstLook& look, Project& project) {
   project.appearance = appearance;
   const SunEstimate& sun = look.surroundings.sun;
   note.text = fmt::format("sun, sky and ground as a few frames show them, the sun {}",
-                          sun.azimuth_rad.is_known ? how_found(sun.witness) : "behind the camera, which is a guess");
+                          sun.azimuth_rad.is_known ? how_found(sun.evidence) : "behind the camera, which is a guess");
   note.remedy = "`sigs appearance` looks at more, and at blur and noise";
   return note;
 }

@@ -26,8 +26,8 @@ struct NoteGroup {
 };
 
 const NoteGroup kGroups[] = {
-    {"appearance.point_spread_px", {"appearance.point_spread_px", "appearance.sharpening", "appearance.sharpening_px"}},
-    {"appearance.chroma_spread_px", {"appearance.chroma_spread_px"}},
+    {"appearance.psf_sigma_px", {"appearance.psf_sigma_px", "appearance.sharpening", "appearance.sharpening_px"}},
+    {"appearance.chroma_blur_px", {"appearance.chroma_blur_px"}},
     {"appearance.grain", {"appearance.grain."}},
     {"appearance.black", {"appearance.black"}},
     {"appearance.saturation", {"appearance.saturation"}},
@@ -87,7 +87,7 @@ std::vector<FirstProjectNote> light_notes(const SurroundingsEstimate& seen) {
   sun.text = sun.is_guess
                  ? "behind the camera, as what people point one at is mostly lit: " + seen.sun.azimuth_rad.why +
                        "; set light.sun.* as the footage's own things are lit"
-                 : "the sun's direction " + how_found(seen.sun.witness);
+                 : "the sun's direction " + how_found(seen.sun.evidence);
   return {light, sun};
 }
 

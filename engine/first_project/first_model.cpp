@@ -132,14 +132,14 @@ Result<FirstModel> sample_model(const fs::path& chosen, SceneFiles& files) {
 }
 
 Result<CopiedModel> copied_model(const fs::path& file, const fs::path& folder) {
-  constexpr int kMostUp = 1;
+  constexpr int kMaxUp = 1;
   const Result<std::vector<fs::path>> sources = files_of_model(file);
   if (!sources) return fail(sources.error());
   const fs::path obj = canonical_name(file);
   fs::path above = obj.parent_path();  // the folder that holds them all
   for (const fs::path& source : *sources)
     for (int up = 0; !is_at_or_below(canonical_name(source), above); ++up, above = above.parent_path())
-      if (up == kMostUp || above == above.parent_path())
+      if (up == kMaxUp || above == above.parent_path())
         return fail(file.string(),
                     fmt::format("cannot be copied: its file {} lies outside of its folder", source.string()));
   CopiedModel copied{.obj = folder / obj.lexically_relative(above)};

@@ -82,7 +82,7 @@ Result<void> check_options(const FirstProjectOptions& options) {
     return fail("calibration", "states the field of view; give it or a field of view, not both", ErrorKind::usage);
   if (!options.out.empty() && lower_extension(options.out) != ".json")
     return fail(options.out.string(), "a project file ends in .json", ErrorKind::usage);
-  const std::string wrong = options.name.empty() ? "" : wrong_with_file_name(options.name);
+  const std::string wrong = options.name.empty() ? "" : file_name_error(options.name);
   return wrong.empty() ? Result<void>() : fail("name", wrong, ErrorKind::usage);
 }
 
@@ -175,10 +175,10 @@ class Planning {
     scene.first_frame = range_.first;
     scene.last_frame = range_.last;
     if (project().camera.track.file.empty()) {
-      take_camera_flight(scene, steady_flight(project()));
-    } else if (OrProblem<CameraFlight> flight =
+      set_camera_motion(scene, steady_flight(project()));
+    } else if (Result<CameraFlight, Problem> flight =
                    flight_by_log(project(), seen_turns_ ? *seen_turns_ : *log_.track, footage_, range_)) {
-      take_camera_flight(scene, *std::move(flight));
+      set_camera_motion(scene, *std::move(flight));
     }
     return scene;
   }

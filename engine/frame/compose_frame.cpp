@@ -117,19 +117,19 @@ Layer hazed_layer(const Scene& scene, const IntruderLayers& layers, const Frame*
                airlight_of(scene, layers, background));
 }
 
-// Fills `moved` and `blurred`; the latter stays empty where the layer is too faint to be seen.
+// Fills `motion_blurred` and `blurred`; the latter stays empty where the layer is too faint to be seen.
 void blur(const Scene& scene, const ColorInfo& footage, int bit_depth, IntruderLayers& layers) {
   const cv::Rect image({0, 0}, scene.footage.size_px);
   const cv::Rect& rect = layers.hazed.rect;
-  layers.moved = motion_blurred(layers.hazed, layers.motion, kUnboundedRect);
+  layers.motion_blurred = motion_blurred(layers.hazed, layers.motion, kUnboundedRect);
   layers.op_counts.pixels_motion_blurred +=
       static_cast<std::int64_t>(layers.motion.shifts.size()) * std::int64_t{rect.area()};
-  if (!is_visible_after_blur(layers.moved, layers.sigma_px, footage, bit_depth)) return;
+  if (!is_visible_after_blur(layers.motion_blurred, layers.sigma_px, footage, bit_depth)) return;
   if (!needs_blurred_layers(scene)) {
-    layers.blurred = clipped(layers.moved, image);
+    layers.blurred = clipped(layers.motion_blurred, image);
     return;
   }
-  layers.blurred = blurred_within(layers.moved, layers.sigma_px, image, layers.motion.spread_px2);
+  layers.blurred = blurred_within(layers.motion_blurred, layers.sigma_px, image, layers.motion.spread_px2);
   if (layers.sigma_px > 0) layers.op_counts.pixels_blurred += layers.blurred.rect.area();
 }
 
@@ -213,7 +213,7 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     Result<std::vector<RenderedView>> views = rendered_views(plan.views, plan, scene, layers, **renderer);
     if (!views) return fail(views.error());
     layers.views = std::move(*views);
-    layers.warped = warped(layers.views, lens, plan.warp_rect, turn_of_row(layers));
+    layers.warped = warped(layers.views, lens, plan.warp_rect, row_transform(layers));
     layers.hazed = hazed_layer(scene, layers, background);
     blur(scene, footage, background == nullptr ? 8 : background->bit_depth, layers);
     layers.occluded = occluded_by_body(layers.blurred, scene.own_body);

@@ -12,8 +12,8 @@
 namespace sigs {
 
 // One intermediate image of a frame, for inspection: CV_8UC3 BGR or, for masks, CV_8UC1. The name is also that of the
-// file that `sigs frame --stages` writes: "input1", "a", "bent", ...; with several intruders "1_bent" for the one with
-// id 1.
+// file that `sigs frame --stages` writes: "input1", "a", "warped", ...; with several intruders "1_warped" for the one
+// with id 1.
 struct Stage {
   std::string name;
   cv::Mat image;
@@ -33,7 +33,7 @@ struct OpCounts {
   std::int64_t pixels_blended = 0;         // of the frame, rewritten
   std::int64_t pixels_converted = 0;       // of whole images, between code values and BGR
   std::int64_t pixels_motion_blurred = 0;  // of layers, times the shifts that each is the sum of
-  std::int64_t samples_filtered = 0;       // of the frame's planes: sharpening, spread of chroma
+  std::int64_t samples_filtered = 0;       // of the frame's planes: sharpening, chroma blur
   std::int64_t samples_of_noise = 0;       // grain
   std::int64_t pixels_coded = 0;           // by the codec match
 
@@ -67,7 +67,7 @@ struct ComposedFrame {
   Frame image;
   // Opacity with which the intruders were composited: CV_8UC1 of the image's size, 255 opaque. At least 1 where a pixel
   // was rewritten at all; 0 where its luma has the bits of the footage (a chroma sample shared with a rewritten
-  // neighbour may differ). Where sharpening, spread of chroma or grain go beyond the opacity, 1. Empty where no pixel
+  // neighbour may differ). Where sharpening, chroma blur or grain go beyond the opacity, 1. Empty where no pixel
   // was rewritten.
   cv::Mat mask;
   FrameTruth truth;

@@ -21,7 +21,7 @@
 #include "compositor/blend.h"
 #include "compositor/classic.h"
 #include "compositor/occlude.h"
-#include "frame/code_stages.h"
+#include "frame/post_blend_stages.h"
 #include "video/color_space.h"
 
 namespace sigs {
@@ -99,7 +99,7 @@ cv::Mat shown(const Layer& layer, const ColorInfo& footage, cv::Size image_size_
   return image;
 }
 
-// "1_bent" for the intruder with id 1; plain "bent" where there is only one.
+// "1_warped" for the intruder with id 1; plain "warped" where there is only one.
 std::string stage_name(const std::string& name, const IntruderLayers& layers, const Scene& scene) {
   return scene.intruders.size() == 1 ? name : fmt::format("{}_{}", layers.placed.id, name);
 }
@@ -111,14 +111,14 @@ void composite_direct(ComposedFrame& composed, const Scene& scene, const Intrude
 }
 
 // With the stages that follow blending, in code values. The mask has what they rewrite beyond the layer.
-void composite_with_code_stages(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int frame,
-                                bool keep) {
+void composite_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers,
+                                      int frame, bool keep) {
   StageDone done;
   if (keep)
     done = [&](const std::string& name) {
       composed.stages.push_back({stage_name(name, layers, scene), bgr_of(composed.image)});
     };
-  const Rewritten rewritten = blend_with_code_stages(composed, scene, layers, frame, done);
+  const Rewritten rewritten = blend_with_post_blend_stages(composed, scene, layers, frame, done);
   add_to_mask(composed.mask, scene.footage.size_px, layers.occluded.rect, layers.occluded.color);
   cv::Mat mask = composed.mask(rewritten.rect);
   cv::max(mask, rewritten.changed & 1, mask);
@@ -130,13 +130,13 @@ void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const In
   const cv::Size size = scene.footage.size_px;
   for (const auto& [view, layer] : layers.views)
     stages.push_back({stage_name("layer", layers, scene), shown(layer, footage, view.size_px)});
-  stages.push_back({stage_name("bent", layers, scene), shown(layers.warped, footage, size)});
+  stages.push_back({stage_name("warped", layers, scene), shown(layers.warped, footage, size)});
   if (layers.hazed.color.data != layers.warped.color.data)
     stages.push_back({stage_name("hazed", layers, scene), shown(layers.hazed, footage, size)});
-  if (layers.moved.color.data != layers.hazed.color.data)
-    stages.push_back({stage_name("moved", layers, scene), shown(layers.moved, footage, size)});
+  if (layers.motion_blurred.color.data != layers.hazed.color.data)
+    stages.push_back({stage_name("motion_blurred", layers, scene), shown(layers.motion_blurred, footage, size)});
   stages.push_back({stage_name("blurred", layers, scene), shown(layers.blurred, footage, size)});
-  stages.push_back({stage_name("hidden", layers, scene), shown(layers.occluded, footage, size)});
+  stages.push_back({stage_name("occluded", layers, scene), shown(layers.occluded, footage, size)});
 }
 
 // What the own body leaves of the pixels of part that the classic methods changed: CV_32FC1, 0 where nothing is to
@@ -265,8 +265,8 @@ ComposedFrame composited(Frame background, const Scene& scene, int frame,
     if (direct) {
       if (keep) keep_direct_stages(composed.stages, scene, layers, composed.image.color);
       if (layers.occluded.empty()) continue;
-      if (has_code_stages(scene.appearance))
-        composite_with_code_stages(composed, scene, layers, frame, keep);
+      if (has_post_blend_stages(scene.appearance))
+        composite_with_post_blend_stages(composed, scene, layers, frame, keep);
       else
         composite_direct(composed, scene, layers);
     } else {

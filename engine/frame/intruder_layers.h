@@ -26,7 +26,7 @@ struct IntruderLayers {
   std::vector<RenderedView> views;       // empty where no part of it can be in the image
   Layer warped;                          // through the lens, with the margin beyond the image that the blurs need
   Layer hazed;                           // in the footage's tones, behind haze; shares its samples where both are off
-  Layer moved;                           // blurred by its motion; likewise
+  Layer motion_blurred;                  // blurred by its motion; likewise
   Layer blurred;                         // clipped to the image; empty where too faint to change any sample
   Layer occluded;            // without what own body and occluder hide; shares its samples where they hide nothing
   double whole_area_px = 0;  // of the silhouette, the part outside the image included

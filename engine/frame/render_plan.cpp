@@ -66,7 +66,7 @@ bool may_span_several_views(double distance_m, double radius_m) {
 double sigma_px_of(const Scene& scene, double distance_m) {
   if (scene.compositing.method == MethodChoice::plain) return 0;
   const double by_distance_px = blur_by_distance_px_per_m(scene.compositing) * distance_m;
-  const double own_px = scene.compositing.method == MethodChoice::direct ? scene.appearance.point_spread_px : 0;
+  const double own_px = scene.compositing.method == MethodChoice::direct ? scene.appearance.psf_sigma_px : 0;
   return own_px > 0 ? std::hypot(by_distance_px, own_px) : by_distance_px;
 }
 
@@ -151,9 +151,9 @@ std::vector<cv::Point2d> earlier_places(const Scene& scene, int frame, const Pla
   return places;
 }
 
-TurnOfRow turn_of_row(const IntruderLayers& layers, double step) {
+RowTransform row_transform(const IntruderLayers& layers, double step) {
   if (!layers.row_motion) return nullptr;
-  return [&motion = *layers.row_motion, step](double row) { return motion.turn_of_row((row + 0.5) * step - 0.5); };
+  return [&motion = *layers.row_motion, step](double row) { return motion.row_transform((row + 0.5) * step - 0.5); };
 }
 
 IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
@@ -231,7 +231,7 @@ Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, con
   const Result<std::vector<RenderedView>> rendered = rendered_views(views, plan, scene, layers, renderer);
   if (!rendered) return fail(rendered.error());
   if (rendered->empty()) return 0;
-  const double coarse_area = area_px(warped(*rendered, coarse, coarse_rect, turn_of_row(layers, step)).coverage);
+  const double coarse_area = area_px(warped(*rendered, coarse, coarse_rect, row_transform(layers, step)).coverage);
   layers.op_counts.pixels_warped += coarse_rect.area();
   layers.op_counts.lens_evaluations += coarse.evaluations();
   return coarse_area * step * step;

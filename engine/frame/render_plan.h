@@ -23,7 +23,7 @@ namespace sigs {
                                            const Camera& camera);
 
 // For warped(): where the rays of a row lead. step: size of its pixels in the image's.
-[[nodiscard]] TurnOfRow turn_of_row(const IntruderLayers& layers, double step = 1);
+[[nodiscard]] RowTransform row_transform(const IntruderLayers& layers, double step = 1);
 
 // What is to be rendered of an intruder.
 struct RenderPlan {

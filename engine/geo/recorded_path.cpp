@@ -71,7 +71,7 @@ Result<std::vector<RecordedPath>> recorded_paths_of(std::string_view text, const
   if (const std::string_view wrong = wrong_with_content(text); !wrong.empty()) return fail(where, std::string(wrong));
   Result<std::vector<PathDraft>> drafts = drafts_of(text, where);
   if (!drafts) return fail(drafts.error());
-  return all_repaired(std::move(*drafts), where);
+  return repair_paths(std::move(*drafts), where);
 }
 
 Result<std::vector<RecordedPath>> read_recorded_paths(const std::filesystem::path& path) {

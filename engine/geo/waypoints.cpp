@@ -13,7 +13,7 @@ namespace {
 
 // The method takes time with the square of the number of points where each split takes off one point alone. Every point
 // of this number stays, so that such a file takes as long as its length; in others it is one point of thousands.
-constexpr std::size_t kMostAtOnce = 4096;
+constexpr std::size_t kMaxAtOnce = 4096;
 
 double distance_to_segment_m(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 along = b - a;
@@ -28,8 +28,8 @@ class Simplification {
       : all_(all), in_time_(in_time), tolerance_m_(tolerance_m), kept_(all.size(), false) {}
 
   [[nodiscard]] std::vector<WorldWaypoint> waypoints() {
-    for (std::size_t first = 0; first < all_.size(); first += kMostAtOnce)
-      keep_needed(first, std::min(first + kMostAtOnce, all_.size() - 1));
+    for (std::size_t first = 0; first < all_.size(); first += kMaxAtOnce)
+      keep_needed(first, std::min(first + kMaxAtOnce, all_.size() - 1));
     std::vector<WorldWaypoint> chosen;
     for (std::size_t i = 0; i < all_.size(); ++i)
       if (kept_[i]) chosen.push_back(all_[i]);

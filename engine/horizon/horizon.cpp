@@ -17,10 +17,10 @@ namespace {
 constexpr int kColumnStep_px = 5;
 constexpr std::size_t kPerColumn = 4;  // candidates
 constexpr std::size_t kTried = 2;      // of them, through which planes are laid
-constexpr float kLeastStep = 4;        // codes by which the sky is brighter than what lies below it
+constexpr float kMinStep = 4;          // codes by which the sky is brighter than what lies below it
 constexpr int kStep_px = 4;            // above and below the edge, where the two are compared
 constexpr double kNear_rad = 0.0025;   // a candidate on the plane
-constexpr double kLeastShare = 0.25;   // of the columns, side by side
+constexpr double kMinShare = 0.25;     // of the columns, side by side
 constexpr int kGap = 4;                // a column without the edge counts as much as so many with it
 constexpr int kHorizonTrials = 600;
 constexpr double kSteepest = 1.7;        // tangent of the roll
@@ -64,7 +64,7 @@ std::vector<std::pair<float, float>> edges_in(const cv::Mat& gradient, const cv:
     const float after = -gradient.at<float>(y + 1, x);
     if (here <= 0 || here < before || here <= after) continue;
     const float step = mean.at<float>(y - kStep_px, x) - mean.at<float>(y + kStep_px, x);
-    if (step < kLeastStep) continue;
+    if (step < kMinStep) continue;
     const float bend = before - 2 * here + after;
     const float part = bend < 0 ? 0.5F * (before - after) / bend : 0;
     edges.emplace_back(step, static_cast<float>(y) + std::clamp(part, -0.5F, 0.5F));
@@ -160,7 +160,7 @@ std::optional<Eigen::Vector3d> plane_of(const std::vector<Candidate>& candidates
   std::vector<const Candidate*> strong;
   for (const Candidate& c : candidates)
     if (c.rank < static_cast<int>(kTried)) strong.push_back(&c);
-  if (strong.size() < 2 || static_cast<double>(strong.size()) < kLeastShare * columns) return std::nullopt;
+  if (strong.size() < 2 || static_cast<double>(strong.size()) < kMinShare * columns) return std::nullopt;
   cv::RNG chance(1);
   const int count = static_cast<int>(strong.size());
   int best = 0;
@@ -176,7 +176,7 @@ std::optional<Eigen::Vector3d> plane_of(const std::vector<Candidate>& candidates
       normal = tried;
     }
   }
-  if (best < kLeastShare * columns) return std::nullopt;
+  if (best < kMinShare * columns) return std::nullopt;
   return normal;
 }
 
@@ -253,7 +253,7 @@ std::optional<FittedEdge> fitted_edge(const std::vector<Candidate>& candidates, 
   FittedEdge edge;
   for (int round = 0; round < 3; ++round) {
     const Stretch stretch = stretch_on(candidates, normal);
-    if (stretch.columns < kLeastShare * columns) return std::nullopt;
+    if (stretch.columns < kMinShare * columns) return std::nullopt;
     Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
     for (const Candidate& c : candidates)
       if (is_on(c, normal, stretch)) m += c.ray * c.ray.transpose();

@@ -12,7 +12,7 @@ namespace {
 constexpr double kMinSkyColumns = 0.6, kMinEnds = 0.5;  // of the columns, for skyline_pitch_rad()
 constexpr double kAgree_rad = 0.0087;                   // half a degree
 constexpr double kDip_rad = 0.0068;                     // sqrt(2 h / R): the horizon's dip seen from 150 m
-constexpr int kLeastLines = 5;
+constexpr int kMinLines = 5;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ std::optional<Level> level_of(std::span<const HorizonLine> lines,
       best = sum;
     }
   }
-  if (level.lines < kLeastLines || 2 * level.lines < static_cast<int>(ups.size())) return std::nullopt;
+  if (level.lines < kMinLines || 2 * level.lines < static_cast<int>(ups.size())) return std::nullopt;
   level.up_in_start = best.normalized();
   double squares = 0;
   for (std::size_t i = 0; i < ups.size(); ++i) {

@@ -64,8 +64,8 @@ Json info_of(const LabelSequence& sequence) {
   return {{"description", sequence.name},
           {"version", "1.0"},
           {"contributor", "SIGS"},
-          {"least_pixels", sequence.thresholds.min_pixels},
-          {"least_visible_fraction", rounded(sequence.thresholds.min_visible_fraction)}};
+          {"min_pixels", sequence.thresholds.min_pixels},
+          {"min_visible_fraction", rounded(sequence.thresholds.min_visible_fraction)}};
 }
 
 Json video_of(const LabelSequence& sequence) {

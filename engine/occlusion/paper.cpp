@@ -149,12 +149,12 @@ cv::Mat unpadded(const cv::Mat& padded_mask) {
   return padded_mask(cv::Rect(1, 0, padded_mask.cols - 2, padded_mask.rows - 1)).clone();
 }
 
-cv::Mat without_small(const cv::Mat& mask, double least_area_percent) {
+cv::Mat without_small(const cv::Mat& mask, double min_area_percent) {
   cv::Mat part_of;
   cv::Mat measures;
   cv::Mat unused;
   const int parts = cv::connectedComponentsWithStats(mask, part_of, measures, unused, 8, CV_32S);
-  const double min_px = least_area_percent / 100 * static_cast<double>(mask.total());
+  const double min_px = min_area_percent / 100 * static_cast<double>(mask.total());
   std::vector<uchar> shade(static_cast<std::size_t>(parts), 0);  // part 0 is the black
   for (int part = 1; part < parts; ++part)
     if (measures.at<int>(part, cv::CC_STAT_AREA) >= min_px) shade[static_cast<std::size_t>(part)] = 255;
@@ -196,7 +196,7 @@ RefinedMask refined_mask(const cv::Mat& rough, const PaperOwnBodySettings& setti
   refined.closed_edges = closed(refined.sobel, closing_px(settings, rough.size()));
   refined.with_padding = padded(refined.closed_edges);
   refined.filled = unpadded(contours_filled(refined.with_padding));
-  refined.mask = without_small(refined.filled, settings.least_area_percent);
+  refined.mask = without_small(refined.filled, settings.min_area_percent);
   return refined;
 }
 

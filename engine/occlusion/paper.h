@@ -58,6 +58,6 @@ struct CannyThresholds {
 [[nodiscard]] cv::Mat unpadded(const cv::Mat& padded_mask);
 
 // The mask without its connected parts (8-connectivity) of fewer pixels than this percentage of the image's.
-[[nodiscard]] cv::Mat without_small(const cv::Mat& mask, double least_area_percent);
+[[nodiscard]] cv::Mat without_small(const cv::Mat& mask, double min_area_percent);
 
 }  // namespace sigs

@@ -146,7 +146,7 @@ std::optional<std::string> why_undecided(const StableDecision& decision, const S
   const auto pixels = static_cast<double>(decision.moving.total());
   const double moving_percent = 100 * cv::countNonZero(decision.moving > 0.5) / pixels;
   if (moving_percent < kNothingPercent) return "nothing moves";
-  if (moving_percent < settings.least_moving_percent) return "too little moves";
+  if (moving_percent < settings.min_moving_percent) return "too little moves";
   if (cv::countNonZero(decision.body) > kMaxShare * pixels) return "nearly everything stays";
   if (cv::countNonZero(decision.body) == 0 && cv::countNonZero(decision.labels) > kDoubtfulShare * pixels)
     return "too little moves";
@@ -180,7 +180,7 @@ StableDecision decision_by(const MotionEvidence& gradients, MotionEvidence motio
                             .drift = decision.drift,
                             .middle = cv::max(decision.boundaries.ridge, decision.boundaries.motion)};
   const BodyParts parts =
-      body_parts(labellings, inside, settings.least_area_percent / 100 * static_cast<double>(decision.labels.total()));
+      body_parts(labellings, inside, settings.min_area_percent / 100 * static_cast<double>(decision.labels.total()));
   decision.body = parts.kept;
   const CutCosts costs = costs_of(decision, away, kTrusting);
   for (int round = 0; round < rounds; ++round) {

@@ -31,7 +31,7 @@ constexpr double kLeft = 78, kRight = 24, kTop = 44, kBelowFrame = 52;  // room 
 constexpr double kKeyRow = 22, kKeySample = 38, kKeyGap = 28;
 constexpr double kTextSize = 13, kTitleSize = 15;
 constexpr double kImageScale = 1.5;
-constexpr double kMostTicks = 8;
+constexpr double kMaxTicks = 8;
 
 double placed(double value, PlotScale scale) {
   return scale == PlotScale::symlog ? std::asinh(value / 10) : value;
@@ -53,9 +53,9 @@ std::vector<double> symlog_ticks(const PlotSpan& range) {
   return ticks;
 }
 
-// 1, 2 or 5 times a power of ten, so that at most kMostTicks steps fit into the range.
+// 1, 2 or 5 times a power of ten, so that at most kMaxTicks steps fit into the range.
 double step_of(double range) {
-  const double rough = range / kMostTicks;
+  const double rough = range / kMaxTicks;
   const double power = std::pow(10, std::floor(std::log10(rough)));
   for (const double factor : {1.0, 2.0, 5.0})
     if (factor * power >= rough * (1 - 1e-9)) return factor * power;

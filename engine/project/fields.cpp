@@ -93,12 +93,12 @@ void add_own_body(FieldList list, OwnBodySettings& own_body) {
               "diameter by which edges grow before they are filled; 0: as the image's size asks for");
   list.number("paper.closing_px", &own_body.paper.closing_px, "px", 0, 1000,
               "gaps in contours that are closed; 0: as the image's size asks for");
-  list.number("paper.least_area_percent", &own_body.paper.least_area_percent, "%", 0, 100,
+  list.number("paper.min_area_percent", &own_body.paper.min_area_percent, "%", 0, 100,
               "smaller contours are dropped; of the image");
   list.number("stable.vibration_px", &own_body.stable.vibration_px, "px", 0, 50, "how far the body may shake");
-  list.number("stable.least_area_percent", &own_body.stable.least_area_percent, "%", 0, 100,
+  list.number("stable.min_area_percent", &own_body.stable.min_area_percent, "%", 0, 100,
               "smaller parts are dropped; of the image");
-  list.number("stable.least_moving_percent", &own_body.stable.least_moving_percent, "%", 0, 100,
+  list.number("stable.min_moving_percent", &own_body.stable.min_moving_percent, "%", 0, 100,
               "of the image that has to move, or nothing can be told");
 }
 
@@ -192,10 +192,10 @@ void add_compositing(FieldList list, CompositingSettings& compositing) {
 }
 
 void add_appearance(FieldList list, AppearanceSettings& appearance) {
-  list.number("point_spread_px", &appearance.point_spread_px, "px", 0, 20, "sigma of the lens' and the sensor's blur");
+  list.number("psf_sigma_px", &appearance.psf_sigma_px, "px", 0, 20, "sigma of the lens' and the sensor's blur");
   list.number("sharpening", &appearance.sharpening, "", 0, 5, "the camera's own: how much of the detail is added");
   list.number("sharpening_px", &appearance.sharpening_px, "px", 0.2, 20, "sigma of the blur that detail is told by");
-  list.number("chroma_spread_px", &appearance.chroma_spread_px, "px", 0, 20,
+  list.number("chroma_blur_px", &appearance.chroma_blur_px, "px", 0, 20,
               "blur of the colours alone, in samples of the chroma planes");
   list.number("black", &appearance.black, "", 0, 1, "linear light that is added to all of the intruder: flare");
   list.number("saturation", &appearance.saturation, "", 0, 4, "of the intruder's colours; 1: as painted");
@@ -203,8 +203,10 @@ void add_appearance(FieldList list, AppearanceSettings& appearance) {
   list.number("grain.sd_dark", &grain.sd_dark, "code", 0, 64, "noise of luma where the image is black");
   list.number("grain.sd_bright", &grain.sd_bright, "code", 0, 64, "noise of luma where the image is white");
   list.number("grain.sd_chroma", &grain.sd_chroma, "code", 0, 64, "noise of chroma");
-  list.number("grain.spread_px", &grain.spread_px, "px", 0, 10, "sigma over which neighbours share noise; 0: none");
-  list.number("grain.persistence", &grain.persistence, "", 0, 0.99, "correlation of the noise from frame to frame");
+  list.number("grain.correlation_length_px", &grain.correlation_length_px, "px", 0, 10,
+              "sigma of the Gaussian by which neighbours share noise, whose correlation is 1/e at twice that; 0: none");
+  list.number("grain.temporal_correlation", &grain.temporal_correlation, "", 0, 0.99,
+              "correlation of the noise from frame to frame");
   list.number("grain.seed", &grain.seed, "", 0, 2e9, "another number gives other noise of the same kind");
   HazeSettings& haze = appearance.haze;
   list.number("haze.visibility_m", &haze.visibility_m, "m", 0.1, 1e7,
@@ -216,7 +218,7 @@ void add_appearance(FieldList list, AppearanceSettings& appearance) {
            "codec that the image around the intruder goes through once; footage: its own");
   list.number("codec.quantiser", &appearance.codec.quantiser, "", 0, 100,
               "QP of H.264, 0 to 51, or quality of MJPEG in percent; null: as the footage's stream says");
-  list.number("codec.carried_frames", &appearance.codec.carried_frames, "", 0, 16,
+  list.number("codec.predicted_frames", &appearance.codec.predicted_frames, "", 0, 16,
               "frames before this one from which H.264 and MPEG carry what they left");
 }
 
@@ -238,9 +240,9 @@ void add_output(FieldList list, ExportSettings& output) {
   static const std::string label_help = "annotation formats to write: " + listed(kLabelNames);  // a Field keeps no copy
   list.add("labels", &output.labels, "", label_help);
   // Formats that leave nothing out are those without LabelFormat::has_thresholds (engine/labels/labels.h).
-  list.number("label_least_pixels", &output.label_least_pixels, "px", 1, 1e9,
+  list.number("label_min_pixels", &output.label_min_pixels, "px", 1, 1e9,
               "fewer visible pixels: no label; xml, csv and jsonl leave nothing out");
-  list.number("label_least_visible_fraction", &output.label_least_visible_fraction, "", 0, 1,
+  list.number("label_min_visible_fraction", &output.label_min_visible_fraction, "", 0, 1,
               "less of it to be seen: no label; xml, csv and jsonl leave nothing out");
   list.add("categories", &output.categories, "",
            "categories that labels count, in this order; empty: those of the intruders");

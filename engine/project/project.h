@@ -47,7 +47,7 @@ struct PaperOwnBodySettings {
   double canny_high = 0;
   int dilation_px = 0;
   int closing_px = 0;
-  double least_area_percent = 0.5;  // of the image; paper section 4.2
+  double min_area_percent = 0.5;  // of the image; paper section 4.2
 
   [[nodiscard]] bool operator==(const PaperOwnBodySettings&) const = default;
 };
@@ -55,8 +55,8 @@ struct PaperOwnBodySettings {
 // Parameters of the method `stable` (occlusion/README.md).
 struct StableOwnBodySettings {
   double vibration_px = 2;
-  double least_area_percent = 0.1;
-  double least_moving_percent = 5;
+  double min_area_percent = 0.1;
+  double min_moving_percent = 5;
 
   [[nodiscard]] bool operator==(const StableOwnBodySettings&) const = default;
 };
@@ -238,18 +238,19 @@ struct CompositingSettings {
 };
 
 // As the settings state it, else by the method: the paper's for `classic`; 0 for `direct`, since lenses blur what is
-// far no more than what is near (AppearanceSettings::point_spread_px).
+// far no more than what is near (AppearanceSettings::psf_sigma_px).
 [[nodiscard]] inline double blur_by_distance_px_per_m(const CompositingSettings& compositing) {
   return compositing.blur_px_per_m.value_or(compositing.method == MethodChoice::classic ? kPaperBlur_px_per_m : 0.0);
 }
 
 // Random noise of the footage, in 8-bit code values, as the codec left it. Its variance is linear in brightness.
 struct GrainSettings {
-  double sd_dark = 0;      // standard deviation of luma where the image is black
-  double sd_bright = 0;    // where it is white
-  double sd_chroma = 0;    // of both chroma planes
-  double spread_px = 0;    // sigma of the Gaussian that neighbouring pixels share noise by; 0: each has its own
-  double persistence = 0;  // correlation from one frame to the next, 0..1
+  double sd_dark = 0;    // standard deviation of luma where the image is black
+  double sd_bright = 0;  // where it is white
+  double sd_chroma = 0;  // of both chroma planes
+  double correlation_length_px =
+      0;  // sigma of the Gaussian that neighbouring pixels share noise by; 0: each has its own
+  double temporal_correlation = 0;  // correlation from one frame to the next, 0..1
   int seed = 1;
 
   [[nodiscard]] bool operator==(const GrainSettings&) const = default;
@@ -273,7 +274,7 @@ enum class CodecMatchChoice { none, footage, h264, mjpeg };
 
 struct CodecMatchSettings {
   CodecMatchChoice match = CodecMatchChoice::none;
-  int carried_frames = 0;           // images before this one that H.264 or MPEG has predicted from one another, 0..16
+  int predicted_frames = 0;         // images before this one that H.264 or MPEG has predicted from one another, 0..16
   std::optional<double> quantiser;  // QP of H.264 (0..51) or percent of JPEG's table; none: as the stream says
 
   [[nodiscard]] bool operator==(const CodecMatchSettings&) const = default;
@@ -282,12 +283,12 @@ struct CodecMatchSettings {
 // How the footage looks, and so how an intruder in it has to look (method direct). Each part but the point
 // spread is left out at its default.
 struct AppearanceSettings {
-  double point_spread_px = 0.45;  // sigma of the lens' and the sensor's Gaussian
-  double sharpening = 0;          // of the camera: how much of the detail is added, 0..5
-  double sharpening_px = 1;       // sigma of the Gaussian that detail is told by
-  double chroma_spread_px = 0;    // sigma of the Gaussian over the samples of the chroma planes
-  double black = 0;               // linear light that the footage's black stands for: flare of the lens
-  double saturation = 1;          // of the intruder's colours
+  double psf_sigma_px = 0.45;  // sigma of the lens' and the sensor's Gaussian
+  double sharpening = 0;       // of the camera: how much of the detail is added, 0..5
+  double sharpening_px = 1;    // sigma of the Gaussian that detail is told by
+  double chroma_blur_px = 0;   // sigma of the Gaussian over the samples of the chroma planes
+  double black = 0;            // linear light that the footage's black stands for: flare of the lens
+  double saturation = 1;       // of the intruder's colours
   GrainSettings grain;
   HazeSettings haze;
   CodecMatchSettings codec;
@@ -322,8 +323,8 @@ struct ExportSettings {
   int max_bit_depth = 16;
   MasksChoice masks = MasksChoice::video;
   std::vector<std::string> labels{"xml"};
-  int label_least_pixels = 1;
-  double label_least_visible_fraction = 0;
+  int label_min_pixels = 1;
+  double label_min_visible_fraction = 0;
   std::vector<std::string> categories;  // empty: those of the intruders, in their order
   std::vector<std::string> encounter;   // volumes of well clear; empty: no truth of the encounter is written
 

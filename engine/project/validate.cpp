@@ -57,7 +57,7 @@ void check_text(const Project& project, const Field& field, Problems& problems) 
 
 void check_name(const Project& project, Problems& problems) {
   if (project.name.empty()) return;  // a required field, reported as such
-  if (const std::string wrong = wrong_with_file_name(project.name); !wrong.empty()) problems.push_back({"name", wrong});
+  if (const std::string wrong = file_name_error(project.name); !wrong.empty()) problems.push_back({"name", wrong});
 }
 
 bool is_axis(std::string_view text) {
@@ -138,8 +138,8 @@ void check_output(const ExportSettings& output, Problems& problems) {
         {"export.video.container", "png, tiff and jpeg write numbered images, not a container; use auto"});
   if (container == ContainerChoice::y4m && output.codec != CodecChoice::raw)
     problems.push_back({"export.video.container", "y4m holds uncompressed video alone; use the codec raw"});
-  const bool holds_raw = container == ContainerChoice::automatic || container == ContainerChoice::nut ||
-                         container == ContainerChoice::y4m;
+  const bool holds_raw =
+      container == ContainerChoice::automatic || container == ContainerChoice::nut || container == ContainerChoice::y4m;
   if (output.codec == CodecChoice::raw && !holds_raw)
     problems.push_back({"export.video.container", "raw goes into nut or y4m; use one of them or auto"});
 }

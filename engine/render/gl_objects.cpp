@@ -207,11 +207,11 @@ void Target::read(cv::Mat color, cv::Mat coverage) const {
 
 cv::Mat BufferPool::image(const cv::Size& size, int type) {
   ENSURE(CV_MAT_DEPTH(type) == CV_32F && !size.empty());
-  constexpr std::size_t kMostTimesTooLarge = 4;  // an intruder that flies away gives its memory back
+  constexpr std::size_t kMaxTimesTooLarge = 4;  // an intruder that flies away gives its memory back
   const std::size_t floats = static_cast<std::size_t>(size.area()) * CV_MAT_CN(type);
   const auto is_free = [](const cv::Mat& buffer) { return buffer.u->refcount == 1; };
   auto found = std::find_if(buffers_.begin(), buffers_.end(), [&](const cv::Mat& buffer) {
-    return is_free(buffer) && buffer.total() >= floats && buffer.total() <= kMostTimesTooLarge * floats;
+    return is_free(buffer) && buffer.total() >= floats && buffer.total() <= kMaxTimesTooLarge * floats;
   });
   if (found == buffers_.end()) {
     std::erase_if(buffers_, is_free);

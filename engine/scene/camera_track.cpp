@@ -68,7 +68,7 @@ class Coverage {
   }
 
   // Warnings of what is used nevertheless.
-  [[nodiscard]] OrProblem<std::vector<Warning>> verdict() const {
+  [[nodiscard]] Result<std::vector<Warning>, Problem> verdict() const {
     if (is_apart_) return log_problem(gaps_.front() + "; they do not overlap: set camera.track.offset_s");
     if (choice_ == IncompleteTrackChoice::use) {
       std::vector<Warning> warnings;
@@ -119,7 +119,7 @@ struct UsedParts {
   const Channel<glm::dvec3>* local_m = nullptr;  // only without places
 };
 
-OrProblem<UsedParts> used_parts(const Track& track, const TrackSettings& settings) {
+Result<UsedParts, Problem> used_parts(const Track& track, const TrackSettings& settings) {
   UsedParts parts{.attitude = attitude_channel(track, settings.attitude)};
   if (settings.position != TrackPositionChoice::none) {
     if (!track.position.empty())
@@ -145,15 +145,15 @@ OrProblem<UsedParts> used_parts(const Track& track, const TrackSettings& setting
   return parts;
 }
 
-std::vector<CarrierAttitude> on_footage_time(const Channel<glm::dquat>& channel, const LogTimes& times) {
-  std::vector<CarrierAttitude> turns;
+std::vector<PlatformAttitude> on_footage_time(const Channel<glm::dquat>& channel, const LogTimes& times) {
+  std::vector<PlatformAttitude> turns;
   for (std::size_t i = 0; i < channel.values.size(); ++i)
     turns.push_back({times.footage_s(channel.times_s[i]), channel.values[i]});
   return turns;
 }
 
-double yaw_at(const std::vector<CarrierAttitude>& turns, double time_s) {
-  return attitude_of(world_from_carrier_at(turns, time_s)).yaw_rad;
+double yaw_at(const std::vector<PlatformAttitude>& turns, double time_s) {
+  return attitude_of(world_from_platform_at(turns, time_s)).yaw_rad;
 }
 
 // Samples of a channel on the footage's time axis, as waypoints of a curve; of those at the same time the first.
@@ -249,9 +249,9 @@ bool is_whole(const Track& track, const UsedParts& parts, TrackMountChoice mount
 
 void turn_by_log(const Project& project, const Track& track, const UsedParts& parts, const LogTimes& times,
                  double heading_rad, CameraFlight& flight) {
-  flight.motion.turns = on_footage_time(*parts.attitude, times);
+  flight.motion.attitudes = on_footage_time(*parts.attitude, times);
   // Where yaw is not against north, it counts from the heading at frame 0, which is that of world X.
-  const double zero_rad = track.heading_is_north ? heading_rad : yaw_at(flight.motion.turns, 0);
+  const double zero_rad = track.heading_is_north ? heading_rad : yaw_at(flight.motion.attitudes, 0);
   const glm::dquat world_from_ned = rotation_of({0, 0, -zero_rad});
   const bool is_level_known = track.level_is_known || parts.attitude != &track.ned_from_camera;
   const bool is_own = is_whole(track, parts, project.camera.track.mount);
@@ -263,8 +263,8 @@ void turn_by_log(const Project& project, const Track& track, const UsedParts& pa
   const glm::dquat heading = rotation_of({0, 0, rad_of_deg(project.camera.yaw_deg)});
   const glm::dquat left = !is_level_known ? given : is_own && !track.heading_is_north ? heading : none;
   const glm::dquat right = is_own || !is_level_known ? glm::conjugate(given) : none;
-  for (CarrierAttitude& turn : flight.motion.turns)
-    turn.world_from_carrier = glm::normalize(left * world_from_ned * turn.world_from_carrier * right);
+  for (PlatformAttitude& turn : flight.motion.attitudes)
+    turn.world_from_platform = glm::normalize(left * world_from_ned * turn.world_from_platform * right);
   const Channel<glm::dvec3>& sd = track.camera_attitude_sd_rad;
   if (parts.attitude == &track.ned_from_camera)
     for (std::size_t i = 0; i < sd.values.size(); ++i)
@@ -318,7 +318,7 @@ CameraFlight steady_flight(const Project& project) {
   return flight;
 }
 
-void take_camera_flight(Scene& scene, CameraFlight flight) {
+void set_camera_motion(Scene& scene, CameraFlight flight) {
   scene.motion = std::move(flight.motion);
   scene.earth = std::move(flight.earth);
   scene.utc_at_frame_0_s = flight.utc_at_frame_0_s;
@@ -326,18 +326,18 @@ void take_camera_flight(Scene& scene, CameraFlight flight) {
   scene.warnings.insert(scene.warnings.end(), flight.warnings.begin(), flight.warnings.end());
 }
 
-OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track, const FootageShape& footage,
-                                      const FrameRange& range) {
+Result<CameraFlight, Problem> flight_by_log(const Project& project, const Track& track, const FootageShape& footage,
+                                            const FrameRange& range) {
   const LogTimes times = log_times(project.camera.track, footage, range);
   CameraFlight flight = steady_flight(project);
   const TrackSettings& settings = project.camera.track;
-  const OrProblem<UsedParts> parts = used_parts(track, settings);
+  const Result<UsedParts, Problem> parts = used_parts(track, settings);
   if (!parts) return tl::unexpected<Problem>(parts.error());
   Coverage coverage(track, settings.incomplete, times);
   if (parts->attitude != nullptr) coverage.add(*parts->attitude);
   if (parts->places != nullptr) coverage.add(*parts->places);
   if (parts->local_m != nullptr) coverage.add(*parts->local_m);
-  const OrProblem<std::vector<Warning>> gaps = coverage.verdict();
+  const Result<std::vector<Warning>, Problem> gaps = coverage.verdict();
   if (!gaps) return tl::unexpected<Problem>(gaps.error());
   flight.warnings = track.warnings;
   flight.warnings.insert(flight.warnings.end(), gaps->begin(), gaps->end());
@@ -372,22 +372,22 @@ OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track
   return flight;
 }
 
-OrProblem<CameraFlight> camera_flight(const Project& project, const FootageShape& footage, const FrameRange& range,
-                                      SceneFiles& files) {
+Result<CameraFlight, Problem> camera_flight(const Project& project, const FootageShape& footage,
+                                            const FrameRange& range, SceneFiles& files) {
   CameraFlight flight = steady_flight(project);
   if (!project.camera.track.file.empty()) {
     const Result<std::shared_ptr<const Track>> track = files.track(resolved(project, project.camera.track.file));
     if (!track) return log_problem(track.error().text(), track.error().kind);
-    OrProblem<CameraFlight> by_log = flight_by_log(project, **track, footage, range);
+    Result<CameraFlight, Problem> by_log = flight_by_log(project, **track, footage, range);
     if (!by_log) return by_log;
     flight = *std::move(by_log);
   }
   if (flight.motion.readout_s > 0 && project.compositing.method == MethodChoice::classic)
     return tl::unexpected<Problem>(Problem{
         "camera.readout_s", "is above 0, or the log's is; the classic method knows no rolling shutter: set it to 0"});
-  OrProblem<std::vector<CarrierAttitude>> turns = scene_carrier_attitudes(project, footage, files);
+  Result<std::vector<PlatformAttitude>, Problem> turns = scene_platform_attitudes(project, footage, files);
   if (!turns) return tl::unexpected<Problem>(turns.error());
-  if (!turns->empty()) flight.motion.turns = *std::move(turns);
+  if (!turns->empty()) flight.motion.attitudes = *std::move(turns);
   return flight;
 }
 

@@ -24,7 +24,7 @@ struct CameraFlight {
 [[nodiscard]] CameraFlight steady_flight(const Project& project);
 
 // Makes the flight that of the scene; its warnings join those of the scene.
-void take_camera_flight(Scene& scene, CameraFlight flight);
+void set_camera_motion(Scene& scene, CameraFlight flight);
 
 // The camera's motion of a project: constant speed and attitude as it states them, and what its attitude file and its
 // log (camera.track) know better.
@@ -46,11 +46,11 @@ void take_camera_flight(Scene& scene, CameraFlight flight);
 // cover the project's frames, or knows the attitude in less than half of them by its own standard deviation (all
 // allowed by camera.track.incomplete: use), or covers none of them.
 //   range  the project's frames
-[[nodiscard]] OrProblem<CameraFlight> camera_flight(const Project& project, const FootageShape& footage,
-                                                    const FrameRange& range, SceneFiles& files);
+[[nodiscard]] Result<CameraFlight, Problem> camera_flight(const Project& project, const FootageShape& footage,
+                                                          const FrameRange& range, SceneFiles& files);
 
 // The same by a log that has been read; camera.track.file and camera.attitude_file are not looked at.
-[[nodiscard]] OrProblem<CameraFlight> flight_by_log(const Project& project, const Track& track,
-                                                    const FootageShape& footage, const FrameRange& range);
+[[nodiscard]] Result<CameraFlight, Problem> flight_by_log(const Project& project, const Track& track,
+                                                          const FootageShape& footage, const FrameRange& range);
 
 }  // namespace sigs

@@ -55,7 +55,7 @@ std::vector<Problem> validated(const Project& project) {
 }
 
 template <class T>
-T part_or_placeholder(OrProblem<T> part, T placeholder, std::vector<Problem>& problems) {
+T part_or_placeholder(Result<T, Problem> part, T placeholder, std::vector<Problem>& problems) {
   if (part) return *std::move(part);
   note(problems, part.error());
   return placeholder;
@@ -87,13 +87,13 @@ Trajectory hovering(const Project& clean, std::size_t intruder) {
 
 Trajectory drafted_trajectory(const Project& written, const Project& clean, std::size_t intruder, DraftScene& draft) {
   if (!can_be_flown(written, intruder)) return hovering(clean, intruder);
-  OrProblem<Trajectory> trajectory = scene_trajectory(clean, intruder, draft.scene);
+  Result<Trajectory, Problem> trajectory = scene_trajectory(clean, intruder, draft.scene);
   return part_or_placeholder(std::move(trajectory), hovering(clean, intruder), draft.problems);
 }
 
 std::shared_ptr<const Model> drafted_model(const Project& clean, std::size_t intruder, DraftScene& draft,
                                            SceneFiles& files) {
-  OrProblem<std::shared_ptr<const Model>> model = scene_model(clean, intruder, files);
+  Result<std::shared_ptr<const Model>, Problem> model = scene_model(clean, intruder, files);
   if (model) return *model;
   note(draft.problems, model.error());
   const double length_m = clean.intruders[intruder].model.length_m;
@@ -165,7 +165,7 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
   scene.last_frame = range.last;
   scene.camera = part_or_placeholder(scene_camera(clean, footage.size_px, files), placeholder_camera(footage.size_px),
                                      draft.problems);
-  take_camera_flight(
+  set_camera_motion(
       scene, part_or_placeholder(camera_flight(clean, footage, range, files), steady_flight(clean), draft.problems));
   scene.light = part_or_placeholder(scene_light(clean, scene), placeholder_light(scene.light), draft.problems);
   scene.own_body = part_or_placeholder(scene_own_body(clean, footage.size_px, files), cv::Mat(), draft.problems);

@@ -13,7 +13,7 @@ namespace sigs {
 // A scene for authoring, which exists for every project, however incomplete. What cannot be opened is replaced by a
 // placeholder and named in `problems`, so that everything else can be shown and edited:
 //   calibration             a pinhole with a horizontal field of view of 60 degrees, principal point in the middle
-//   attitude file           a carrier that is always level
+//   attitude file           a platform that is always level
 //   own-body mask           no mask
 //   model                   a cross (cross_mesh) of its length: length_m where it is set, else 10 m
 //   trajectory              hovering at its first waypoint, where the waypoints make no trajectory

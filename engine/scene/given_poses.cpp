@@ -35,7 +35,7 @@ void move_camera(CameraMotion& motion, double time_s, const GivenPose& pose) {
   constexpr double kPiece_s = 1;  // any: the path goes on as a straight line
   motion.world_from_camera_at_start = {rotation_of(pose.attitude), pose.position_m};
   motion.speed_mps = 0;
-  motion.turns.clear();
+  motion.attitudes.clear();
   motion.deviations.clear();
   motion.source = {.position = "given", .attitude = "given"};
   motion.path = std::make_shared<const PiecewiseCubic>(

@@ -15,7 +15,7 @@
 #include "project/fields.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"
-#include "scene/likely_mistakes.h"
+#include "scene/lint.h"
 #include "scene/plausibility.h"
 #include "scene/scene_light.h"
 #include "scene/scene_parts.h"
@@ -33,29 +33,29 @@ Result<void> check_valid(const Project& project) {
 Result<Scene> open_valid_scene(const Project& project, const FootageShape& footage, SceneFiles& files) {
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   Scene scene = bare_scene(project, footage);
-  const OrProblem<FrameRange> range = scene_range(project.footage, footage);
+  const Result<FrameRange, Problem> range = scene_range(project.footage, footage);
   if (!range) return failed(range.error());
   scene.first_frame = range->first;
   scene.last_frame = range->last;
-  OrProblem<Camera> camera = scene_camera(project, footage.size_px, files);
+  Result<Camera, Problem> camera = scene_camera(project, footage.size_px, files);
   if (!camera) return failed(camera.error());
   scene.camera = *std::move(camera);
-  OrProblem<CameraFlight> flight = camera_flight(project, footage, *range, files);
+  Result<CameraFlight, Problem> flight = camera_flight(project, footage, *range, files);
   if (!flight) return failed(flight.error());
-  take_camera_flight(scene, *std::move(flight));
-  const OrProblem<SceneLight> light = scene_light(project, scene);
+  set_camera_motion(scene, *std::move(flight));
+  const Result<SceneLight, Problem> light = scene_light(project, scene);
   if (!light) return failed(light.error());
   scene.light = *light;
-  const OrProblem<cv::Mat> own_body = scene_own_body(project, footage.size_px, files);
+  const Result<cv::Mat, Problem> own_body = scene_own_body(project, footage.size_px, files);
   if (!own_body) return failed(own_body.error());
   scene.own_body = *own_body;
-  OrProblem<Occluder> occluder = scene_occluder(project, scene, files);
+  Result<Occluder, Problem> occluder = scene_occluder(project, scene, files);
   if (!occluder) return failed(occluder.error());
   scene.occluder = *std::move(occluder);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
-    const OrProblem<std::shared_ptr<const Model>> model = scene_model(project, i, files);
+    const Result<std::shared_ptr<const Model>, Problem> model = scene_model(project, i, files);
     if (!model) return failed(model.error());
-    const OrProblem<Trajectory> trajectory = scene_trajectory(project, i, scene);
+    const Result<Trajectory, Problem> trajectory = scene_trajectory(project, i, scene);
     if (!trajectory) return failed(trajectory.error());
     add_intruder(scene, project.intruders[i].name, *model, *trajectory);
     scene.intruders.back().is_distractor = project.intruders[i].role == RoleChoice::distractor;

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "scene/likely_mistakes.h"
+#include "scene/lint.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 #include "scene/visibility.h"
@@ -188,7 +188,7 @@ std::vector<Problem> plausibility_issues(const Project& project, const Scene& sc
       check_model(project.intruders[i].model, *intruder.model, key + ".model", issues);
     check_flight(scene, intruder, key + ".trajectory", issues);
     if (std::optional<Problem> overshoot = overshoot_issue(project, i, scene)) issues.push_back(*std::move(overshoot));
-    for (Problem& mistake : likely_mistakes(project, i, scene, static_cast<std::size_t>(intruder_of_project[i])))
+    for (Problem& mistake : lint(project, i, scene, static_cast<std::size_t>(intruder_of_project[i])))
       issues.push_back(std::move(mistake));
   }
   return issues;

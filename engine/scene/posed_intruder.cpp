@@ -13,12 +13,12 @@ namespace sigs {
 
 namespace {
 
-constexpr int kLeastAround = 24;     // before and after the frame: path and camera are laid out
+constexpr int kMinAround = 24;       // before and after the frame: path and camera are laid out
 constexpr double kNearAspect = 0.1;  // logarithm of the ratio to the wanted aspect
 constexpr double kStep_rad = std::numbers::pi / 24;
-constexpr double kLeastGrowth_per_s = 0.02;  // below it, any nose does: it hardly moves
-constexpr double kLeastRadial = 0.3;         // of a flight that is to change the size, as share of its speed
-constexpr double kLeastSpeed_mps = 1;        // so that the path has a direction
+constexpr double kMinGrowth_per_s = 0.02;  // below it, any nose does: it hardly moves
+constexpr double kMinRadial = 0.3;         // of a flight that is to change the size, as share of its speed
+constexpr double kMinSpeed_mps = 1;        // so that the path has a direction
 
 // A direction from which an intruder with level wings is seen, and its box from there at a distance of 1 m times the
 // focal length, in metres.
@@ -56,15 +56,15 @@ glm::dquat turn_between(const glm::dvec3& from, const glm::dvec3& to) {
 
 // Whether flying along the nose can change the size as the pose wants it.
 bool can_grow_so(const View& view, const IntruderPose& pose) {
-  if (std::abs(pose.growth_per_s.value_or(0)) < kLeastGrowth_per_s) return true;
-  return std::abs(view.radial()) >= kLeastRadial && (*pose.growth_per_s > 0) == (view.radial() < 0);
+  if (std::abs(pose.growth_per_s.value_or(0)) < kMinGrowth_per_s) return true;
+  return std::abs(view.radial()) >= kMinRadial && (*pose.growth_per_s > 0) == (view.radial() < 0);
 }
 
 // The distance d changes by radial * speed, the size, which goes with 1 / d, by -radial * speed / d.
 double speed_of(const View& view, const IntruderPose& pose, double distance_m) {
   if (!pose.growth_per_s) return pose.speed_mps;
-  if (std::abs(*pose.growth_per_s) < kLeastGrowth_per_s) return kLeastSpeed_mps;
-  return std::max(kLeastSpeed_mps, -*pose.growth_per_s * distance_m / view.radial());
+  if (std::abs(*pose.growth_per_s) < kMinGrowth_per_s) return kMinSpeed_mps;
+  return std::max(kMinSpeed_mps, -*pose.growth_per_s * distance_m / view.radial());
 }
 
 // One of those whose aspect is near the wanted one, else the nearest.
@@ -132,7 +132,7 @@ Result<Scene> posed_scene(const Project& project, const FootageShape& footage, S
 
   const glm::dvec3 start_m = project.camera.position_m;
   const glm::dvec3 there_m = start_m + distance_m * along(0, view.elevation_rad);
-  const int around = std::max(kLeastAround, static_cast<int>(pose.path_px.size()) / 2 + 1);
+  const int around = std::max(kMinAround, static_cast<int>(pose.path_px.size()) / 2 + 1);
   const double middle_s = time_of_frame_s(footage, frame);
   const double speed_mps = speed_of(view, pose, distance_m);
   const auto position_at = [&](double time_s) {
@@ -153,7 +153,7 @@ Result<Scene> posed_scene(const Project& project, const FootageShape& footage, S
     // The camera without roll as far as it can be, then the small turn that is left.
     const glm::dquat level = glm::angleAxis(view.elevation_rad - std::asin(-ray->z), glm::dvec3(0, 1, 0));
     const glm::dquat turn = turn_between(level * *ray, towards) * level;
-    scene->motion.turns.push_back({.time_s = time_s, .world_from_carrier = turn});
+    scene->motion.attitudes.push_back({.time_s = time_s, .world_from_platform = turn});
   }
   return scene;
 }

@@ -56,9 +56,9 @@ struct SceneIntruder {
 };
 
 // Attitude of the aircraft that carries the camera, at one moment. The identity: wings level, nose along world X.
-struct CarrierAttitude {
+struct PlatformAttitude {
   double time_s = 0;
-  glm::dquat world_from_carrier{1, 0, 0, 0};
+  glm::dquat world_from_platform{1, 0, 0, 0};
 };
 
 // Standard deviation of the camera's attitude at one moment: of small turns about the camera's X, Y and Z.
@@ -80,11 +80,11 @@ struct PoseSource {
 };
 
 // The camera moves along world X at constant speed (paper, section 3.1.3) unless its path is known. Its attitude is
-// constant unless the attitudes of the carrier are known.
+// constant unless the attitudes of the platform are known.
 struct CameraMotion {
-  Pose<frame::World, frame::Camera> world_from_camera_at_start;  // at time 0, with the carrier level
+  Pose<frame::World, frame::Camera> world_from_camera_at_start;  // at time 0, with the platform level
   double speed_mps = 0;
-  std::vector<CarrierAttitude> turns = {};          // by rising time; empty: always level
+  std::vector<PlatformAttitude> attitudes = {};     // by rising time; empty: always level
   std::shared_ptr<const PiecewiseCubic> path = {};  // the camera's place in the world; null: straight on
   std::vector<AttitudeDeviation> deviations = {};   // by rising time; empty: not known
   double readout_s = 0;                             // of the rolling shutter, first to last row; 0: all rows at once

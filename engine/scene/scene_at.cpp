@@ -9,15 +9,15 @@
 
 namespace sigs {
 
-glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s) {
-  if (turns.empty()) return {1, 0, 0, 0};
-  const auto after = std::upper_bound(turns.begin(), turns.end(), time_s,
-                                      [](double time, const CarrierAttitude& turn) { return time < turn.time_s; });
-  if (after == turns.begin()) return after->world_from_carrier;
+glm::dquat world_from_platform_at(const std::vector<PlatformAttitude>& attitudes, double time_s) {
+  if (attitudes.empty()) return {1, 0, 0, 0};
+  const auto after = std::upper_bound(attitudes.begin(), attitudes.end(), time_s,
+                                      [](double time, const PlatformAttitude& turn) { return time < turn.time_s; });
+  if (after == attitudes.begin()) return after->world_from_platform;
   const auto before = std::prev(after);
-  if (after == turns.end() || before->time_s == time_s) return before->world_from_carrier;
+  if (after == attitudes.end() || before->time_s == time_s) return before->world_from_platform;
   const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
-  return glm::slerp(before->world_from_carrier, after->world_from_carrier, share);
+  return glm::slerp(before->world_from_platform, after->world_from_platform, share);
 }
 
 std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& deviations, double time_s) {
@@ -64,7 +64,7 @@ Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double t
     pose.translation_m = motion.path->motion_at(time_s).position_m;
   else
     pose.translation_m.x += motion.speed_mps * time_s;
-  if (!motion.turns.empty()) pose.rotation = world_from_carrier_at(motion.turns, time_s) * pose.rotation;
+  if (!motion.attitudes.empty()) pose.rotation = world_from_platform_at(motion.attitudes, time_s) * pose.rotation;
   return pose;
 }
 

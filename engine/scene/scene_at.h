@@ -32,9 +32,9 @@ struct SceneMoment {
   std::vector<PlacedIntruder> intruders;  // far to near; equal distances by id
 };
 
-// Attitude of the carrier: between two known ones by spherical linear interpolation (slerp), before the first and after
-// the last as these; level where none is known.
-[[nodiscard]] glm::dquat world_from_carrier_at(const std::vector<CarrierAttitude>& turns, double time_s);
+// Attitude of the platform: between two known ones by spherical linear interpolation (slerp), before the first and
+// after the last as these; level where none is known.
+[[nodiscard]] glm::dquat world_from_platform_at(const std::vector<PlatformAttitude>& attitudes, double time_s);
 
 // Standard deviation of the camera's attitude, linear between two known ones; none where none is known.
 [[nodiscard]] std::optional<glm::dvec3> attitude_sd_at(const std::vector<AttitudeDeviation>& deviations, double time_s);
@@ -48,7 +48,7 @@ struct SceneMoment {
 [[nodiscard]] double exposure_at(const std::vector<ExposureTime>& exposures, double time_s);
 
 // Pose of the camera: on its path or, without one, straight on along world X. Its attitude is
-// world_from_carrier_at(time_s) * attitude at the start.
+// world_from_platform_at(time_s) * attitude at the start.
 [[nodiscard]] Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s);
 
 // Pose of an intruder against the camera at any time of the footage.

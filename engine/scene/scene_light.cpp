@@ -123,7 +123,7 @@ Sunlight sunlight_at(const Scene& scene, double time_s) {
           share_above(deg_of_rad(sun.elevation_rad) / kDiscRadius_deg)};
 }
 
-OrProblem<SceneLight> scene_light(const Project& project, const Scene& scene) {
+Result<SceneLight, Problem> scene_light(const Project& project, const Scene& scene) {
   if (project.light.kind == LightKind::sun && !knows_sky(scene)) {
     if (!project.light.sun.azimuth_deg) return unknown_direction("azimuth_deg", scene);
     if (!project.light.sun.elevation_deg) return unknown_direction("elevation_deg", scene);

@@ -38,7 +38,7 @@ struct Sunlight {
 
 // Checks that the sun's direction is known: a problem with light.sun.azimuth_deg or light.sun.elevation_deg where
 // light.kind is sun, the project leaves it out, and the scene does not know place and time.
-[[nodiscard]] OrProblem<SceneLight> scene_light(const Project& project, const Scene& scene);
+[[nodiscard]] Result<SceneLight, Problem> scene_light(const Project& project, const Scene& scene);
 
 // In place of a light with a problem: the sun half way up, ahead and to the right.
 [[nodiscard]] SceneLight placeholder_light(const SceneLight& light);

@@ -111,7 +111,7 @@ Scene bare_scene(const Project& project, const FootageShape& footage) {
           .horizon_is_known = knows_horizon(project.camera)};
 }
 
-OrProblem<FrameRange> scene_range(const FootageSettings& settings, const FootageShape& footage) {
+Result<FrameRange, Problem> scene_range(const FootageSettings& settings, const FootageShape& footage) {
   const int count = static_cast<int>(footage.times_s.size());
   const FrameRange range{settings.first_frame, settings.last_frame.value_or(count - 1)};
   const std::string available = fmt::format("the footage has {} frames, 0 to {}", count, count - 1);
@@ -132,16 +132,17 @@ std::optional<LensModel> lens_model_of(LensModelChoice choice) {
   return std::nullopt;
 }
 
-OrProblem<Camera> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
+Result<Camera, Problem> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
   Result<Camera> camera = files.camera(resolved(project, project.footage.calibration), footage_size_px,
                                        lens_model_of(project.footage.lens_model));
   if (!camera) return in_field("footage.calibration", camera.error());
   return *std::move(camera);
 }
 
-OrProblem<std::vector<CarrierAttitude>> scene_carrier_attitudes(const Project& project, const FootageShape& footage,
-                                                                SceneFiles& files) {
-  std::vector<CarrierAttitude> turns;
+Result<std::vector<PlatformAttitude>, Problem> scene_platform_attitudes(const Project& project,
+                                                                        const FootageShape& footage,
+                                                                        SceneFiles& files) {
+  std::vector<PlatformAttitude> turns;
   if (project.camera.attitude_file.empty()) return turns;
   const Result<std::vector<AttitudeAtFrame>> known = files.attitudes(resolved(project, project.camera.attitude_file));
   if (!known) return in_field("camera.attitude_file", known.error());
@@ -150,14 +151,14 @@ OrProblem<std::vector<CarrierAttitude>> scene_carrier_attitudes(const Project& p
   return turns;
 }
 
-OrProblem<cv::Mat> scene_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
+Result<cv::Mat, Problem> scene_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
   if (project.footage.own_body_mask.empty()) return cv::Mat();
   const Result<cv::Mat> mask = files.own_body_mask(resolved(project, project.footage.own_body_mask), footage_size_px);
   if (!mask) return in_field("footage.own_body_mask", mask.error());
   return *mask;
 }
 
-OrProblem<Occluder> scene_occluder(const Project& project, const Scene& scene, SceneFiles& files) {
+Result<Occluder, Problem> scene_occluder(const Project& project, const Scene& scene, SceneFiles& files) {
   const FootageSettings& settings = project.footage;
   if (settings.occluder_mask.empty()) return Occluder();
   const Result<cv::Mat> mask = files.own_body_mask(resolved(project, settings.occluder_mask), scene.footage.size_px);
@@ -170,7 +171,8 @@ OrProblem<Occluder> scene_occluder(const Project& project, const Scene& scene, S
                   .distance_m = settings.occluder_distance_m};
 }
 
-OrProblem<std::shared_ptr<const Model>> scene_model(const Project& project, std::size_t intruder, SceneFiles& files) {
+Result<std::shared_ptr<const Model>, Problem> scene_model(const Project& project, std::size_t intruder,
+                                                          SceneFiles& files) {
   const ModelSettings& settings = project.intruders[intruder].model;
   const Result<std::shared_ptr<const Model>> model = files.model(resolved(project, settings.file), axes_of(settings));
   if (model) return *model;
@@ -187,7 +189,7 @@ TrajectorySettings trajectory_settings(const TrajectoryPlan& plan) {
           .bank_limit_rad = rad_of_deg(plan.bank_limit_deg)};
 }
 
-OrProblem<Trajectory> scene_trajectory(const Project& project, std::size_t intruder, const Scene& scene) {
+Result<Trajectory, Problem> scene_trajectory(const Project& project, std::size_t intruder, const Scene& scene) {
   const TrajectoryPlan& plan = project.intruders[intruder].trajectory;
   const std::string key = key_of_intruder(intruder) + ".trajectory.";
   const std::vector<double> frames = waypoint_frames(plan.waypoints, scene.first_frame, scene.last_frame);

@@ -19,46 +19,46 @@
 namespace sigs {
 
 // The part, or its problem, by the project's field.
-template <class T>
-using OrProblem = tl::expected<T, Problem>;
 
 // "intruders[3]"
 [[nodiscard]] std::string key_of_intruder(std::size_t intruder);
 
-// The camera's motion without any file: straight on along world X with the carrier level.
+// The camera's motion without any file: straight on along world X with the platform level.
 [[nodiscard]] CameraMotion steady_motion(const CameraSettings& camera);
 
-// What needs no file and cannot fail: camera motion with the carrier level, light, compositing, footage. The lens is a
+// What needs no file and cannot fail: camera motion with the platform level, light, compositing, footage. The lens is a
 // default one, there are no intruders, and the range is not set.
 [[nodiscard]] Scene bare_scene(const Project& project, const FootageShape& footage);
 
 // First and last frame; a problem where they are not frames of the footage or not in order.
-[[nodiscard]] OrProblem<FrameRange> scene_range(const FootageSettings& settings, const FootageShape& footage);
+[[nodiscard]] Result<FrameRange, Problem> scene_range(const FootageSettings& settings, const FootageShape& footage);
 
 // The calibrated camera, scaled to the footage's size.
-[[nodiscard]] OrProblem<Camera> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+[[nodiscard]] Result<Camera, Problem> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
 
 // None for `automatic`: the lens model is then taken from the calibration file.
 [[nodiscard]] std::optional<LensModel> lens_model_of(LensModelChoice choice);
 
-// Attitudes of the carrier, by rising time; empty where the project names no attitude file.
-[[nodiscard]] OrProblem<std::vector<CarrierAttitude>> scene_carrier_attitudes(const Project& project,
-                                                                              const FootageShape& footage,
-                                                                              SceneFiles& files);
+// Attitudes of the platform, by rising time; empty where the project names no attitude file.
+[[nodiscard]] Result<std::vector<PlatformAttitude>, Problem> scene_platform_attitudes(const Project& project,
+                                                                                      const FootageShape& footage,
+                                                                                      SceneFiles& files);
 
 // Scene::occluder; without mask where the project names none.
 //   scene  its motion and footage
-[[nodiscard]] OrProblem<Occluder> scene_occluder(const Project& project, const Scene& scene, SceneFiles& files);
+[[nodiscard]] Result<Occluder, Problem> scene_occluder(const Project& project, const Scene& scene, SceneFiles& files);
 
 // Scene::own_body; empty where the project names no mask.
-[[nodiscard]] OrProblem<cv::Mat> scene_own_body(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+[[nodiscard]] Result<cv::Mat, Problem> scene_own_body(const Project& project, cv::Size footage_size_px,
+                                                      SceneFiles& files);
 
 // The model of an intruder, by its index in the project.
-[[nodiscard]] OrProblem<std::shared_ptr<const Model>> scene_model(const Project& project, std::size_t intruder,
-                                                                  SceneFiles& files);
+[[nodiscard]] Result<std::shared_ptr<const Model>, Problem> scene_model(const Project& project, std::size_t intruder,
+                                                                        SceneFiles& files);
 
 // The trajectory of an intruder, by its index in the project, over the footage and range of the scene.
-[[nodiscard]] OrProblem<Trajectory> scene_trajectory(const Project& project, std::size_t intruder, const Scene& scene);
+[[nodiscard]] Result<Trajectory, Problem> scene_trajectory(const Project& project, std::size_t intruder,
+                                                           const Scene& scene);
 
 // A project's trajectory settings in the form of spline/trajectory.h.
 [[nodiscard]] TrajectorySettings trajectory_settings(const TrajectoryPlan& plan);

@@ -38,7 +38,7 @@ constexpr std::array<double, 4> kShares{1, 0.75, 0.5,
                                         0.25};  // of the way from the mean of the points to an outermost point
 constexpr int kMaxEstimates = 100'000;          // of one intruder in one frame
 constexpr int kMinSampledFrames = 2;
-constexpr double kLeastSize_px = 1;  // what is smaller throughout leaves no mark in the image
+constexpr double kMinSize_px = 1;  // what is smaller throughout leaves no mark in the image
 
 std::vector<glm::dvec2> images_of(const std::vector<glm::vec3>& points_m,
                                   const Pose<frame::Camera, frame::Body>& camera_from_body, const Lens& lens) {
@@ -182,7 +182,7 @@ std::vector<Visibility> estimated_visibilities(const Scene& scene, int max_frame
 std::optional<Problem> never_visible(const Visibility& visibility, const std::string& name, std::size_t intruder) {
   if (visibility.frames_checked == 0) return std::nullopt;
   if (visibility.visible > 0) {
-    if (visibility.largest_px >= kLeastSize_px || visibility.largest_px <= 0) return std::nullopt;
+    if (visibility.largest_px >= kMinSize_px || visibility.largest_px <= 0) return std::nullopt;
     return Problem{key_of_intruder(intruder) + ".trajectory",
                    fmt::format("\"{}\" is too small to be seen, at most {:.2g} px large; bring it nearer, or check its "
                                "model's scale",

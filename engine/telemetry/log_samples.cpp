@@ -10,7 +10,7 @@
 namespace sigs {
 namespace {
 
-constexpr double kLeastGap_s = 1;
+constexpr double kMinGap_s = 1;
 constexpr double kGapInIntervals = 5;
 constexpr std::size_t kMaxNamedGaps = 5;
 constexpr double kNoFix_deg = 1e-6;
@@ -120,11 +120,11 @@ double median_interval_s(const std::vector<double>& times_s) {
 }
 
 void warn_of_gaps(const std::vector<double>& times_s, const std::string& source, std::vector<Warning>& warnings) {
-  const double least_s = std::max(kLeastGap_s, kGapInIntervals * median_interval_s(times_s));
+  const double min_s = std::max(kMinGap_s, kGapInIntervals * median_interval_s(times_s));
   std::size_t gaps = 0;
   for (std::size_t i = 0; i + 1 < times_s.size(); ++i) {
     const double gap_s = times_s[i + 1] - times_s[i];
-    if (!(gap_s > least_s)) continue;
+    if (!(gap_s > min_s)) continue;
     if (++gaps <= kMaxNamedGaps)
       warnings.push_back(
           {source, "no samples for " + short_number_text(gap_s) + " s after " + short_number_text(times_s[i]) + " s"});

@@ -20,7 +20,7 @@ namespace {
 
 using TopicValues = std::span<const double>;
 
-constexpr double kLeastUtc_us = 946684800e6;  // the year 2000; before it, the receiver had no date
+constexpr double kMinUtc_us = 946684800e6;  // the year 2000; before it, the receiver had no date
 constexpr double kUtcDrift_s = 0.5;
 constexpr std::size_t kMaxDropouts = 10;  // that are named
 
@@ -139,7 +139,7 @@ class UlogReading {
 
   // UTC minus the time since boot, at the first fix with a date, and how far it runs away.
   void note_utc(TopicValues v) {
-    if (!(v[15] >= kLeastUtc_us) || !(v[10] >= 2)) return;
+    if (!(v[15] >= kMinUtc_us) || !(v[10] >= 2)) return;
     const double offset_s = 1e-6 * (v[15] - v[0] - (std::isfinite(v[16]) ? v[16] : 0));
     if (!utc_minus_boot_s_) utc_minus_boot_s_ = offset_s;
     if (std::abs(offset_s - *utc_minus_boot_s_) > kUtcDrift_s && !utc_jump_s_) utc_jump_s_ = v[0] * 1e-6;

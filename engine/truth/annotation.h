@@ -54,7 +54,7 @@ struct WellClearTruth {
   double severity = 0;   // of the loss, 0..100
 };
 
-// How an intruder moves against the camera's carrier at one time. docs/encounters.md has the formula of each.
+// How an intruder moves against the camera's platform at one time. docs/encounters.md has the formula of each.
 struct EncounterTruth {
   double range_rate_mps = 0;                    // negative while the distance falls
   double closing_speed_mps = 0;                 // the same with the other sign
@@ -85,7 +85,7 @@ struct IntruderTruth {
   std::optional<Detectability> detectability = {};  // none where no pixel shows it
   ImageFormation image_formation = {};
   std::optional<EncounterTruth> encounter = {};  // none where it was not asked for
-  bool is_distractor = false;  // what detectors should not report, such as a bird
+  bool is_distractor = false;                    // what detectors should not report, such as a bird
 };
 
 // What the frames are counted in, and which of them a set of labels holds.

@@ -52,12 +52,12 @@ std::optional<Silhouette> silhouette_by(std::span<const glm::vec3> points_in_bod
 // around the body. Nothing where that is not known well enough.
 std::optional<double> magnification_around(const PointTree::Group& body,
                                            const Pose<frame::Camera, frame::Body>& camera_from_body, const Lens& lens) {
-  constexpr double kMostAcross_rad = 0.1;
+  constexpr double kMaxAcross_rad = 0.1;
   constexpr double kSimilar = 0.8;
   constexpr double kMargin = 1.3;
   const glm::dvec3 middle = camera_from_body * glm::dvec3(body.middle_m);
   const double distance_m = glm::length(middle);
-  if (!(body.radius_m < kMostAcross_rad * distance_m)) return std::nullopt;
+  if (!(body.radius_m < kMaxAcross_rad * distance_m)) return std::nullopt;
   const double from_axis_rad = std::atan2(std::hypot(middle.y, middle.z), middle.x);
   if (!(from_axis_rad + 2 * std::asin(body.radius_m / distance_m) < lens.valid_angle_rad())) return std::nullopt;
   double least = lens.pixels_per_radian(middle), most = least;

@@ -71,9 +71,9 @@ const FrameSeeker::Placed* FrameSeeker::kept(int n) const {
 }
 
 void FrameSeeker::keep(Placed placed) {
-  constexpr size_t kMostOnward = 4;  // while nobody steps back: more memory would only be new pages for the decoder
+  constexpr size_t kMaxOnward = 4;  // while nobody steps back: more memory would only be new pages for the decoder
   constexpr size_t kMost = 32;
-  const size_t most = has_stepped_back_ ? kMost : kMostOnward;
+  const size_t most = has_stepped_back_ ? kMost : kMaxOnward;
   const size_t max_count = std::clamp<size_t>(bytes_to_keep_ / bytes_of(*placed.image.frame), 1, most);
   kept_.push_back(std::move(placed));
   while (kept_.size() > max_count) kept_.pop_front();

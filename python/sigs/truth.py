@@ -81,7 +81,7 @@ class WellClear:
 
 @dataclass(frozen=True)
 class Encounter:
-    """How an intruder moves against the camera's carrier (docs/encounters.md)."""
+    """How an intruder moves against the camera's platform (docs/encounters.md)."""
 
     range_rate_mps: float
     closing_speed_mps: float

@@ -133,9 +133,9 @@ TEST_CASE("of footage with nothing to measure on each quantity says why it is no
     CHECK(found.point_spread.sigma_px.value == kDefaultPointSpread_px);
     CHECK_FALSE(found.point_spread.sharpening.is_known);
     CHECK(found.point_spread.sharpening.value == kDefaultSharpening);
-    CHECK_FALSE(found.point_spread.chroma_spread_px.is_known);
+    CHECK_FALSE(found.point_spread.chroma_blur_px.is_known);
     CHECK(found.noise.sd_dark.is_known == one.noise_is_known);
-    CHECK(found.noise.persistence.is_known == one.noise_is_known);
+    CHECK(found.noise.temporal_correlation.is_known == one.noise_is_known);
   }
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("an over-exposed sky gives no light, no white and no haze, and the set
   CHECK(project.light == before.light);  // it stays where nothing is known
   CHECK(project.appearance.haze == before.appearance.haze);
   CHECK(project.appearance.grain.sd_dark == 0);
-  CHECK(project.appearance.point_spread_px == kDefaultPointSpread_px);
+  CHECK(project.appearance.psf_sigma_px == kDefaultPointSpread_px);
 }
 
 TEST_CASE("of a camera that stands still lasting noise cannot be told from texture, which is said") {
@@ -174,8 +174,8 @@ TEST_CASE("of a camera that stands still lasting noise cannot be told from textu
   }
   const Appearance found = appearance_of(frames);
   check_form(found);
-  CHECK_FALSE(found.noise.persistence.is_known);
-  CHECK(found.noise.persistence.value == 0);
+  CHECK_FALSE(found.noise.temporal_correlation.is_known);
+  CHECK(found.noise.temporal_correlation.value == 0);
   CHECK_FALSE(found.point_spread.sigma_px.is_known);
 }
 
@@ -199,9 +199,9 @@ TEST_CASE("a target seen through a camera sets the project's appearance") {
   project.compositing.blur_px_per_m = 0.002;
   project.appearance.grain.seed = 7;
   apply(found, project);
-  CHECK(std::abs(project.appearance.point_spread_px - 0.9) < 0.03 * 0.9);
+  CHECK(std::abs(project.appearance.psf_sigma_px - 0.9) < 0.03 * 0.9);
   CHECK(project.appearance.sharpening == 0);
-  CHECK(std::abs(project.appearance.chroma_spread_px - 1.1) < 0.17);
+  CHECK(std::abs(project.appearance.chroma_blur_px - 1.1) < 0.17);
   CHECK(std::abs(project.appearance.grain.sd_dark - 1.5) < 0.15);
   CHECK(project.appearance.grain.seed == 7);
   CHECK(project.compositing.blur_px_per_m == 0);

@@ -19,8 +19,8 @@ namespace {
 struct Added {
   double sd_dark = 2, sd_bright = 2;  // variance linear in brightness between them
   double sd_chroma = 0;
-  double spread_px = 0;
-  double persistence = 0;
+  double correlation_length_px = 0;
+  double temporal_correlation = 0;
 };
 
 // Normal noise of variance 1, blurred by OpenCV; each frame keeps part of the one before (autoregressive).
@@ -30,7 +30,7 @@ class NoiseField {
     last_ = fresh(size);
   }
   cv::Mat next() {
-    const double kept = added_.persistence;
+    const double kept = added_.temporal_correlation;
     last_ = kept * last_ + std::sqrt(1 - kept * kept) * fresh(last_.size());
     return last_;
   }
@@ -39,8 +39,8 @@ class NoiseField {
   cv::Mat fresh(cv::Size size) {
     cv::Mat noise(size, CV_32FC1);
     random_.fill(noise, cv::RNG::NORMAL, 0, 1);
-    if (added_.spread_px > 0) {
-      cv::GaussianBlur(noise, noise, {}, added_.spread_px);
+    if (added_.correlation_length_px > 0) {
+      cv::GaussianBlur(noise, noise, {}, added_.correlation_length_px);
       cv::Scalar mean, deviation;
       cv::meanStdDev(noise, mean, deviation);
       noise /= deviation[0];
@@ -86,7 +86,7 @@ NoiseFound found_in_sample(const Added& added) {
   Result<FrameSource> footage = FrameSource::open(source_dir() / "assets/footage/sample.mp4");
   REQUIRE(footage);
   Noise noise;
-  NoiseField luma({640, 480}, added, 7), chroma({320, 240}, {.persistence = added.persistence}, 8);
+  NoiseField luma({640, 480}, added, 7), chroma({320, 240}, {.temporal_correlation = added.temporal_correlation}, 8);
   for (int n = 0; n < 12; n += 4) {
     Frame first = halved(footage->read(n).value());
     Frame second = halved(footage->read(n + 1).value());
@@ -109,7 +109,7 @@ Frame ramp(const Added& added, NoiseField& luma, NoiseField& chroma) {
 
 NoiseFound found_on_ramp(const Added& added) {
   Noise noise;
-  NoiseField luma({640, 320}, added, 3), chroma({320, 160}, {.persistence = added.persistence}, 4);
+  NoiseField luma({640, 320}, added, 3), chroma({320, 160}, {.temporal_correlation = added.temporal_correlation}, 4);
   for (int n = 0; n < 3; ++n) {
     const Frame first = ramp(added, luma, chroma);
     const Frame second = ramp(added, luma, chroma);
@@ -127,8 +127,8 @@ TEST_CASE("noise added to synthetic footage is found within 10 percent over brig
     CAPTURE(found.sd_dark.value);
     CAPTURE(found.sd_bright.value);
     CAPTURE(found.sd_bright.sd);
-    CAPTURE(found.spread_px.value);
-    CAPTURE(found.persistence.value);
+    CAPTURE(found.correlation_length_px.value);
+    CAPTURE(found.temporal_correlation.value);
     REQUIRE_MESSAGE(found.sd_dark.is_known, found.sd_dark.why);
     for (const double b : {0.2, 0.4, 0.6, 0.8}) {
       const auto sd_at = [b](double dark, double bright) {
@@ -137,25 +137,26 @@ TEST_CASE("noise added to synthetic footage is found within 10 percent over brig
       const double true_sd = sd_at(added.sd_dark, added.sd_bright);
       CHECK(std::abs(sd_at(found.sd_dark.value, found.sd_bright.value) - true_sd) < 0.1 * true_sd);
     }
-    CHECK(found.spread_px.value < 0.35);    // white noise: neighbours share 2 percent at 0.35
-    CHECK(found.persistence.value < 0.15);  // clouds that hardly move look like noise that lasts
+    CHECK(found.correlation_length_px.value < 0.35);  // white noise: neighbours share 2 percent at 0.35
+    CHECK(found.temporal_correlation.value < 0.15);   // clouds that hardly move look like noise that lasts
   }
 }
 
 TEST_CASE("noise that neighbours share, and that lasts, is told so") {
-  for (const double spread_px : {0.6, 1.0, 1.3}) {
-    const NoiseFound found = found_on_ramp({.sd_dark = 3, .sd_bright = 3, .spread_px = spread_px});
-    CAPTURE(spread_px);
-    CHECK(std::abs(found.spread_px.value - spread_px) <
-          0.13 * spread_px);  // wide noise is partly taken for brightness that varies
+  for (const double correlation_length_px : {0.6, 1.0, 1.3}) {
+    const NoiseFound found =
+        found_on_ramp({.sd_dark = 3, .sd_bright = 3, .correlation_length_px = correlation_length_px});
+    CAPTURE(correlation_length_px);
+    CHECK(std::abs(found.correlation_length_px.value - correlation_length_px) <
+          0.13 * correlation_length_px);  // wide noise is partly taken for brightness that varies
     CHECK(std::abs(found.sd_dark.value - 3) < 0.3);
     CHECK(std::abs(found.sd_bright.value - 3) < 0.3);
   }
-  for (const double persistence : {0.3, 0.7}) {
+  for (const double temporal_correlation : {0.3, 0.7}) {
     const NoiseFound found =
-        found_on_ramp({.sd_dark = 3, .sd_bright = 2, .sd_chroma = 1.5, .persistence = persistence});
-    REQUIRE_MESSAGE(found.persistence.is_known, found.persistence.why);
-    CHECK(std::abs(found.persistence.value - persistence) < 0.05);
+        found_on_ramp({.sd_dark = 3, .sd_bright = 2, .sd_chroma = 1.5, .temporal_correlation = temporal_correlation});
+    REQUIRE_MESSAGE(found.temporal_correlation.is_known, found.temporal_correlation.why);
+    CHECK(std::abs(found.temporal_correlation.value - temporal_correlation) < 0.05);
     CHECK(std::abs(found.sd_chroma.value - 1.5) < 0.15);
   }
 }
@@ -183,8 +184,8 @@ TEST_CASE("texture that moves little does not count as noise that lasts") {
   REQUIRE(found.sd_dark.is_known);
   CHECK(std::abs(found.sd_dark.value - 2) < 0.2);
   CHECK(std::abs(found.sd_bright.value - 2) < 0.2);
-  REQUIRE(found.persistence.is_known);
-  CHECK(found.persistence.value < 0.06);
+  REQUIRE(found.temporal_correlation.is_known);
+  CHECK(found.temporal_correlation.value < 0.06);
 }
 
 TEST_CASE("where rounding to codes is all the noise there is, its spread is not known") {
@@ -199,16 +200,16 @@ TEST_CASE("where rounding to codes is all the noise there is, its spread is not 
   const Frame first = frame(0), second = frame(0.4);
   noise.add(first, &second);
   const NoiseFound found = noise.finish();
-  CHECK_FALSE(found.spread_px.is_known);
-  CHECK_FALSE(found.spread_px.why.empty());
+  CHECK_FALSE(found.correlation_length_px.is_known);
+  CHECK_FALSE(found.correlation_length_px.why.empty());
 }
 
 TEST_CASE("the rest of blurred noise in a block is as many random blocks have it") {
   cv::RNG random(5);
-  for (const double spread_px : {0.0, 0.8, 1.6}) {
+  for (const double correlation_length_px : {0.0, 0.8, 1.6}) {
     cv::Mat noise(1600, 1600, CV_32FC1);
     random.fill(noise, cv::RNG::NORMAL, 0, 1);
-    if (spread_px > 0) cv::GaussianBlur(noise, noise, {}, spread_px);
+    if (correlation_length_px > 0) cv::GaussianBlur(noise, noise, {}, correlation_length_px);
     cv::Scalar mean, deviation;
     cv::meanStdDev(noise, mean, deviation);
     noise /= deviation[0];
@@ -229,7 +230,7 @@ TEST_CASE("the rest of blurred noise in a block is as many random blocks have it
         products += rest.colRange(0, 15).clone().dot(rest.colRange(1, 16).clone());
       }
     }
-    const BlockRest expected = block_rest(spread_px, 16);
+    const BlockRest expected = block_rest(correlation_length_px, 16);
     CHECK(expected.variance == doctest::Approx(squares / 10000 / 253).epsilon(0.02));  // 10,000 blocks
     CHECK(std::abs(expected.correlation - products / 10000 / 240) < 0.01);
   }

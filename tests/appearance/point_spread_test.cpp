@@ -132,8 +132,8 @@ TEST_CASE("where no edge tells it, chroma of JPEG images is taken to be sharper 
     PointSpread spread;
     spread.add(frame);
     const PointSpreadFound found = spread.finish();
-    CHECK_FALSE(found.chroma_spread_px.is_known);
-    return found.chroma_spread_px.value;
+    CHECK_FALSE(found.chroma_blur_px.is_known);
+    return found.chroma_blur_px.value;
   };
   // Linear reading between samples 2 px apart: a triangle of variance 2 * 2 / 6 px^2; a sample of 4:2:0 is 2 px wide.
   CHECK(taken(QuantiserKind::jpeg) == doctest::Approx(std::sqrt(4 / 6.0) / 2).epsilon(0.03));
@@ -141,13 +141,13 @@ TEST_CASE("where no edge tells it, chroma of JPEG images is taken to be sharper 
   CHECK(taken(std::nullopt) == 0.9);
 }
 
-TEST_CASE("chroma spread beyond luma's is found in samples of the chroma planes") {
+TEST_CASE("chroma blur beyond luma's is found in samples of the chroma planes") {
   for (const double sigma : {0.6, 1.2, 2.0}) {
     const PointSpreadFound found = spread_of_target({.sigma_px = 0.8, .chroma_sigma = sigma});
     CAPTURE(sigma);
-    CAPTURE(found.chroma_spread_px.value);
-    REQUIRE_MESSAGE(found.chroma_spread_px.is_known, found.chroma_spread_px.why);
+    CAPTURE(found.chroma_blur_px.value);
+    REQUIRE_MESSAGE(found.chroma_blur_px.is_known, found.chroma_blur_px.why);
     // Averaging two rows and 1 2 1 columns widens chroma by up to sqrt(1/8) of its samples besides.
-    CHECK(std::abs(found.chroma_spread_px.value - sigma) < 0.1 * sigma + 0.06);
+    CHECK(std::abs(found.chroma_blur_px.value - sigma) < 0.1 * sigma + 0.06);
   }
 }

@@ -104,7 +104,7 @@ TEST_CASE("a log with time and place tells where the sun stands, against the cam
 
 TEST_CASE("a direction by time and place is left to the project, frame by frame") {
   const Appearance found = LoggedFlight(utc_line(kUtc_s), 0).found();
-  CHECK(found.surroundings.sun.witness == SunWitness::given);
+  CHECK(found.surroundings.sun.evidence == SunEvidence::given);
   Appearance with_sky = found;  // as where the light is known
   for (Estimate& part : with_sky.surroundings.light.sky_color) part = {.value = 0.3, .sd = 0.1, .is_known = true};
   Project project;
@@ -123,7 +123,7 @@ TEST_CASE("while the footage is taken the sun moves, which its deviation has") {
 
 TEST_CASE("a log without UTC does not tell the sun") {
   const Appearance found = LoggedFlight("", 0).found();
-  CHECK(found.surroundings.sun.witness == SunWitness::none);
+  CHECK(found.surroundings.sun.evidence == SunEvidence::none);
   const std::vector<AppearanceQuantity> quantities = quantities_of(found);
   const AppearanceQuantity& azimuth = quantity_of(quantities, "sun's azimuth");
   CHECK_FALSE(azimuth.estimate.is_known);

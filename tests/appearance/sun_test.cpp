@@ -45,7 +45,7 @@ TEST_CASE("the sun's azimuth follows from shadows on the ground within 10 degree
     const SunEstimate sun =
         sun_of(Posts{.azimuth_rad = rad_of_deg(azimuth_deg)}, {.roll_rad = 0.1, .pitch_rad = -0.55, .yaw_rad = 0.4});
     CAPTURE(azimuth_deg);
-    REQUIRE(sun.witness == SunWitness::shadows);
+    REQUIRE(sun.evidence == SunEvidence::shadows);
     CHECK(off_deg(sun.azimuth_rad.value, rad_of_deg(azimuth_deg)) < 10);
     CHECK(off_deg(sun.azimuth_rad.value, rad_of_deg(azimuth_deg)) < 3 * deg_of_rad(sun.azimuth_rad.sd));
     CHECK_FALSE(sun.elevation_rad.is_known);  // nothing says how high the posts are
@@ -64,7 +64,7 @@ TEST_CASE("a clear sky shows a sun ahead within 10 degrees") {
     const SunEstimate sun =
         sun_of([&](const glm::dvec3& ray) { return clear_sky(ray, azimuth, elevation); }, {.pitch_rad = 0.35});
     CAPTURE(azimuth_deg);
-    REQUIRE(sun.witness == SunWitness::sky);
+    REQUIRE(sun.evidence == SunEvidence::sky);
     CHECK(off_deg(sun.azimuth_rad.value, azimuth) < 10);
     REQUIRE(sun.elevation_rad.is_known);
     CHECK(off_deg(sun.elevation_rad.value, elevation) < 10);
@@ -94,7 +94,7 @@ TEST_CASE("too few samples, an even sky and a lens' dark corners are no sun") {
 TEST_CASE("a direction by time and place stands before what the image shows") {
   const GivenSun given{.to_sun_in_world = to_sun_of(1.2, 0.8)};
   const SunEstimate sun = sun_of(Posts{.azimuth_rad = -1}, {.pitch_rad = -0.55}, {}, given);
-  CHECK(sun.witness == SunWitness::given);
+  CHECK(sun.evidence == SunEvidence::given);
   CHECK(sun.azimuth_rad.value == doctest::Approx(1.2));
   CHECK(sun.elevation_rad.value == doctest::Approx(0.8));
   LightSettings settings;
@@ -104,7 +104,7 @@ TEST_CASE("a direction by time and place stands before what the image shows") {
   CHECK(settings.sun.azimuth_deg.value() == doctest::Approx(165).epsilon(0.001));
   CHECK(settings.sun.elevation_deg.value() == doctest::Approx(25).epsilon(0.02));
   const SunEstimate nowhere = Sun().finish(GivenSun{});
-  CHECK(nowhere.witness == SunWitness::none);
+  CHECK(nowhere.evidence == SunEvidence::none);
 }
 
 TEST_CASE("blank, black, over-exposed and gray images and none at all do not show the sun") {

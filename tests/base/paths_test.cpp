@@ -55,9 +55,9 @@ TEST_CASE("an input is recognized under any of its names, and other files are no
 TEST_CASE("names that cannot be file names are recognized") {
   for (const std::string& name :
        {std::string("a"), std::string("flight 7"), std::string("\xc3\xa4"), std::string(200, 'n')})
-    CHECK(wrong_with_file_name(name).empty());
+    CHECK(file_name_error(name).empty());
   for (const std::string& name :
        {std::string(), std::string("."), std::string(".."), std::string(".a"), std::string("a/b"),
         std::string("a\0b", 3), std::string("a\nb"), std::string("a\x7f"), std::string(201, 'n')})
-    CHECK_FALSE(wrong_with_file_name(name).empty());
+    CHECK_FALSE(file_name_error(name).empty());
 }

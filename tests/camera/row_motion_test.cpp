@@ -60,10 +60,10 @@ TEST_CASE("the ray of a row, turned to the frame's time, meets the same point of
   const Lens lens = pinhole_lens();
   for (const double row : {0.0, 100.0, 239.5, 479.0}) {
     const glm::dvec3 seen = motion.at_row(row).translation_m;
-    CHECK(angle_between(motion.turn_of_row(row) * seen, body_m) < 1e-12);
-    CHECK(angle_between(motion.turn_of_row(row) * (1e-3 * seen), body_m) < 1e-12);
+    CHECK(angle_between(motion.row_transform(row) * seen, body_m) < 1e-12);
+    CHECK(angle_between(motion.row_transform(row) * (1e-3 * seen), body_m) < 1e-12);
   }
-  CHECK(motion.turn_of_row(100) * glm::dvec3(0) == glm::dvec3(0));
+  CHECK(motion.row_transform(100) * glm::dvec3(0) == glm::dvec3(0));
   CHECK(motion.max_shift_px(lens) == doctest::Approx(500 * 0.007).epsilon(0.02));
 }
 

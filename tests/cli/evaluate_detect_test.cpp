@@ -99,7 +99,7 @@ TEST_CASE("files are matched to labels in order, folders by name, and a dataset'
     const Run run = fixture.detect(arguments + fixture.out());
     REQUIRE_MESSAGE(run.status == 0, arguments << run.err);
     const nlohmann::json report = fixture.report();
-    CHECK(report["films"] == nlohmann::json({"one", "two"}));
+    CHECK(report["videos"] == nlohmann::json({"one", "two"}));
     REQUIRE(report["detectors"].size() == 1);
     CHECK(report["detectors"][0]["name"] == "mine");
     CHECK(report["detectors"][0]["frames"] == 20);
@@ -107,7 +107,7 @@ TEST_CASE("files are matched to labels in order, folders by name, and a dataset'
     CHECK(report["detectors"][0]["encounters"].size() == 2);
   }
   REQUIRE(fixture.detect(fixture.dataset + " --split test --results " + folder + fixture.out()).status == 0);
-  CHECK(fixture.report()["films"] == nlohmann::json({"two"}));
+  CHECK(fixture.report()["videos"] == nlohmann::json({"two"}));
   CHECK(fixture.report()["detectors"][0]["false_alarm_boxes"] == 0);
   fs::remove(one);
   const Run missing = fixture.detect(fixture.dataset + " --results " + folder);

@@ -141,7 +141,7 @@ TEST_CASE("into gray footage a gray intruder is put, whatever colours its paint 
   setting.project.light.kind = LightKind::sun;
   setting.project.light.sun = {.azimuth_deg = 165, .elevation_deg = 25};
   setting.project.light.sky_color = {0.2, 0.4, 0.9};
-  setting.project.appearance.chroma_spread_px = 1.2;
+  setting.project.appearance.chroma_blur_px = 1.2;
   setting.project.appearance.haze.visibility_m = 5000;
   for (const double saturation : {1.0, 0.0}) {
     setting.project.appearance.saturation = saturation;  // 0 is what is found in gray footage

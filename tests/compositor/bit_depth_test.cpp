@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "compositor/blend.h"
-#include "compositor/code_patch.h"
+#include "compositor/float_patch.h"
 #include "compositor/grain.h"
 #include "compositor/haze.h"
 #include "compositor/synthetic_frames.h"
@@ -239,7 +239,7 @@ TEST_CASE("grain of one 8-bit code has four codes of 10 bits, and fine grain is 
   const Sort sort{"gray", PixelLayout::gray, {1, 1}, true, ColorMatrix::bt709};
   for (const double sd_code : {1.0, 0.25}) {
     Frame frame = evenly_colored(sort, {128, 128}, 10, {500, 0, 0});
-    CodePatch patch =
+    FloatPatch patch =
         blended_patch(frame, even_layer({0, 0, 128, 128}, {0.2F, 0.2F, 0.2F, 1}), BlendSpace::linear, 0, {});
     add_grain(patch, {.sd_dark = sd_code, .sd_bright = sd_code}, 3);
     (void)write_patch(patch, frame);

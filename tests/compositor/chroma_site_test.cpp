@@ -17,7 +17,7 @@ namespace {
 // The error of rounding to a code value, and some 24-bit roundings.
 constexpr double kBlendRounding = 0.502;
 
-std::vector<Sort> sorts_with_shared_chroma() {
+std::vector<Sort> sorts_with_subsampled_chroma() {
   std::vector<Sort> sorts = all_sorts();
   std::erase_if(sorts, [](const Sort& sort) { return sort.step.area() == 1; });
   return sorts;
@@ -156,7 +156,7 @@ const Place kPlaces[] = {{{38, 24}, {11, 7, 9, 8}},  {{38, 24}, {12, 6, 8, 9}}, 
 }  // namespace
 
 TEST_CASE("planes are those of the blended full-resolution image averaged at the chroma's site") {
-  for (const Sort& sort : sorts_with_shared_chroma())
+  for (const Sort& sort : sorts_with_subsampled_chroma())
     for (const BlendSpace space : {BlendSpace::linear, BlendSpace::display})
       for (const Place& place : kPlaces) {
         CAPTURE(sort.name);
@@ -172,7 +172,7 @@ TEST_CASE("planes are those of the blended full-resolution image averaged at the
 }
 
 TEST_CASE("an opaque layer of many colours leaves nothing of the chroma below") {
-  for (const Sort& sort : sorts_with_shared_chroma()) {
+  for (const Sort& sort : sorts_with_subsampled_chroma()) {
     CAPTURE(sort.name);
     const cv::Size size(19, 13);
     Frame frame = grainy(sort, size);
@@ -186,7 +186,7 @@ TEST_CASE("an opaque layer of many colours leaves nothing of the chroma below") 
 
 TEST_CASE("an even opacity keeps the rest of every chroma sample below") {
   constexpr float kOpacity = 0.375F;
-  for (const Sort& sort : sorts_with_shared_chroma()) {
+  for (const Sort& sort : sorts_with_subsampled_chroma()) {
     CAPTURE(sort.name);
     const cv::Size size(19, 13);
     Frame frame = grainy(sort, size);
@@ -214,7 +214,7 @@ TEST_CASE("an even opacity keeps the rest of every chroma sample below") {
 }
 
 TEST_CASE("the colour of a soft spot lies where its brightness does") {
-  for (const Sort& sort : sorts_with_shared_chroma())
+  for (const Sort& sort : sorts_with_subsampled_chroma())
     for (const cv::Point2d middle : {cv::Point2d(20, 16), cv::Point2d(20.5, 16.5), cv::Point2d(21, 17)}) {
       CAPTURE(sort.name);
       CAPTURE(middle);
@@ -248,7 +248,7 @@ TEST_CASE("the colour of a soft spot lies where its brightness does") {
 }
 
 TEST_CASE("an image put in place of pixels has its chroma at the footage's site") {
-  for (const Sort& sort : sorts_with_shared_chroma())
+  for (const Sort& sort : sorts_with_subsampled_chroma())
     for (const Place& place : kPlaces) {
       CAPTURE(sort.name);
       CAPTURE(place.rect);
@@ -273,7 +273,7 @@ TEST_CASE("an image put in place of pixels has its chroma at the footage's site"
 }
 
 TEST_CASE("two layers far from each other give the same planes in either order") {
-  for (const Sort& sort : sorts_with_shared_chroma()) {
+  for (const Sort& sort : sorts_with_subsampled_chroma()) {
     CAPTURE(sort.name);
     Frame first = grainy(sort, {38, 24});
     Frame second = cloned(first);

@@ -51,7 +51,7 @@ Frame with_grain(const Sort& sort, const Grain& grain, double display, float opa
   const cv::Size size(640, 512);
   Frame image = even(sort, size, 100);
   const auto light = static_cast<float>(linear_value(display)) * opacity;
-  CodePatch patch =
+  FloatPatch patch =
       blended_patch(image, even_layer({{0, 0}, size}, {light, light, light, opacity}), BlendSpace::display, 0, {});
   add_grain(patch, grain, frame);
   write_patch(patch, image);
@@ -61,17 +61,18 @@ Frame with_grain(const Sort& sort, const Grain& grain, double display, float opa
 }  // namespace
 
 TEST_CASE("a field of noise has mean 0 and variance 1, and its neighbours correlate as a Gaussian says") {
-  for (const double spread_px : {0.0, 0.5, 0.8, 1.5}) {
-    CAPTURE(spread_px);
-    const cv::Mat field = noise_field({.spread_px = spread_px}, 0, 5, kLarge);
+  for (const double correlation_length_px : {0.0, 0.5, 0.8, 1.5}) {
+    CAPTURE(correlation_length_px);
+    const cv::Mat field = noise_field({.correlation_length_px = correlation_length_px}, 0, 5, kLarge);
     // Standard error of the mean: sqrt(4 pi spread^2 / samples), of the variance some sqrt(2 * 2 pi spread^2 /
     // samples).
     CHECK(std::abs(cv::mean(field)[0]) < 0.03);
     CHECK(variance_of(field) == doctest::Approx(1).epsilon(0.03));
     for (const int n : {1, 2, 3}) {
       // From 0.8 px on samples of a Gaussian correlate as the continuous one does; below, its cut shows.
-      if (spread_px > 0 && spread_px < 0.8) continue;
-      const double wanted = spread_px > 0 ? std::exp(-n * n / (4 * spread_px * spread_px)) : 0;
+      if (correlation_length_px > 0 && correlation_length_px < 0.8) continue;
+      const double wanted =
+          correlation_length_px > 0 ? std::exp(-n * n / (4 * correlation_length_px * correlation_length_px)) : 0;
       CHECK(std::abs(correlation_at(field, {n, 0}) - wanted) < 0.03);
       CHECK(std::abs(correlation_at(field, {0, n}) - wanted) < 0.03);
     }
@@ -80,13 +81,14 @@ TEST_CASE("a field of noise has mean 0 and variance 1, and its neighbours correl
 }
 
 TEST_CASE("noise persists from frame to frame as asked") {
-  for (const double persistence : {0.0, 0.3, 0.6, 0.9}) {
-    CAPTURE(persistence);
-    const Grain grain{.spread_px = 0.8, .persistence = persistence};
+  for (const double temporal_correlation : {0.0, 0.3, 0.6, 0.9}) {
+    CAPTURE(temporal_correlation);
+    const Grain grain{.correlation_length_px = 0.8, .temporal_correlation = temporal_correlation};
     const cv::Mat now = noise_field(grain, 0, 40, kLarge);
     CHECK(variance_of(now) == doctest::Approx(1).epsilon(0.03));
-    CHECK(std::abs(correlation_of(now, noise_field(grain, 0, 41, kLarge)) - persistence) < 0.03);
-    CHECK(std::abs(correlation_of(now, noise_field(grain, 0, 42, kLarge)) - persistence * persistence) < 0.03);
+    CHECK(std::abs(correlation_of(now, noise_field(grain, 0, 41, kLarge)) - temporal_correlation) < 0.03);
+    CHECK(std::abs(correlation_of(now, noise_field(grain, 0, 42, kLarge)) -
+                   temporal_correlation * temporal_correlation) < 0.03);
   }
 }
 
@@ -99,7 +101,7 @@ TEST_CASE("planes, seeds and distant frames are independent, and frames below 0 
 }
 
 TEST_CASE("any part of a field by itself, on any thread, is that part of the whole") {
-  const Grain grain{.spread_px = 1.2, .persistence = 0.5, .seed = 11};
+  const Grain grain{.correlation_length_px = 1.2, .temporal_correlation = 0.5, .seed = 11};
   const cv::Mat whole = noise_field(grain, 0, 9, kLarge);
   std::array<cv::Mat, 4> parts;
   std::vector<std::thread> threads;
@@ -113,7 +115,7 @@ TEST_CASE("any part of a field by itself, on any thread, is that part of the who
 
 TEST_CASE("an opaque surface gets the footage's variance at its brightness, rounding included") {
   const Sort sort = sort_named("4:2:0 left BT.709 limited");
-  const Grain grain{.sd_dark = 1.5, .sd_bright = 5, .sd_chroma = 2.5, .spread_px = 0.8};
+  const Grain grain{.sd_dark = 1.5, .sd_bright = 5, .sd_chroma = 2.5, .correlation_length_px = 0.8};
   for (const double display : {0.2, 0.5, 0.8}) {
     CAPTURE(display);
     const Frame image = with_grain(sort, grain, display, 1);
@@ -153,7 +155,7 @@ TEST_CASE("grain near black and white stays within the codes and finite") {
   for (const Sort& sort : all_sorts())
     for (const double display : {0.0, 1.0}) {
       const Frame image =
-          with_grain(sort, {.sd_dark = 64, .sd_bright = 64, .sd_chroma = 64, .persistence = 0.5}, display, 1);
+          with_grain(sort, {.sd_dark = 64, .sd_bright = 64, .sd_chroma = 64, .temporal_correlation = 0.5}, display, 1);
       CHECK(variance_of(image.planes[0]) > 100);
     }
 }

@@ -59,7 +59,7 @@ double normal_below(double z) {
   return 0.5 * std::erfc(-z / std::sqrt(2.0));
 }
 
-constexpr double kMostGap = 1.95;
+constexpr double kMaxGap = 1.95;
 const Quantity kUniform{.kind = Quantity::Kind::uniform, .low = -3, .high = 5};
 
 }  // namespace
@@ -94,13 +94,13 @@ TEST_CASE("uniform samples fill their range evenly and never leave it") {
   const std::vector<double> values = many(kUniform, 20'000);
   CHECK(*std::min_element(values.begin(), values.end()) >= -3);
   CHECK(*std::max_element(values.begin(), values.end()) < 5);
-  CHECK(kolmogorov(values, [](double x) { return (x + 3) / 8; }) < kMostGap);
+  CHECK(kolmogorov(values, [](double x) { return (x + 3) / 8; }) < kMaxGap);
 }
 
 TEST_CASE("normal samples follow the normal distribution, truncated at its bounds") {
   const Quantity whole{
       .kind = Quantity::Kind::normal, .low = -kInfinite, .high = kInfinite, .mean = 10, .deviation = 2};
-  CHECK(kolmogorov(many(whole, 10'000), [](double x) { return normal_below((x - 10) / 2); }) < kMostGap);
+  CHECK(kolmogorov(many(whole, 10'000), [](double x) { return normal_below((x - 10) / 2); }) < kMaxGap);
   Quantity cut = whole;
   cut.low = 11;
   cut.high = 16;
@@ -108,7 +108,7 @@ TEST_CASE("normal samples follow the normal distribution, truncated at its bound
   const std::vector<double> values = many(cut, 10'000);
   CHECK(*std::min_element(values.begin(), values.end()) >= 11);
   CHECK(*std::max_element(values.begin(), values.end()) <= 16);
-  CHECK(kolmogorov(values, [&](double x) { return (normal_below((x - 10) / 2) - from) / (to - from); }) < kMostGap);
+  CHECK(kolmogorov(values, [&](double x) { return (normal_below((x - 10) / 2) - from) / (to - from); }) < kMaxGap);
 }
 
 TEST_CASE("a normal quantity without deviation is its mean") {

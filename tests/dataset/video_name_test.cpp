@@ -38,11 +38,11 @@ TEST_CASE("a pattern with an unknown or an open part is wrong") {
 
 TEST_CASE("names that cannot be files are wrong, odd ones are right") {
   for (const char* const name : {"", "a/b", "/", ".", "..", ".hidden", "a\nb", "tab\t", "\x7f"})
-    CHECK_MESSAGE(!wrong_with_file_name(name).empty(), name);
+    CHECK_MESSAGE(!file_name_error(name).empty(), name);
   for (const char* const name : {"a", "a b", "día ñ", "<&>'\"", "x.y", "-x", "100%"})
-    CHECK_MESSAGE(wrong_with_file_name(name).empty(), name);
-  CHECK(wrong_with_file_name(std::string(200, 'x')).empty());
-  CHECK(!wrong_with_file_name(std::string(201, 'x')).empty());
+    CHECK_MESSAGE(file_name_error(name).empty(), name);
+  CHECK(file_name_error(std::string(200, 'x')).empty());
+  CHECK(!file_name_error(std::string(201, 'x')).empty());
 }
 
 TEST_CASE("a video cannot have the name of another entry of the dataset") {

@@ -68,9 +68,9 @@ struct SteepFlight {
     scene.last_frame = kFrames - 1;
     scene.camera = sphere_camera(LensModel::brown_conrady);
     SceneFiles files;
-    OrProblem<CameraFlight> flight = camera_flight(changed, scene.footage, {0, kFrames - 1}, files);
+    Result<CameraFlight, Problem> flight = camera_flight(changed, scene.footage, {0, kFrames - 1}, files);
     if (!flight) FAIL(flight.error().field, ": ", flight.error().what);
-    take_camera_flight(scene, *std::move(flight));
+    set_camera_motion(scene, *std::move(flight));
     return scene;
   }
 

@@ -122,12 +122,12 @@ TEST_CASE("where nothing states the field of view, but the camera pans, it is th
   // The attitudes are those of that lens: the pan spans 0.4 rad.
   const Result<Track> track = read_track(folder / made.project.camera.track.file);
   REQUIRE(track);
-  double least_rad = 0, largest_rad = 0;
+  double min_rad = 0, largest_rad = 0;
   for (const glm::dquat& attitude : track->ned_from_camera.values) {
-    least_rad = std::min(least_rad, attitude_of(attitude).yaw_rad);
+    min_rad = std::min(min_rad, attitude_of(attitude).yaw_rad);
     largest_rad = std::max(largest_rad, attitude_of(attitude).yaw_rad);
   }
-  CHECK(largest_rad - least_rad == doctest::Approx(0.4).epsilon(0.1));
+  CHECK(largest_rad - min_rad == doctest::Approx(0.4).epsilon(0.1));
   // What the user states stays.
   options.horizontal_fov_deg = 70;
   made_and_opened(options);

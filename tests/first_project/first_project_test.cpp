@@ -241,7 +241,7 @@ TEST_CASE("the intruder of a first project has the footage's noise; a plain one 
   CHECK(made.project.appearance.codec.match == CodecMatchChoice::none);  // PNG keeps every sample
   CHECK(made.project.compositing.blur_px_per_m == 0);
   // What the footage does not tell is at its default, and said.
-  CHECK(note_on(made, "appearance.point_spread_px").is_guess);
+  CHECK(note_on(made, "appearance.psf_sigma_px").is_guess);
   CHECK(note_on(made, "appearance.haze.visibility_m").is_guess);
   CHECK_FALSE(made.project.appearance.haze.visibility_m);
 
@@ -257,7 +257,7 @@ TEST_CASE("the intruder of a first project goes through the footage's codec, and
   const fs::path gray = made_clip(folder, "s=320x240:r=25:d=1", "-vf hue=s=0 -c:v libx264 -pix_fmt yuv420p");
   const FirstProject made = made_and_opened({.video = gray, .out = folder / "p.json"});
   CHECK(made.project.appearance.codec.match == CodecMatchChoice::footage);
-  CHECK(made.project.appearance.codec.carried_frames > 0);
+  CHECK(made.project.appearance.codec.predicted_frames > 0);
   CHECK(made.project.appearance.saturation == 0);
   CHECK_FALSE(note_on(made, "appearance.saturation").is_guess);
 }

@@ -16,7 +16,7 @@
 namespace sigs::test {
 
 // Makes the project, opens it from its file, and checks what every first project must have.
-inline FirstProject made_and_opened(const FirstProjectOptions& options, double least_share = 0.5) {
+inline FirstProject made_and_opened(const FirstProjectOptions& options, double min_share = 0.5) {
   const Result<FirstProject> made = make_first_project(options);
   REQUIRE_MESSAGE(made, (made ? "" : made.error().text()));
   const Result<ReadProject> read = read_project(made->project.file);
@@ -26,7 +26,7 @@ inline FirstProject made_and_opened(const FirstProjectOptions& options, double l
   REQUIRE_MESSAGE(opened, (opened ? "" : opened.error().text()));
   for (const Problem& issue : opened->scene.issues) CHECK_MESSAGE(false, issue.field << ": " << issue.what);
   const Visibility seen = estimated_visibilities(opened->scene, 1000).front();
-  CHECK(seen.visible >= least_share * seen.frames_checked);
+  CHECK(seen.visible >= min_share * seen.frames_checked);
   CHECK(seen.largest_px <= 64);
   CHECK(seen.largest_px >= 12);
   return *made;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/code_stages.h"
+#include "frame/post_blend_stages.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -87,7 +87,7 @@ TEST_CASE("what is carried over from frames before is the same on one thread, on
   fly(scenario, CodecMatchChoice::footage);
   scenario.project.footage.video = scenario.path("footage.mp4").string();
   const RawVideo first_alone = exported(scenario, 1);
-  scenario.project.appearance.codec.carried_frames = 4;
+  scenario.project.appearance.codec.predicted_frames = 4;
   const RawVideo alone = exported(scenario, 1);
   CHECK(same_images(alone, exported(scenario, 4)));
   CHECK(!same_images(alone, first_alone));
@@ -112,7 +112,7 @@ TEST_CASE("the truth does not depend on the codec match, and every rewritten sam
       fly(scenario, CodecMatchChoice::none);
       const Frame background = grainy_frame({320, 240}, 1, layout);
       const ComposedFrame plain = composed(scenario.opened(), 3, background);
-      scenario.project.appearance.codec = {.match = match, .carried_frames = 3, .quantiser = 35};
+      scenario.project.appearance.codec = {.match = match, .predicted_frames = 3, .quantiser = 35};
       const ComposedFrame matched = composed(scenario.opened(), 3, background);
       REQUIRE(plain.truth.intruders.size() == 1);
       CHECK(matched.truth.intruders[0].visible_pixels == plain.truth.intruders[0].visible_pixels);

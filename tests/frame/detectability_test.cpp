@@ -30,7 +30,7 @@ struct Sky {
   double paint = 0.25;  // of the plate, 0..1 as displayed
   PixelLayout layout = PixelLayout::yuv420;
   ColorInfo color = {.matrix_stated = true, .range_stated = true};
-  AppearanceSettings look{.point_spread_px = 0};
+  AppearanceSettings look{.psf_sigma_px = 0};
   int first_row_of_body = 240;  // the own body covers the rows from here on
 };
 
@@ -197,11 +197,11 @@ Labelled checked(const Sky& sky) {
 
 // Everything that footage's look changes.
 AppearanceSettings every_stage() {
-  AppearanceSettings look{.point_spread_px = 0.7, .sharpening = 0.8};
+  AppearanceSettings look{.psf_sigma_px = 0.7, .sharpening = 0.8};
   look.black = 0.02;
-  look.chroma_spread_px = 1.2;
+  look.chroma_blur_px = 1.2;
   look.haze.visibility_m = 400;
-  look.grain = {.sd_dark = 2, .sd_bright = 3, .sd_chroma = 1, .spread_px = 0.6};
+  look.grain = {.sd_dark = 2, .sd_bright = 3, .sd_chroma = 1, .correlation_length_px = 0.6};
   return look;
 }
 

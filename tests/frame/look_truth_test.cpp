@@ -47,7 +47,7 @@ TEST_CASE("an aircraft in motion is the mean of many moments of the exposure") {
     sight.heading = motion.heading;
     sight.speed_mps = motion.speed_mps;
     sight.exposure_s = 0.02;
-    sight.look.point_spread_px = 1;  // below, the kernel on whole pixels adds an error of its own
+    sight.look.psf_sigma_px = 1;  // below, the kernel on whole pixels adds an error of its own
     const Compared result = compared(sight, {.samples_per_side = 4});
     tell(motion.name, result);
     CHECK(result.rmse() < kSoft_rmse);
@@ -59,7 +59,7 @@ TEST_CASE("without its motion blur a fast aircraft is not that mean") {
   Sight sight = small_sight(kLightAircraft);
   sight.heading = {0, 1, 0};
   sight.speed_mps = 50;
-  sight.look.point_spread_px = 1;
+  sight.look.psf_sigma_px = 1;
   sight.exposure_s = 0.02;
   const Compared blurred = compared(sight, {.samples_per_side = 4});
   sight.exposure_s = 0;
@@ -76,7 +76,7 @@ TEST_CASE("the lens' point spread is a Gaussian that does not grow with distance
     for (const double extent_px : {60.0, 12.0}) {
       Sight sight = small_sight(kAirliner);
       sight.extent_px = extent_px;
-      sight.look.point_spread_px = sigma_px;
+      sight.look.psf_sigma_px = sigma_px;
       const Compared result = compared(sight);
       tell("sigma " + std::to_string(sigma_px) + ", " + std::to_string(extent_px) + " px", result);
       // Below a pixel the kernel on whole pixels is off by up to 8 % of a step at hard edges (compositor/blur.h); a
@@ -89,7 +89,7 @@ TEST_CASE("the lens' point spread is a Gaussian that does not grow with distance
 TEST_CASE("both blurs together are one Gaussian of their variances' sum") {
   Sight sight = small_sight(kAirliner);
   sight.sigma_px = 1.2;
-  sight.look.point_spread_px = 1.6;
+  sight.look.psf_sigma_px = 1.6;
   CHECK(compared(sight).rmse() < kSoft_rmse);
 }
 

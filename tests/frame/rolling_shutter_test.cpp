@@ -14,8 +14,8 @@ namespace {
 constexpr double kReadout_s = 0.02;
 
 // Turns by 60 deg/s and shakes with 20 Hz: within a readout by 1.2 degrees of yaw, 6 px.
-std::vector<CarrierAttitude> wild_turns() {
-  std::vector<CarrierAttitude> turns;
+std::vector<PlatformAttitude> wild_turns() {
+  std::vector<PlatformAttitude> turns;
   for (int i = -100; i <= 300; ++i) {
     const double t = i * 1e-3;
     const Attitude attitude{0.02 * std::sin(125 * t), 0.015 * std::cos(125 * t), t * 60 * 3.14159265358979 / 180};
@@ -28,7 +28,7 @@ Scene scene_of(double readout_s, const glm::dvec3& at_m) {
   Scenario scenario;
   add_aircraft(scenario, at_m);
   Scene scene = scenario.opened();
-  scene.motion.turns = wild_turns();
+  scene.motion.attitudes = wild_turns();
   scene.motion.readout_s = readout_s;
   scene.compositing.supersampling = 8;  // edges fall differently among the samples of two renderings
   return scene;

@@ -22,7 +22,7 @@ constexpr int kFrames = 5;
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 // Roll, pitch, yaw in degrees of what carries the camera, and of the camera on it.
-constexpr std::array<std::array<double, 3>, kFrames> kCarrier{
+constexpr std::array<std::array<double, 3>, kFrames> kPlatform{
     {{0, 0, 0}, {0, 0, 6}, {0, -5, 0}, {25, 0, 0}, {-12, 4.5, -7}}};
 constexpr std::array<double, 3> kMount{3, -4, 8};
 
@@ -44,7 +44,7 @@ std::size_t index(int frame) {
 }
 
 cv::Matx33d world_from_camera(int frame) {
-  return rotation(kCarrier[index(frame)]) * rotation(kMount);
+  return rotation(kPlatform[index(frame)]) * rotation(kMount);
 }
 
 cv::Vec3d target_in_camera_m(int frame) {
@@ -59,14 +59,14 @@ cv::Point2d target_px(int frame, cv::Size size_px) {
           Scenario::kFocal_px * p[2] / p[0] + (size_px.height - 1) / 2.0};
 }
 
-// A cube that hovers before a carrier that shakes wildly.
+// A cube that hovers before a platform that shakes wildly.
 void prepare(Scenario& scenario) {
   write_footage(scenario.path("footage.mkv"), scenario.size_px(), kFrames, PixelLayout::yuv420);
   write_obj(scenario.path("cube.obj"), {{{-2, -2, -2}, {2, 2, 2}}}, 1);
   std::ofstream attitudes(scenario.path("shaken.csv"));
   attitudes << "frame,roll_deg,pitch_deg,yaw_deg\n";
   for (int n = 0; n < kFrames; ++n)
-    attitudes << n << ',' << kCarrier[index(n)][0] << ',' << kCarrier[index(n)][1] << ',' << kCarrier[index(n)][2]
+    attitudes << n << ',' << kPlatform[index(n)][0] << ',' << kPlatform[index(n)][1] << ',' << kPlatform[index(n)][2]
               << '\n';
   CameraSettings& camera = scenario.project.camera;
   camera.roll_deg = kMount[0];

@@ -175,7 +175,7 @@ Scenario::Scenario(cv::Size size_px, int frames) : footage_{.size_px = size_px} 
   project.footage.video = "footage.mkv";
   project.footage.calibration = "pinhole.xml";
   project.compositing.blur_px_per_m = 0;
-  project.appearance.point_spread_px = 0;
+  project.appearance.psf_sigma_px = 0;
 }
 
 IntruderSettings& Scenario::add(const std::string& model_file, const glm::dvec3& p_in_world) {

@@ -80,7 +80,7 @@ truth::Setup setup_of(const Scene& scene, const Sight& sight, double since_s = 0
           .exposure = scene.light.exposure,
           .lens = sight.lens,
           .size_px = sight.size_px,
-          .sigma_px = std::hypot(sight.sigma_px, sight.look.point_spread_px),
+          .sigma_px = std::hypot(sight.sigma_px, sight.look.psf_sigma_px),
           .own_body = scene.own_body};
 }
 

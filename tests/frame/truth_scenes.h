@@ -32,8 +32,8 @@ struct Sight {
   double sun_elevation_deg = 40;
   double exposure_s = 0;
   double speed_mps = 25;
-  AppearanceSettings look{.point_spread_px = 0};  // point spread, haze, tones; the truth knows these alone
-  bool half_hidden = false;                       // the own body covers what lies right of the intruder's middle
+  AppearanceSettings look{.psf_sigma_px = 0};  // point spread, haze, tones; the truth knows these alone
+  bool half_hidden = false;                    // the own body covers what lies right of the intruder's middle
 };
 
 // The image that the engine makes and the true one, over an even sky, around the truth's rectangle.

@@ -151,8 +151,8 @@ TEST_CASE("coco: each image has its intruders, and thresholds leave some out") {
   CHECK(of_image(coco, 1, 0).size() == 2);
   CHECK(of_image(coco, 2, 0).empty());
   CHECK(of_image(coco, 3, 0).empty());
-  CHECK(coco["info"]["least_pixels"] == 5);
-  CHECK(coco["info"]["least_visible_fraction"] == 0.5);
+  CHECK(coco["info"]["min_pixels"] == 5);
+  CHECK(coco["info"]["min_visible_fraction"] == 0.5);
 }
 
 TEST_CASE("coco: no visible intruder gives an empty list") {

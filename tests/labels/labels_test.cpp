@@ -90,7 +90,7 @@ TEST_CASE("thresholds change a file exactly where its format says that it has th
 TEST_CASE("the help of the thresholds' settings names the formats that have none") {
   Project project;
   for (const Field& field : fields_of(project)) {
-    if (!field.key.starts_with("export.label_least_")) continue;
+    if (!field.key.starts_with("export.label_min_")) continue;
     const std::string_view formats = field.help.substr(field.help.find(';') + 1);
     for (const LabelFormat& format : label_formats())
       CHECK_MESSAGE((formats.find(format.name) == std::string_view::npos) == format.has_thresholds,

@@ -232,7 +232,7 @@ TEST_CASE("confidence is one half at the mask's border, 0 or 1 far from it, and 
 }
 
 TEST_CASE("the mask is empty where every part is too small") {
-  const Verdict verdict = verdict_on(shaking(nose(), 12), KeepStages::no, {.least_area_percent = 100});
+  const Verdict verdict = verdict_on(shaking(nose(), 12), KeepStages::no, {.min_area_percent = 100});
   CHECK_FALSE(verdict.undecided);
   CHECK(cv::countNonZero(verdict.own_body) == 0);
   CHECK(all_are(verdict.confidence, 0));

@@ -67,13 +67,13 @@ Project accepting(Project project, const Track& track) {
 }
 
 CameraFlight flown(const Project& project, const Track& track) {
-  const OrProblem<CameraFlight> flight = flight_by_log(accepting(project, track), track, ten_seconds(), {0, 250});
+  const Result<CameraFlight, Problem> flight = flight_by_log(accepting(project, track), track, ten_seconds(), {0, 250});
   if (!flight) FAIL(flight.error().field, ": ", flight.error().what);
   return *flight;
 }
 
 std::string problem_of(const Project& project, const Track& track, const FrameRange& range = {0, 250}) {
-  const OrProblem<CameraFlight> flight = flight_by_log(project, track, ten_seconds(), range);
+  const Result<CameraFlight, Problem> flight = flight_by_log(project, track, ten_seconds(), range);
   return flight ? "no problem" : flight.error().field + ": " + flight.error().what;
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("a camera's attitude comes before an airframe's unless the other is as
   project.camera.track.attitude = TrackAttitudeChoice::airframe;
   CHECK(flown(project, track).motion.source.attitude == "CSV: attitude");
   project.camera.track.attitude = TrackAttitudeChoice::none;
-  CHECK(flown(project, track).motion.turns.empty());
+  CHECK(flown(project, track).motion.attitudes.empty());
 }
 
 TEST_CASE("the offset is the log's time at frame 0") {
@@ -167,7 +167,7 @@ TEST_CASE("the offset is the log's time at frame 0") {
   add_airframe(track, {}, 0.1);
   Project project = with_log();
   project.camera.track.offset_s = 2;
-  const OrProblem<CameraFlight> flight = flight_by_log(project, track, ten_seconds(), {0, 150});
+  const Result<CameraFlight, Problem> flight = flight_by_log(project, track, ten_seconds(), {0, 150});
   REQUIRE(flight);
   const glm::dvec3 at_0 = camera_at(flight->motion, 0).translation_m;
   CHECK(glm::distance(at_0, project.camera.position_m) < 1e-6);
@@ -319,7 +319,7 @@ TEST_CASE("an attitude that is the camera's own is not turned by camera.attitude
 TEST_CASE("a log without any attitude is refused with what it has, unless none is asked for") {
   Track track = eastwards();
   track.camera_rate_radps = {.source = "GPMF GYRO", .times_s = {0, 10}, .values = {{0, 0, 0}, {0, 0, 0}}};
-  const OrProblem<CameraFlight> flight = flight_by_log(with_log(), track, ten_seconds(), {0, 250});
+  const Result<CameraFlight, Problem> flight = flight_by_log(with_log(), track, ten_seconds(), {0, 250});
   REQUIRE_FALSE(flight);
   CHECK(flight.error().field == "camera.track.file");
   for (const char* const words : {"position (position)", "angular rates of the camera (GPMF GYRO)", "sigs ego-motion",

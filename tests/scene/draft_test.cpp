@@ -106,7 +106,7 @@ TEST_CASE("the draft of a project without problems is what open_scene gives") {
     CHECK(draft.scene.camera.size_px == opened.camera.size_px);
     CHECK(same_bits(draft.scene.own_body, opened.own_body));
     CHECK_FALSE(opened.own_body.empty());
-    CHECK(draft.scene.motion.turns.empty());
+    CHECK(draft.scene.motion.attitudes.empty());
     CHECK(draft.scene.light.color == opened.light.color);
     CHECK(draft.scene.compositing.blur_px_per_m == opened.compositing.blur_px_per_m);
     CHECK(draft.scene.first_frame == opened.first_frame);
@@ -175,7 +175,7 @@ TEST_CASE("an unusable attitude file is reported and the camera stays level") {
   const DraftScene draft = drafted(project);
   CHECK(draft.problems.size() == 1);
   CHECK(problems_of(draft, "camera.attitude_file") == 1);
-  CHECK(draft.scene.motion.turns.empty());
+  CHECK(draft.scene.motion.attitudes.empty());
   CHECK(draft.scene.intruders.size() == 1);
   const Result<Scene> opened = open_scene(project, sample_footage());
   REQUIRE_FALSE(opened.has_value());

@@ -62,7 +62,7 @@ TEST_CASE("recorded traffic in UTC flies where and when it was") {
   REQUIRE(waypoints);
   Project flown = project;
   take_traffic(flown, 0, *waypoints, scene);
-  const OrProblem<Trajectory> trajectory = scene_trajectory(flown, 0, scene);
+  const Result<Trajectory, Problem> trajectory = scene_trajectory(flown, 0, scene);
   REQUIRE(trajectory);
   for (const double t : {0.0, 2.5, 9.96}) {
     // World X is east, so north is -Y; 400 m above the ellipsoid is 300 m above the world's plane.

@@ -17,7 +17,7 @@ constexpr int kFrame = 1;
 Scene two_hovering() {
   Scene scene{.camera = {*Lens::make({}), {640, 480}}};
   scene.motion = {{rotation_of({0.1, 0.2, 0.3}), {0, 0, -100}}, 30};
-  scene.motion.turns = {{0, rotation_of({0, 0, 0})}, {2, rotation_of({0.4, 0, 0})}};
+  scene.motion.attitudes = {{0, rotation_of({0, 0, 0})}, {2, rotation_of({0.4, 0, 0})}};
   scene.motion.source = {"a log", "a log"};
   scene.footage = {.size_px = {640, 480}, .times_s = {0, 1, 2}, .frame_interval_s = 1};
   scene.last_frame = 2;

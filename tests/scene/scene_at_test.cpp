@@ -29,7 +29,7 @@ Scene scene_with(const std::vector<glm::dvec3>& positions_m, const Attitude& cam
   return scene;
 }
 
-CarrierAttitude turned(double time_s, const Attitude& attitude) {
+PlatformAttitude turned(double time_s, const Attitude& attitude) {
   return {time_s, rotation_of(attitude)};
 }
 
@@ -81,8 +81,8 @@ TEST_CASE("the light is given in the camera frame") {
 }
 
 TEST_CASE("between two known attitudes the camera rotates evenly, before and after them it is fixed") {
-  const CameraMotion motion{.turns = {turned(1, {0, 0, rad_of_deg(10)}), turned(3, {0, 0, rad_of_deg(20)}),
-                                      turned(4, {rad_of_deg(-6), 0, rad_of_deg(20)})}};
+  const CameraMotion motion{.attitudes = {turned(1, {0, 0, rad_of_deg(10)}), turned(3, {0, 0, rad_of_deg(20)}),
+                                          turned(4, {rad_of_deg(-6), 0, rad_of_deg(20)})}};
   for (const auto& [time_s, yaw_deg] : {std::pair(-5.0, 10.0), {1.0, 10.0}, {1.5, 12.5}, {2.9, 19.5}, {9.0, 20.0}})
     CHECK(attitude_at(motion, time_s).yaw_rad == doctest::Approx(rad_of_deg(yaw_deg)));
   CHECK(attitude_at(motion, 3.5).roll_rad == doctest::Approx(rad_of_deg(-3)));
@@ -90,7 +90,7 @@ TEST_CASE("between two known attitudes the camera rotates evenly, before and aft
 }
 
 TEST_CASE("from 170 degrees to -170 the camera rotates the shorter way") {
-  const CameraMotion motion{.turns = {turned(0, {0, 0, rad_of_deg(170)}), turned(4, {0, 0, rad_of_deg(-170)})}};
+  const CameraMotion motion{.attitudes = {turned(0, {0, 0, rad_of_deg(170)}), turned(4, {0, 0, rad_of_deg(-170)})}};
   CHECK(attitude_at(motion, 1).yaw_rad == doctest::Approx(rad_of_deg(175)));
   CHECK(attitude_at(motion, 3).yaw_rad == doctest::Approx(rad_of_deg(-175)));
 }
@@ -99,23 +99,23 @@ TEST_CASE("one known attitude applies to all times and none leaves the attitude 
   const Attitude mean{0.1, -0.2, 0.3};
   CameraMotion motion{.world_from_camera_at_start = {rotation_of(mean), {1, 2, 3}}};
   CHECK(camera_at(motion, 7).rotation == rotation_of(mean));
-  motion.turns = {turned(2, {0, 0, rad_of_deg(30)})};
+  motion.attitudes = {turned(2, {0, 0, rad_of_deg(30)})};
   for (const double time_s : {-1e9, 0.0, 2.0, 1e9})
     CHECK(attitude_at(motion, time_s).yaw_rad == doctest::Approx(0.3 + rad_of_deg(30)));
 }
 
-TEST_CASE("the camera rotates with its carrier: about the carrier's axes and not about its own") {
-  // A camera that looks 30 degrees down, on a carrier that points to the right.
+TEST_CASE("the camera rotates with its platform: about the platform's axes and not about its own") {
+  // A camera that looks 30 degrees down, on a platform that points to the right.
   const CameraMotion motion{.world_from_camera_at_start = {rotation_of({0, rad_of_deg(-30), 0}), {}},
-                            .turns = {turned(0, {0, 0, rad_of_deg(90)})}};
+                            .attitudes = {turned(0, {0, 0, rad_of_deg(90)})}};
   const glm::dvec3 axis = camera_at(motion, 0).rotation * glm::dvec3(1, 0, 0);
   CHECK(glm::distance(axis, glm::dvec3(0, std::cos(rad_of_deg(30)), 0.5)) < 1e-12);
 }
 
-TEST_CASE("the carrier's rotations do not move the camera") {
+TEST_CASE("the platform's rotations do not move the camera") {
   const CameraMotion motion{.world_from_camera_at_start = {{1, 0, 0, 0}, {5, 6, -150}},
                             .speed_mps = 22,
-                            .turns = {turned(0, {0.3, 0.2, 0.1}), turned(9, {-0.3, 0.1, 1.5})}};
+                            .attitudes = {turned(0, {0.3, 0.2, 0.1}), turned(9, {-0.3, 0.1, 1.5})}};
   CHECK(camera_at(motion, 4).translation_m == glm::dvec3(93, 6, -150));
 }
 
@@ -128,14 +128,14 @@ TEST_CASE("an attitude file's frames have the footage's times, also where its ra
   footage.times_s[1] = 0.01;  // comes early: half of the turn is done in a quarter of the time
   footage.times_s[2] = 0.08;
   const Scene scene = open_scene(project, footage).value();
-  REQUIRE(scene.motion.turns.size() == 3);
+  REQUIRE(scene.motion.attitudes.size() == 3);
   CHECK(attitude_of(scene_at(scene, 1).world_from_camera.rotation).yaw_rad == doctest::Approx(rad_of_deg(10)));
   CHECK(attitude_at(scene.motion, 0.045).yaw_rad == doctest::Approx(rad_of_deg(15)));
   CHECK(attitude_of(scene_at(scene, 150).world_from_camera.rotation).yaw_rad == doctest::Approx(rad_of_deg(20)));
 }
 
 TEST_CASE("frames of the same presentation time give finite numbers") {
-  const CameraMotion motion{.turns = {turned(1, {}), turned(1, {0, 0, 0.2}), turned(2, {0, 0, 0.4})}};
+  const CameraMotion motion{.attitudes = {turned(1, {}), turned(1, {0, 0, 0.2}), turned(2, {0, 0, 0.4})}};
   CHECK(attitude_at(motion, 1).yaw_rad == doctest::Approx(0.2));
   CHECK(attitude_at(motion, 0.5).yaw_rad == doctest::Approx(0));
   CHECK(attitude_at(motion, 1.5).yaw_rad == doctest::Approx(0.3));

@@ -46,7 +46,7 @@ TEST_CASE("a codec and a container that do not go together are both named") {
   CHECK(!std::filesystem::exists(folder / "a.mp4"));
 }
 
-TEST_CASE("an odd size is refused only by H264 with shared chroma") {
+TEST_CASE("an odd size is refused only by H264 with subsampled chroma") {
   const TemporaryFolder folder;
   const Error error = refused(folder / "a.mkv", plain_format(VideoCodec::h264, Container::mkv, {65, 48}));
   CHECK(error.kind == ErrorKind::usage);

@@ -75,7 +75,7 @@ std::string wrong_with_output(const std::string& text) {
   if (trimmed(text).empty()) return "choose where the project is saved";
   const fs::path path = typed_path(text);
   if (lower_extension(path) != ".json") return "the name of a project ends in .json";
-  if (const std::string wrong = wrong_with_file_name(path.filename().string()); !wrong.empty()) return wrong;
+  if (const std::string wrong = file_name_error(path.filename().string()); !wrong.empty()) return wrong;
   if (is_folder(path)) return path.filename().string() + " is a folder; choose another name";
   if (!is_folder(path.parent_path())) return path.parent_path().string() + " is no folder; choose another one";
   if (!can_write_into(path.parent_path()))

@@ -21,7 +21,7 @@ struct StageTile {
   cv::Mat image;
 };
 
-// What a stage's name says: "1_bent" is "bent" of the scene's intruder 1, "bent" and "output" are nobody's.
+// What a stage's name says: "1_warped" is "warped" of the scene's intruder 1, "warped" and "output" are nobody's.
 struct StageName {
   std::optional<int> intruder;
   std::string stage;

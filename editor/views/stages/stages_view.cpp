@@ -248,7 +248,8 @@ void StagesView::draw_notice(const ViewContext& context, const ScreenRect& rect)
     text = image->problem;
   else if (image->frame != context.document.playhead() || image->revision != context.document.revision().number)
     text = "updating...";
-  else if (look_ == Mode::stages && stage_image(*image, "bent") == nullptr && stage_image(*image, "input2") == nullptr)
+  else if (look_ == Mode::stages && stage_image(*image, "warped") == nullptr &&
+           stage_image(*image, "input2") == nullptr)
     text = "No intruder can be seen in this frame: the output is the footage.";
   if (text.empty()) context.ui_probe.note("stages/ready", rect);
   if (text.empty()) return;

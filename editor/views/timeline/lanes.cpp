@@ -208,7 +208,7 @@ void LaneRows::draw_group(const ViewContext& context, const TimelineStrip& strip
 
 void LaneRows::draw(const ViewContext& context, const TimelineStrip& strip, float room_px, RulerRow& ruler) {
   // While the log is shifted, so far that it covers no frame, its lanes stay under the mouse.
-  const bool turns = context.shown.scene && !context.shown.scene->draft.scene.motion.turns.empty();
+  const bool turns = context.shown.scene && !context.shown.scene->draft.scene.motion.attitudes.empty();
   camera_turns_ = turns || offset_.is_active();
   names_volumes_ = !context.project().output.encounter.empty();
   if (current_intruder(context))

@@ -320,7 +320,7 @@ bool is_repeated(const PathDraft& draft, const DraftPoint& point) {
          point.time_s && std::abs(*last.time_s - *point.time_s) < kRounding_s;
 }
 
-Result<std::vector<RecordedPath>> all_repaired(std::vector<PathDraft> drafts, const std::string& where) {
+Result<std::vector<RecordedPath>> repair_paths(std::vector<PathDraft> drafts, const std::string& where) {
   std::vector<RecordedPath> paths;
   std::vector<std::string> unusable;
   for (PathDraft& draft : drafts) {

@@ -11,7 +11,7 @@
 
 namespace sigs {
 
-// What a file says about a path before anything is checked. The readers of all formats make drafts; all_repaired()
+// What a file says about a path before anything is checked. The readers of all formats make drafts; repair_paths()
 // makes paths of them.
 
 struct DraftPoint {
@@ -34,7 +34,7 @@ struct PathDraft {
 // The paths of all drafts in which at least one point is usable, as read_recorded_paths() promises them, in their
 // order. A draft that never had a point is ignored; of one without a usable point the first path warns.
 // Error bad_data: there is no usable point at all.
-[[nodiscard]] Result<std::vector<RecordedPath>> all_repaired(std::vector<PathDraft> drafts, const std::string& where);
+[[nodiscard]] Result<std::vector<RecordedPath>> repair_paths(std::vector<PathDraft> drafts, const std::string& where);
 
 // The whole text, but for white space around it, as a number with a point as decimal separator; NaN and infinity are
 // numbers. nullopt: it is not one.
@@ -50,7 +50,7 @@ struct PathDraft {
 // times that differ by less than rounding makes them.
 [[nodiscard]] bool is_repeated(const PathDraft& draft, const DraftPoint& point);
 
-// One reader for each kind of text. Each returns what the text says, unchecked; all_repaired() checks it.
+// One reader for each kind of text. Each returns what the text says, unchecked; repair_paths() checks it.
 //   text   without byte order mark
 //   where  the file, for messages
 // Errors bad_data: the text is broken, nested too deeply or of no known kind.

@@ -155,7 +155,7 @@ TEST_CASE("labels are the last part of a key, in words and without its unit") {
   CHECK(label_of("intruders[3].trajectory.bank_limit_deg") == "Bank limit");
   CHECK(label_of("intruders[0].model.length_m") == "Length");
   CHECK(label_of("own_body.soft_edge_px") == "Soft edge");
-  CHECK(label_of("own_body.stable.least_area_percent") == "Min area");
+  CHECK(label_of("own_body.stable.min_area_percent") == "Min area");
   CHECK(label_of("name") == "Project");
   CHECK(label_of("intruders[0].name") == "Name");
   CHECK(label_of("intruders[2].model.file") == "Model");

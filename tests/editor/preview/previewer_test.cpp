@@ -251,7 +251,7 @@ TEST_CASE("what is shown when a drag has ended is the frame that the program wri
     if (has_look) {  // what changes pixels beyond the intruder's own
       project.appearance.sharpening = 1.5;
       project.appearance.sharpening_px = 2;
-      project.appearance.chroma_spread_px = 2;
+      project.appearance.chroma_blur_px = 2;
       project.appearance.grain = {.sd_dark = 2, .sd_bright = 3, .sd_chroma = 2};
       project.appearance.codec = {.match = CodecMatchChoice::h264, .quantiser = 30.0};
     }

@@ -101,7 +101,7 @@ TEST_CASE("a long survey is made in slices and grows") {
 TEST_CASE("a camera that turns on and on has a yaw without jumps") {
   CameraMotion motion;
   for (int i = 0; i <= 80; ++i)
-    motion.turns.push_back({0.1 * i, rotation_of({.roll_rad = 0.1, .yaw_rad = rad_of_deg(10.0 * i)})});
+    motion.attitudes.push_back({0.1 * i, rotation_of({.roll_rad = 0.1, .yaw_rad = rad_of_deg(10.0 * i)})});
   CameraTurn turn = camera_turn_at(motion, 0, nullptr);
   for (int i = 1; i <= 80; ++i) turn = camera_turn_at(motion, 0.1 * i, &turn);
   CHECK(deg_of_rad(turn.attitude.yaw_rad) == doctest::Approx(800));
@@ -113,7 +113,7 @@ TEST_CASE("deviations of roll, pitch and yaw are those of turns about the camera
   const Attitude at{.roll_rad = 0.5, .pitch_rad = -0.4, .yaw_rad = 1};
   const glm::dvec3 sd_rad{0.002, 0.003, 0.001};
   CameraMotion motion;
-  motion.turns = {{0, rotation_of(at)}};
+  motion.attitudes = {{0, rotation_of(at)}};
   motion.deviations = {{0, sd_rad}};
   double roll = 0, pitch = 0, yaw = 0;  // variances by differences
   for (int axis = 0; axis < 3; ++axis) {
@@ -138,7 +138,7 @@ TEST_CASE("each survey has the camera's turns in all frames, and none where noth
   while (!still.done()) still.work(0.01);
   CHECK(still.surveys()[0]->camera.empty());
   OpenedScene turned = *long_scene(50);
-  turned.draft.scene.motion.turns = {{0, {1, 0, 0, 0}}, {0.98, rotation_of({.pitch_rad = 0.49})}};
+  turned.draft.scene.motion.attitudes = {{0, {1, 0, 0, 0}}, {0.98, rotation_of({.pitch_rad = 0.49})}};
   SurveyBuilder maker;
   maker.begin(std::make_shared<const OpenedScene>(std::move(turned)));
   while (!maker.done()) maker.work(0.01);

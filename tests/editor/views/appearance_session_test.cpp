@@ -15,7 +15,7 @@ Project hazy_project() {
   Project project;
   project.file = "/flights/flight.json";
   project.footage.video = "flight.mp4";
-  project.appearance.point_spread_px = 7;
+  project.appearance.psf_sigma_px = 7;
   return project;
 }
 
@@ -45,7 +45,7 @@ TEST_CASE("a look at the footage sets the project's appearance in one step of un
   session.start(document);
   REQUIRE(has_ended(session, document));
   document.apply(edits.take_edits());
-  CHECK(document.project().appearance.point_spread_px == doctest::Approx(0.62));
+  CHECK(document.project().appearance.psf_sigma_px == doctest::Approx(0.62));
   session.follow(document);
   CHECK(edits.take_edits().empty());  // once
   document.apply(Edit(Undo{}));

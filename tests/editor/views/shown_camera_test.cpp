@@ -27,7 +27,7 @@ struct ByLog : ViewFixture {
     CameraMotion& motion = opened.draft.scene.motion;
     motion.path = std::make_shared<const PiecewiseCubic>(
         interpolating_spline(std::vector<TimedWaypoint>{{0, {1, 2, -150}}, {5, {1, 52, -150}}, {10, {1, 102, -150}}}));
-    motion.turns = {{0, {1, 0, 0, 0}}, {10, rotation_of({.yaw_rad = rad_of_deg(90)})}};
+    motion.attitudes = {{0, {1, 0, 0, 0}}, {10, rotation_of({.yaw_rad = rad_of_deg(90)})}};
     motion.moves_with_start = moves_with_start;
     shown.scene = std::make_shared<const OpenedScene>(std::move(opened));
   }
@@ -79,7 +79,7 @@ TEST_CASE("the inspector names what the log gives, with its deviation in degrees
   CameraMotion motion;
   CHECK(lines_of_motion(motion, 0).empty());
   motion.source = {.position = "CSV: latitude_deg", .attitude = "CSV: camera_roll_deg"};
-  motion.turns = {{0.5, {1, 0, 0, 0}}, {12.25, {1, 0, 0, 0}}};
+  motion.attitudes = {{0.5, {1, 0, 0, 0}}, {12.25, {1, 0, 0, 0}}};
   motion.deviations = {{0, {0.01, 0.02, 0.03}}};
   motion.readout_s = 0.0152;
   std::string all;

@@ -55,10 +55,11 @@ std::vector<std::string> labels_of(const std::vector<StageTile>& tiles) {
 }  // namespace
 
 TEST_CASE("a number before an underscore is the intruder's, anything else belongs to the name") {
-  CHECK(stage_name("12_bent").intruder == 12);
-  CHECK(stage_name("12_bent").stage == "bent");
+  CHECK(stage_name("12_warped").intruder == 12);
+  CHECK(stage_name("12_warped").stage == "warped");
   CHECK(stage_name("0_a").intruder == 0);
-  for (const char* name : {"bent", "_bent", "1bent", "1", "-1_bent", "", "99999999999999999999_bent", "1 _bent"}) {
+  for (const char* name :
+       {"warped", "_warped", "1warped", "1", "-1_warped", "", "99999999999999999999_warped", "1 _warped"}) {
     CAPTURE(name);
     CHECK_FALSE(stage_name(name).intruder.has_value());
     CHECK(stage_name(name).stage == name);
@@ -66,13 +67,14 @@ TEST_CASE("a number before an underscore is the intruder's, anything else belong
 }
 
 TEST_CASE("each intruder with stages is named once, rising") {
-  CHECK(intruders_of({stage("3_layer"), stage("1_layer"), stage("3_bent"), stage("output")}) == std::vector<int>{1, 3});
+  CHECK(intruders_of({stage("3_layer"), stage("1_layer"), stage("3_warped"), stage("output")}) ==
+        std::vector<int>{1, 3});
   CHECK(intruders_of({stage("output")}).empty());
   CHECK(intruders_of({}).empty());
 }
 
 TEST_CASE("an intruder's tiles are its own stages and the frame's, in the order of computation") {
-  std::vector<Stage> stages{stage("input1"), stage("0_layer"), stage("1_layer"), stage("1_bent"), stage("output")};
+  std::vector<Stage> stages{stage("input1"), stage("0_layer"), stage("1_layer"), stage("1_warped"), stage("output")};
   CHECK(labels_of(stage_tiles(stages, 1)) == std::vector<std::string>{"Input 1", "Layer", "Warped", "Output"});
   CHECK(labels_of(stage_tiles(stages, std::nullopt)) == std::vector<std::string>{"Input 1", "Output"});
   stages[3].image = cv::Mat();

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scene/likely_mistakes.h"
+#include "scene/lint.h"
 #include "scene/opened_project.h"
 #include "scene/sample_scenes.h"
 #include "support/test_data.h"

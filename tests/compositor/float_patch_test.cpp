@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/code_patch.h"
+#include "compositor/float_patch.h"
 
 #include <doctest/doctest.h>
 
@@ -26,14 +26,14 @@ Layer white_layer(const cv::Rect& rect, float opacity) {
 }
 
 // All stages, strong.
-void all_stages(CodePatch& patch) {
+void all_stages(FloatPatch& patch) {
   sharpen(patch, 2, 1.1);
-  spread_chroma(patch, 1.2);
-  add_grain(patch, {.sd_dark = 6, .sd_bright = 6, .sd_chroma = 5, .spread_px = 0.7}, 3);
+  blur_chroma(patch, 1.2);
+  add_grain(patch, {.sd_dark = 6, .sd_bright = 6, .sd_chroma = 5, .correlation_length_px = 0.7}, 3);
 }
 
 int margin_of(PixelLayout layout) {
-  return std::max(sharpening_margin_px(2, 1.1), chroma_spread_margin_px(layout, 1.2));
+  return std::max(sharpening_margin_px(2, 1.1), chroma_blur_margin_px(layout, 1.2));
 }
 
 // Whether all samples are equal where the mask is 0; a chroma sample is checked where all pixels around it are 0.
@@ -54,7 +54,7 @@ void check_kept(const Frame& before, const Frame& after, const cv::Mat& touched,
 
 // A step of luma codes between columns 29 and 30 of a wide gray image, as an opaque layer makes it.
 constexpr int kEdge = 30;
-CodePatch step_patch(uchar below, double above_display) {
+FloatPatch step_patch(uchar below, double above_display) {
   Sort sort = all_sorts().front();
   sort.is_limited = false;
   const auto light = static_cast<float>(linear_value(above_display));
@@ -84,12 +84,12 @@ TEST_CASE("a patch without stages rounds to what blending makes, bit for bit") {
 TEST_CASE("stages at zero change nothing") {
   for (const Sort& sort : all_sorts()) {
     const Frame frame = grainy(sort, kImage);
-    CodePatch patch = blended_patch(frame, cloudy_layer({10, 9, 30, 20}, 4), BlendSpace::linear, 6, {});
-    const CodePatch before = patch;
+    FloatPatch patch = blended_patch(frame, cloudy_layer({10, 9, 30, 20}, 4), BlendSpace::linear, 6, {});
+    const FloatPatch before = patch;
     std::array<cv::Mat, 3> codes;
     for (std::size_t i = 0; i < 3; ++i) codes[i] = patch.planes[i].after.clone();
     sharpen(patch, 0, 1);
-    spread_chroma(patch, 0);
+    blur_chroma(patch, 0);
     add_grain(patch, {}, 1);
     for (int plane = 0; plane < patch.plane_count(); ++plane)
       CHECK(same_bytes(patch.planes[static_cast<std::size_t>(plane)].after, codes[static_cast<std::size_t>(plane)]));
@@ -103,7 +103,7 @@ TEST_CASE("all stages rewrite what they say and nothing else, in every layout an
       CAPTURE(place);
       const Frame before = grainy(sort, kImage);
       Frame after = cloned(before);
-      CodePatch patch = blended_patch(after, white_layer(place, 0.8F), BlendSpace::linear, margin_of(sort.layout), {});
+      FloatPatch patch = blended_patch(after, white_layer(place, 0.8F), BlendSpace::linear, margin_of(sort.layout), {});
       all_stages(patch);
       const cv::Mat changed = write_patch(patch, after);
       cv::Mat touched = cv::Mat::zeros(kImage, CV_8UC1);
@@ -122,7 +122,7 @@ TEST_CASE("samples of the own body keep their bits under all stages") {
     body.colRange(30, kImage.width).setTo(1);
     // What is left of a layer from column 15 to 45.
     const Layer layer = white_layer({15, 10, 15, 20}, 1);
-    CodePatch patch = blended_patch(after, layer, BlendSpace::linear, margin_of(sort.layout), body);
+    FloatPatch patch = blended_patch(after, layer, BlendSpace::linear, margin_of(sort.layout), body);
     all_stages(patch);
     write_patch(patch, after);
     for (int plane = 0; plane < before.plane_count(); ++plane) {
@@ -140,7 +140,7 @@ TEST_CASE("sharpening an edge overshoots as the Gaussian's error function says")
   // Gaussian on whole pixels has its steps there too.
   for (const double sigma_px : {1.0, 1.5, 2.5}) {
     CAPTURE(sigma_px);
-    CodePatch patch = step_patch(80, 180 / 255.0);
+    FloatPatch patch = step_patch(80, 180 / 255.0);
     const double amount = 0.8;
     sharpen(patch, amount, sigma_px);
     const float* const row = patch.planes[0].after.ptr<float>(20);
@@ -157,7 +157,7 @@ TEST_CASE("sharpening an edge overshoots as the Gaussian's error function says")
 TEST_CASE("sharpening keeps the mean of what the layer changes") {
   const Sort sort = all_sorts().front();
   const Frame frame = even(sort, {120, 90}, 90);
-  CodePatch patch = blended_patch(frame, cloudy_layer({30, 25, 50, 40}, 8), BlendSpace::linear, 12, {});
+  FloatPatch patch = blended_patch(frame, cloudy_layer({30, 25, 50, 40}, 8), BlendSpace::linear, 12, {});
   const double before = cv::sum(patch.planes[0].after)[0];
   sharpen(patch, 1.5, 2);
   // Of an even background the layer's whole detail sums to 0; what opacity leaves of an even image's detail is 0.
@@ -168,10 +168,10 @@ TEST_CASE("an opaque layer shows nothing of the footage's detail behind it, shar
   for (const Sort& sort : all_sorts()) {
     CAPTURE(sort.name);
     const cv::Rect all({0, 0}, kImage);
-    CodePatch busy =
+    FloatPatch busy =
         blended_patch(grainy(sort, kImage), even_layer(all, {0.3F, 0.1F, 0.05F, 1}), BlendSpace::linear, 9, {});
     sharpen(busy, 3, 1);
-    spread_chroma(busy, 1);
+    blur_chroma(busy, 1);
     for (int plane = 0; plane < busy.plane_count(); ++plane) {
       double low = 0;
       double high = 0;
@@ -187,11 +187,11 @@ TEST_CASE("a point of colour becomes the Gaussian, with its sum kept and luma un
     if (sort.step.area() != 1 || sort.layout == PixelLayout::gray) continue;
     CAPTURE(sort.name);
     const Frame frame = even(sort, {41, 41}, 120);
-    CodePatch patch = blended_patch(frame, even_layer({20, 20, 1, 1}, {0.4F, 0.1F, 0.1F, 1}), BlendSpace::linear,
-                                    chroma_spread_margin_px(sort.layout, sigma), {});
+    FloatPatch patch = blended_patch(frame, even_layer({20, 20, 1, 1}, {0.4F, 0.1F, 0.1F, 1}), BlendSpace::linear,
+                                     chroma_blur_margin_px(sort.layout, sigma), {});
     const std::array<cv::Mat, 3> before{patch.planes[0].after.clone(), patch.planes[1].after.clone(),
                                         patch.planes[2].after.clone()};
-    spread_chroma(patch, sigma);
+    blur_chroma(patch, sigma);
     if (sort.layout == PixelLayout::rgb) {
       const auto luma_of = [](const cv::Mat& r, const cv::Mat& g, const cv::Mat& b) {
         return cv::Mat(0.2126 * r + 0.7152 * g + 0.0722 * b);

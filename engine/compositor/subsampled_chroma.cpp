@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/shared_chroma.h"
+#include "compositor/subsampled_chroma.h"
 
 #include <algorithm>
 
@@ -17,7 +17,7 @@ cv::Range chroma_range(const std::vector<ChromaShare>& shares, int begin, int en
 
 }  // namespace
 
-SharedChroma::SharedChroma(const Frame& frame, const cv::Rect& part) : frame_(frame) {
+SubsampledChroma::SubsampledChroma(const Frame& frame, const cv::Rect& part) : frame_(frame) {
   const cv::Size step = chroma_step(frame.layout);
   const cv::Size size = frame.size_px();
   const bool on_column = chroma_on_luma_column(frame.color.chroma_site);
@@ -33,7 +33,7 @@ SharedChroma::SharedChroma(const Frame& frame, const cv::Rect& part) : frame_(fr
   row_sums_.resize(static_cast<size_t>(window_.width) + 1);
 }
 
-void SharedChroma::start_row(int y, int begin, int end) {
+void SubsampledChroma::start_row(int y, int begin, int end) {
   row_ = y;
   read_from_ = column_taps_[static_cast<size_t>(begin)].first;
   const int count = column_taps_[static_cast<size_t>(end - 1)].second + 1 - read_from_;
@@ -45,7 +45,7 @@ void SharedChroma::start_row(int y, int begin, int end) {
 }
 
 template <class Sample>
-void SharedChroma::read_row(const cv::Mat& plane, int count, std::vector<float>& samples) const {
+void SubsampledChroma::read_row(const cv::Mat& plane, int count, std::vector<float>& samples) const {
   const ChromaTap& tap = row_taps_[static_cast<size_t>(row_)];
   const Sample* const first = plane.ptr<Sample>(tap.first) + read_from_;
   const Sample* const second = plane.ptr<Sample>(tap.second) + read_from_;
@@ -55,19 +55,20 @@ void SharedChroma::read_row(const cv::Mat& plane, int count, std::vector<float>&
         static_cast<float>(first[i]) + tap.share * static_cast<float>(second[i] - first[i]);
 }
 
-void SharedChroma::finish_row() {
+void SubsampledChroma::finish_row() {
   const ChromaShare& share = row_shares_[static_cast<size_t>(row_)];
   add_row_sums(share.first, share.in_first);
   if (share.in_next > 0) add_row_sums(share.first + 1, share.in_next);
 }
 
-void SharedChroma::add_row_sums(int chroma_row, float weight) {
+void SubsampledChroma::add_row_sums(int chroma_row, float weight) {
   cv::Vec3f* const sums = sums_.ptr<cv::Vec3f>(chroma_row - window_.y);
   for (int i = 0; i < window_.width; ++i) sums[i] += weight * row_sums_[static_cast<size_t>(i)];
 }
 
-std::vector<SharedChroma::Averaging> SharedChroma::averaging(const std::vector<ChromaTap>& taps,
-                                                             const std::vector<ChromaShare>& shares, int count) {
+std::vector<SubsampledChroma::Averaging> SubsampledChroma::averaging(const std::vector<ChromaTap>& taps,
+                                                                     const std::vector<ChromaShare>& shares,
+                                                                     int count) {
   std::vector<Averaging> all(static_cast<size_t>(count), {0, 0, 0});
   const auto add = [&](int chroma, const ChromaTap& tap, float weight) {
     if (weight == 0) return;
@@ -82,7 +83,7 @@ std::vector<SharedChroma::Averaging> SharedChroma::averaging(const std::vector<C
   return all;
 }
 
-cv::Mat SharedChroma::with_border(const cv::Mat& plane, const cv::Rect& window) {
+cv::Mat SubsampledChroma::with_border(const cv::Mat& plane, const cv::Rect& window) {
   cv::Mat samples(window.height + 2, window.width + 2, CV_32FC1);
   for (int y = 0; y < samples.rows; ++y) {
     const int row = std::clamp(window.y + y - 1, 0, plane.rows - 1);

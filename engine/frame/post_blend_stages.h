@@ -15,17 +15,17 @@
 
 namespace sigs {
 
-// Whether anything follows the blending: sharpening, spread of chroma, grain.
-[[nodiscard]] bool has_code_stages(const AppearanceSettings& appearance);
+// Whether anything follows the blending: sharpening, chroma blur, grain.
+[[nodiscard]] bool has_post_blend_stages(const AppearanceSettings& appearance);
 
 // How far these stages carry a change beyond the layer, px.
-[[nodiscard]] int code_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layout);
+[[nodiscard]] int post_blend_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layout);
 
 // Called with the name of each stage that is not left out, when the frame holds its result.
 using StageDone = std::function<void(const std::string& name)>;
 
 // Blends an intruder's occluded layer onto the frame, and then, on what that changes in code values and before it is
-// rounded: sharpening, spread of chroma, grain. Only samples within the layer and the reach of these stages are
+// rounded: sharpening, chroma blur, grain. Only samples within the layer and the reach of these stages are
 // rewritten; those that the own body hides wholly keep their bits. Gives back which pixels are rewritten (write_patch):
 // CV_8UC1, 255 or 0, over `rect`.
 //   number  of the frame in the footage, for the grain
@@ -34,8 +34,8 @@ struct Rewritten {
   cv::Rect rect;
   cv::Mat changed;
 };
-[[nodiscard]] Rewritten blend_with_code_stages(ComposedFrame& composed, const Scene& scene,
-                                               const IntruderLayers& layers, int number, const StageDone& done);
+[[nodiscard]] Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene,
+                                                     const IntruderLayers& layers, int number, const StageDone& done);
 
 // The codec match of a frame as the scene's settings (appearance.codec) ask for it, to be made before the layers are
 // blended and applied after; nothing where there is none to be done: it is not asked for, the method is not direct, the

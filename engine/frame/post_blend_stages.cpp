@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/code_stages.h"
+#include "frame/post_blend_stages.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "base/image.h"
 #include "compositor/blend.h"
-#include "compositor/code_patch.h"
+#include "compositor/float_patch.h"
 #include "compositor/grain.h"
 #include "frame/render_plan.h"
 
@@ -20,12 +20,12 @@ Grain grain_for(const GrainSettings& settings, int intruder) {
   return {.sd_dark = settings.sd_dark,
           .sd_bright = settings.sd_bright,
           .sd_chroma = settings.sd_chroma,
-          .spread_px = settings.spread_px,
-          .persistence = settings.persistence,
+          .correlation_length_px = settings.correlation_length_px,
+          .temporal_correlation = settings.temporal_correlation,
           .seed = seed};
 }
 
-std::int64_t samples_of(const CodePatch& patch, int first_plane, int end_plane) {
+std::int64_t samples_of(const FloatPatch& patch, int first_plane, int end_plane) {
   std::int64_t count = 0;
   for (int plane = first_plane; plane < std::min(end_plane, patch.plane_count()); ++plane)
     count += patch.planes[static_cast<std::size_t>(plane)].rect.area();
@@ -33,9 +33,9 @@ std::int64_t samples_of(const CodePatch& patch, int first_plane, int end_plane) 
 }
 
 // The stages in their order, each with the operations that it takes.
-class CodeStages {
+class PostBlendStages {
  public:
-  CodeStages(CodePatch& patch, ComposedFrame& composed, const StageDone& done)
+  PostBlendStages(FloatPatch& patch, ComposedFrame& composed, const StageDone& done)
       : patch_(patch), composed_(composed), done_(done) {}
 
   void sharpened(double amount, double sigma_px) {
@@ -45,11 +45,11 @@ class CodeStages {
     tell("sharpened");
   }
 
-  void with_chroma_spread(double sigma_samples) {
+  void with_chroma_blur(double sigma_samples) {
     if (sigma_samples == 0 || patch_.plane_count() == 1) return;
-    spread_chroma(patch_, sigma_samples);
+    blur_chroma(patch_, sigma_samples);
     composed_.op_counts.samples_filtered += samples_of(patch_, patch_.layout == PixelLayout::rgb ? 0 : 1, 3);
-    tell("chroma_spread");
+    tell("chroma_blur");
   }
 
   void with_grain(const Grain& grain, int number) {
@@ -65,31 +65,31 @@ class CodeStages {
     done_(name);
   }
 
-  CodePatch& patch_;
+  FloatPatch& patch_;
   ComposedFrame& composed_;
   const StageDone& done_;
 };
 
 }  // namespace
 
-int code_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layout) {
+int post_blend_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layout) {
   return std::max(sharpening_margin_px(appearance.sharpening, appearance.sharpening_px),
-                  chroma_spread_margin_px(layout, appearance.chroma_spread_px));
+                  chroma_blur_margin_px(layout, appearance.chroma_blur_px));
 }
 
-bool has_code_stages(const AppearanceSettings& appearance) {
-  return appearance.sharpening > 0 || appearance.chroma_spread_px > 0 || !grain_for(appearance.grain, 0).is_none();
+bool has_post_blend_stages(const AppearanceSettings& appearance) {
+  return appearance.sharpening > 0 || appearance.chroma_blur_px > 0 || !grain_for(appearance.grain, 0).is_none();
 }
 
-Rewritten blend_with_code_stages(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int number,
-                                 const StageDone& done) {
+Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers,
+                                       int number, const StageDone& done) {
   const AppearanceSettings& look = scene.appearance;
   const BlendSpace space = scene.compositing.blend == BlendChoice::linear ? BlendSpace::linear : BlendSpace::display;
-  CodePatch patch = blended_patch(composed.image, layers.occluded, space,
-                                  code_stages_margin_px(look, composed.image.layout), scene.own_body);
-  CodeStages stages(patch, composed, done);
+  FloatPatch patch = blended_patch(composed.image, layers.occluded, space,
+                                   post_blend_stages_margin_px(look, composed.image.layout), scene.own_body);
+  PostBlendStages stages(patch, composed, done);
   stages.sharpened(look.sharpening, look.sharpening_px);
-  stages.with_chroma_spread(look.chroma_spread_px);
+  stages.with_chroma_blur(look.chroma_blur_px);
   stages.with_grain(grain_for(look.grain, layers.placed.id), number);
   return {patch.planes[0].rect, write_patch(patch, composed.image)};
 }
@@ -104,10 +104,10 @@ std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& 
   std::vector<std::vector<cv::Point2d>> earlier_px;
   for (const IntruderLayers& intruder : layers) {
     if (intruder.occluded.empty()) continue;
-    reaches.push_back(grown(intruder.occluded.rect, code_stages_margin_px(scene.appearance, background.layout)) &
+    reaches.push_back(grown(intruder.occluded.rect, post_blend_stages_margin_px(scene.appearance, background.layout)) &
                       image);
-    if (settings.carried_frames > 0)
-      earlier_px.push_back(earlier_places(scene, frame, intruder.placed, lens, settings.carried_frames));
+    if (settings.predicted_frames > 0)
+      earlier_px.push_back(earlier_places(scene, frame, intruder.placed, lens, settings.predicted_frames));
   }
   if (reaches.empty()) return std::nullopt;
   const MatchedCodec codec = settings.match == CodecMatchChoice::h264    ? MatchedCodec::h264

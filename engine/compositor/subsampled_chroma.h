@@ -18,10 +18,10 @@ namespace sigs {
 //   sum(w p) + (1 - sum(w a)) (C - sum(w u))
 // The second term is the detail that reading between samples loses; it goes with the background. So C keeps its bits
 // where no covered pixel has weight in it, and opaque pixels leave nothing of it.
-class SharedChroma {
+class SubsampledChroma {
  public:
   // part: of the frame's pixels, those that may be rewritten
-  SharedChroma(const Frame& frame, const cv::Rect& part);
+  SubsampledChroma(const Frame& frame, const cv::Rect& part);
 
   // To be called before the pixels of row y are read and added: columns begin to end - 1.
   void start_row(int y, int begin, int end);
@@ -81,7 +81,7 @@ class SharedChroma {
 };
 
 template <class Out>
-void SharedChroma::write(const Out& out) const {
+void SubsampledChroma::write(const Out& out) const {
   const std::vector<Averaging> across = averaging(column_taps_, column_shares_, frame_.planes[1].cols);
   const std::vector<Averaging> down = averaging(row_taps_, row_shares_, frame_.planes[1].rows);
   std::vector<float> mixed(static_cast<size_t>(window_.width) + 2);  // of three rows, by their weights

@@ -17,8 +17,8 @@ namespace sigs {
 // Distractors, which have other shapes than aircraft, are checked for waypoints alone.
 //   intruder        index in the project's intruders
 //   scene_intruder  the same in the scene
-[[nodiscard]] std::vector<Problem> likely_mistakes(const Project& project, std::size_t intruder, const Scene& scene,
-                                                   std::size_t scene_intruder);
+[[nodiscard]] std::vector<Problem> lint(const Project& project, std::size_t intruder, const Scene& scene,
+                                        std::size_t scene_intruder);
 
 // Where an intruder that is never in the image passes it: "at frame 12 it is nearest to the image, 40 degrees left of
 // it"; "it is behind the camera". Of the reference point alone, at 200 frames at most. Empty where it is in the image.

@@ -16,13 +16,18 @@ namespace sigs::test {
 namespace {
 
 AppearanceSettings everything() {
-  AppearanceSettings look{.point_spread_px = 0.5,
+  AppearanceSettings look{.psf_sigma_px = 0.5,
                           .sharpening = 1.2,
                           .sharpening_px = 1.1,
-                          .chroma_spread_px = 1.2,
+                          .chroma_blur_px = 1.2,
                           .black = 0.02,
                           .saturation = 0.7};
-  look.grain = {.sd_dark = 2, .sd_bright = 3, .sd_chroma = 2, .spread_px = 0.8, .persistence = 0.5, .seed = 5};
+  look.grain = {.sd_dark = 2,
+                .sd_bright = 3,
+                .sd_chroma = 2,
+                .correlation_length_px = 0.8,
+                .temporal_correlation = 0.5,
+                .seed = 5};
   look.haze.visibility_m = 4000;
   return look;
 }
@@ -32,7 +37,7 @@ Scene full_scene(const Scenario& scenario) {
   Scene scene = scenario.opened();
   scene.appearance = everything();
   scene.motion.exposures = {{0, 0.02}};
-  scene.motion.turns = {{0, rotation_of({0, 0, 0})}, {0.1, rotation_of({0.01, 0.02, 0.05})}};
+  scene.motion.attitudes = {{0, rotation_of({0, 0, 0})}, {0.1, rotation_of({0.01, 0.02, 0.05})}};
   return scene;
 }
 
@@ -141,7 +146,7 @@ TEST_CASE("the methods of the paper ignore the look and the exposure") {
     scenario.project.compositing.method = method;
     const Scene plain = scenario.opened();
     Scene looked = full_scene(scenario);
-    looked.motion.turns = plain.motion.turns;
+    looked.motion.attitudes = plain.motion.attitudes;
     const Frame background = grainy_frame(scenario.size_px(), 1);
     CHECK(same_planes(composed(plain, 1, background).image, composed(looked, 1, background).image));
   }
@@ -153,7 +158,7 @@ TEST_CASE("amounts of zero leave a stage out whatever its other settings are") {
   const Scene plain = scenario.opened();
   Scene looked = plain;
   looked.appearance.sharpening_px = 5;
-  looked.appearance.grain = {.spread_px = 3, .persistence = 0.9, .seed = 77};
+  looked.appearance.grain = {.correlation_length_px = 3, .temporal_correlation = 0.9, .seed = 77};
   looked.appearance.haze.airlight_color = {9, 9, 9};
   looked.motion.exposures = {{0, 1e-5}};  // 0.001 px
   const Frame background = grainy_frame(scenario.size_px(), 1);
@@ -173,8 +178,8 @@ TEST_CASE("a nearer aircraft shows nothing of a farther one behind it, sharpened
     if (has_other) add_aircraft(scenario, {90, 0, -150});
     Scene scene = scenario.opened();
     scene.appearance.sharpening = 2;
-    scene.appearance.chroma_spread_px = 1.5;
-    scene.appearance.point_spread_px = 0.45;
+    scene.appearance.chroma_blur_px = 1.5;
+    scene.appearance.psf_sigma_px = 0.45;
     return composed(scene, 1, grainy_frame(scenario.size_px(), 1));
   };
   const ComposedFrame alone = with_wall(false);
@@ -212,7 +217,7 @@ TEST_CASE("a rolling shutter's motion blur lies along the way that its image mov
   add_aircraft(scenario, {60, 0, -150});
   Scene scene = scenario.opened();
   // 1 rad/s of pitch: 300 px/s downwards, 6 px in 20 ms; a point that moves with the rows is read later and moves more.
-  scene.motion.turns = {{-1, rotation_of({0, -1, 0})}, {1, rotation_of({0, 1, 0})}};
+  scene.motion.attitudes = {{-1, rotation_of({0, -1, 0})}, {1, rotation_of({0, 1, 0})}};
   scene.motion.exposures = {{0, 0.02}};
   scene.footage.times_s = {0, 0, 0};
   const auto motion_with = [&](double readout_s) {
@@ -245,10 +250,10 @@ TEST_CASE("each stage that is on is kept under its name, and none that is off") 
     return names;
   };
   CHECK(names_of(scenario.opened()) ==
-        std::vector<std::string>{"input1", "layer", "bent", "blurred", "hidden", "mask", "output"});
-  CHECK(names_of(full_scene(scenario)) == std::vector<std::string>{"input1", "layer", "bent", "hazed", "moved",
-                                                                   "blurred", "hidden", "sharpened", "chroma_spread",
-                                                                   "grain", "mask", "output"});
+        std::vector<std::string>{"input1", "layer", "warped", "blurred", "occluded", "mask", "output"});
+  CHECK(names_of(full_scene(scenario)) == std::vector<std::string>{"input1", "layer", "warped", "hazed",
+                                                                   "motion_blurred", "blurred", "occluded", "sharpened",
+                                                                   "chroma_blur", "grain", "mask", "output"});
 }
 
 TEST_CASE("the stages' work follows the intruder and not the image") {

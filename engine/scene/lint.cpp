@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/likely_mistakes.h"
+#include "scene/lint.h"
 
 #include <fmt/format.h>
 
@@ -162,8 +162,8 @@ Outside outside_of(const Bearing& bearing, const ImageEdges& edges) {
 
 }  // namespace
 
-std::vector<Problem> likely_mistakes(const Project& project, std::size_t intruder, const Scene& scene,
-                                     std::size_t scene_intruder) {
+std::vector<Problem> lint(const Project& project, std::size_t intruder, const Scene& scene,
+                          std::size_t scene_intruder) {
   std::vector<Problem> mistakes;
   const auto add = [&](std::optional<Problem> mistake) {
     if (mistake) mistakes.push_back(*std::move(mistake));

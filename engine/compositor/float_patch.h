@@ -14,14 +14,14 @@ struct PatchPlane {
   cv::Rect rect;    // in samples of this plane
   cv::Mat before;   // code values of the frame without the layer
   cv::Mat after;    // with it, as they have become so far: codes after blending, beyond their range after later stages
-  cv::Mat opacity;  // of the layer at each sample, 0..1; at shared chroma the mean of its pixels
+  cv::Mat opacity;  // of the layer at each sample, 0..1; at subsampled chroma the mean of its pixels
   cv::Mat free;     // what the own body leaves of a sample, 0..1; empty: everything
 };
 
 // The part of a frame that a layer, and the stages which follow its blending, can change: its samples as code values of
-// the frame's depth, in floats. The stages (sharpening, spread of chroma, grain) work on what the layer changed. A
+// the frame's depth, in floats. The stages (sharpening, chroma blur, grain) work on what the layer changed. A
 // sample that nothing changes keeps its bits, and so does every sample that the own body hides wholly.
-struct CodePatch {
+struct FloatPatch {
   PixelLayout layout = PixelLayout::yuv420;
   int bit_depth = 8;
   ColorInfo color;
@@ -31,10 +31,11 @@ struct CodePatch {
 };
 
 // The samples around a rectangle of pixels, with nothing blended yet: after is before, opacity is 0.
-//   margin_px  of the patch beyond the pixels, on each side, as far as the image goes; of shared chroma all samples are
+//   margin_px  of the patch beyond the pixels, on each side, as far as the image goes; of subsampled chroma all samples
+//   are
 //              taken that any of these pixels has weight in
 //   own_body   CV_32FC1 of the frame's size, 1 where the own body hides everything; empty: nowhere
-[[nodiscard]] CodePatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body);
+[[nodiscard]] FloatPatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body);
 
 // Detail of the plane that a layer brings into it: of the blended image, less that which the footage itself has where
 // it shows through:
@@ -49,13 +50,13 @@ void add_change(PatchPlane& plane, const cv::Mat& change);
 // Rounds the patch into the frame. Gives back which pixels are rewritten: CV_8UC1 of the luma plane's rectangle, 255
 // where the layer has opacity, and where a sample of the pixel, or a chroma sample that it shares, has other bits than
 // before; else 0.
-cv::Mat write_patch(const CodePatch& patch, Frame& frame);
+cv::Mat write_patch(const FloatPatch& patch, Frame& frame);
 
 // BT.709's weights of R', G' and B' in luma, for footage that is stored as R'G'B'.
 inline constexpr std::array<double, 3> kLumaOfRgb{0.2126, 0.7152, 0.0722};
 
 // Luma of a patch in R'G'B', as a plane of its own.
-[[nodiscard]] inline PatchPlane luma_of_rgb(const CodePatch& patch) {
+[[nodiscard]] inline PatchPlane luma_of_rgb(const FloatPatch& patch) {
   const auto [r, g, b] = kLumaOfRgb;
   const auto& planes = patch.planes;
   return {.rect = planes[0].rect,
@@ -69,7 +70,7 @@ inline constexpr std::array<double, 3> kLumaOfRgb{0.2126, 0.7152, 0.0722};
 // amount times the detail that the layer brings, told by a Gaussian of sigma_px (detail_of_layer). The footage itself
 // has been sharpened by its camera and is left as it is. Of R'G'B' the same is added to all three planes, by BT.709's
 // luma. amount 0 leaves the patch as it is.
-void sharpen(CodePatch& patch, double amount, double sigma_px);
+void sharpen(FloatPatch& patch, double amount, double sigma_px);
 
 // Pixels beyond the layer that sharpening can change.
 [[nodiscard]] int sharpening_margin_px(double amount, double sigma_px);
@@ -78,9 +79,9 @@ void sharpen(CodePatch& patch, double amount, double sigma_px);
 // planes (as they are stored: of 4:2:0 a sample is two pixels wide) takes away the detail that the layer brings into
 // them (detail_of_layer). Luma stays as it is. Of R'G'B' the differences from luma are spread, over pixels. Gray has no
 // chroma. sigma 0 leaves the patch as it is.
-void spread_chroma(CodePatch& patch, double sigma_samples);
+void blur_chroma(FloatPatch& patch, double sigma_samples);
 
 // Pixels beyond the layer whose chroma this can change.
-[[nodiscard]] int chroma_spread_margin_px(PixelLayout layout, double sigma_samples);
+[[nodiscard]] int chroma_blur_margin_px(PixelLayout layout, double sigma_samples);
 
 }  // namespace sigs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/code_patch.h"
+#include "compositor/float_patch.h"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
@@ -57,7 +57,7 @@ void mark_changed(const PatchPlane& plane, const cv::Mat& codes, const cv::Size&
 }
 
 template <class Sample>
-cv::Mat write_as(const CodePatch& patch, Frame& frame) {
+cv::Mat write_as(const FloatPatch& patch, Frame& frame) {
   const auto top = static_cast<float>(max_code(patch.bit_depth));
   const cv::Point corner = patch.planes[0].rect.tl();
   cv::Mat changed = patch.planes[0].opacity > 0;
@@ -75,18 +75,18 @@ cv::Mat write_as(const CodePatch& patch, Frame& frame) {
   return changed;
 }
 
-void spread_rgb(CodePatch& patch, double sigma_px) {
+void spread_rgb(FloatPatch& patch, double sigma_px) {
   const cv::Mat of_luma = detail_of_layer(luma_of_rgb(patch), sigma_px);
   for (PatchPlane& plane : patch.planes) add_change(plane, of_luma - detail_of_layer(plane, sigma_px));
 }
 
 }  // namespace
 
-CodePatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body) {
+FloatPatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body) {
   const cv::Size step = chroma_step(frame.layout);
   const int margin = margin_px + (step.area() > 1 ? 2 : 0);
   const cv::Rect luma = widened(grown(pixels, margin) & cv::Rect({0, 0}, frame.size_px()), step, frame.size_px());
-  CodePatch patch{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
+  FloatPatch patch{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
   for (int plane = 0; plane < frame.plane_count(); ++plane) {
     const auto index = static_cast<std::size_t>(plane);
     const cv::Rect rect = plane == 0 ? luma : in_chroma(luma, step);
@@ -113,12 +113,12 @@ void add_change(PatchPlane& plane, const cv::Mat& change) {
   plane.after += plane.free.empty() ? change : cv::Mat(change.mul(plane.free));
 }
 
-cv::Mat write_patch(const CodePatch& patch, Frame& frame) {
+cv::Mat write_patch(const FloatPatch& patch, Frame& frame) {
   ENSURE(patch.bit_depth == frame.bit_depth);
   return with_sample_type(frame.bit_depth, [&](auto sample) { return write_as<decltype(sample)>(patch, frame); });
 }
 
-void sharpen(CodePatch& patch, double amount, double sigma_px) {
+void sharpen(FloatPatch& patch, double amount, double sigma_px) {
   if (amount == 0) return;
   if (patch.layout != PixelLayout::rgb) {
     add_change(patch.planes[0], amount * detail_of_layer(patch.planes[0], sigma_px));
@@ -132,14 +132,14 @@ int sharpening_margin_px(double amount, double sigma_px) {
   return amount == 0 ? 0 : blur_margin_px(sigma_px);
 }
 
-void spread_chroma(CodePatch& patch, double sigma_samples) {
+void blur_chroma(FloatPatch& patch, double sigma_samples) {
   if (sigma_samples == 0 || patch.plane_count() == 1) return;
   if (patch.layout == PixelLayout::rgb) return spread_rgb(patch, sigma_samples);
   for (std::size_t plane = 1; plane < 3; ++plane)
     add_change(patch.planes[plane], -detail_of_layer(patch.planes[plane], sigma_samples));
 }
 
-int chroma_spread_margin_px(PixelLayout layout, double sigma_samples) {
+int chroma_blur_margin_px(PixelLayout layout, double sigma_samples) {
   if (sigma_samples == 0 || layout == PixelLayout::gray) return 0;
   const cv::Size step = chroma_step(layout);
   return (blur_margin_px(sigma_samples) + 1) * std::max(step.width, step.height);
