@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -134,6 +136,38 @@ TEST_CASE("escape in a drag puts everything back, and what was undone before it 
     CHECK(saved(ui_test, project) == before);
     go_to_waypoint(ui_test);
   }
+}
+
+// scripts/images.sh makes the README's animation of its pictures; --no-skip runs it.
+TEST_CASE("a waypoint is dragged over the footage, a picture for each step" * doctest::skip()) {
+  if (!can_drive_windows()) return;
+  const fs::path folder = build_dir() / "screenshots" / "animation";
+  fs::remove_all(folder);
+  UiTest ui_test("animation");
+  EditorDriver& editor = ui_test.editor();
+  const fs::path project = open_at_waypoint(ui_test);
+  ui_test.dismiss_messages();
+  const Waypoints before = waypoints_of(json_of(project));
+  const ScreenPlace there = editor.place("viewport/waypoint/0/1");
+  int pictures = 0;
+  const auto picture = [&] { editor.screenshot(folder / fmt::format("{:03}.png", pictures++), true); };
+
+  editor.move(there.center_x(), there.center_y());
+  editor.settle();
+  picture();
+  editor.hold(there.center_x(), there.center_y());
+  constexpr int kSteps = 36;
+  for (int i = 1; i <= kSteps; ++i) {  // up to the right, then down to the left of where it was
+    const double angle = 2 * 3.14159265 * i / kSteps;
+    editor.move(there.center_x() + 150 * std::sin(angle) - 60.0 * i / kSteps,
+                there.center_y() - 90 * std::sin(angle / 2) + 40.0 * i / kSteps);
+    editor.wait_for_image();
+    picture();
+  }
+  editor.release();
+  check_only_it_moved(before, saved(ui_test, project));
+  fs::copy_file(project, folder / "dragged.json", fs::copy_options::overwrite_existing);
+  CHECK(pictures == kSteps + 1);
 }
 
 TEST_CASE("a project that begins later opens at its first frame") {

@@ -360,12 +360,13 @@ void EditorDriver::resize(int width_px, int height_px) {
   settle();
 }
 
-void EditorDriver::screenshot(const fs::path& file) const {
+void EditorDriver::screenshot(const fs::path& file, bool with_mouse) const {
   fs::create_directories(file.parent_path());
   const std::string size = std::to_string(width_px_) + "x" + std::to_string(height_px_);
-  const int status = status_of(started({"ffmpeg", "-v", "error", "-y", "-f", "x11grab", "-draw_mouse", "0",
-                                        "-video_size", size, "-i", display_, "-frames:v", "1", file.string()},
-                                       {}, home_ / "screenshot.log"));
+  const int status =
+      status_of(started({"ffmpeg", "-v", "error", "-y", "-f", "x11grab", "-draw_mouse", with_mouse ? "1" : "0",
+                         "-video_size", size, "-i", display_, "-frames:v", "1", file.string()},
+                        {}, home_ / "screenshot.log"));
   if (status != 0) throw std::runtime_error("no screenshot: " + read(home_ / "screenshot.log"));
 }
 

@@ -81,7 +81,7 @@ class EditorDriver {
   // Gives the window another size.
   void resize(int width_px, int height_px);
 
-  void screenshot(const std::filesystem::path& file) const;  // PNG
+  void screenshot(const std::filesystem::path& file, bool with_mouse = false) const;  // PNG
 
  private:
   // Those that do not wait for the result: one update has processed the event.
