@@ -14,6 +14,7 @@ import sigs
 
 EXAMPLES = sorted((support.SOURCE / "docs/examples/python").glob("*.py"))
 PAGE = support.SOURCE / "docs/python.md"
+REFERENCE = support.SOURCE / "docs/python-reference.md"
 
 
 def has(module):
@@ -25,8 +26,9 @@ class Manual(support.InFolder):
         command = [sys.executable, str(support.SOURCE / "docs/examples/python" / name), *map(str, arguments)]
         return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, cwd=self.folder).stdout
 
-    def test_the_page_has_each_example_word_for_word(self):
-        blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    def test_the_pages_have_each_example_word_for_word(self):
+        pages = PAGE.read_text() + REFERENCE.read_text()
+        blocks = re.findall(r"```python\n(.*?)```", pages, re.DOTALL)
         for example in EXAMPLES:
             self.assertIn(example.read_text(), blocks, example.name)
 
