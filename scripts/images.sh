@@ -46,16 +46,16 @@ editor_image() {  # NAME SCREENSHOT
     "docs/images/editor-$1.jpg"
 }
 # A waypoint dragged over the footage, and the encounter that comes of it: six seconds.
-"$build"/test_editor_ui_test --no-skip --test-case='a waypoint is dragged over the footage, a picture*' >"$work/drag.log" || {
+"$build"/test_editor_ui_test --no-skip --test-case='a waypoint is dragged over the footage*' >"$work/drag.log" || {
   cat "$work/drag.log"
   exit 1
 }
-"$build"/sigs export "$build"/screenshots/animation/dragged.json --frames 125-173 --codec png --masks none --labels none \
+"$build"/sigs export "$build"/screenshots/animation/dragged.json --frames 112-160 --codec png --masks none --labels none \
   --out "$work/dragged" --progress none >/dev/null
 ffmpeg -v error -y -framerate 10 -i "$build"/screenshots/animation/%03d.png -framerate 20 -pattern_type glob \
   -i "$work/dragged/*/*.png" -filter_complex "
   [0]scale=800:480:flags=lanczos,fps=10,setsar=1[window];
-  [1]scale=800:480:force_original_aspect_ratio=increase:flags=lanczos,crop=800:480,fps=10,setsar=1[result];
+  [1]scale=800:480:force_original_aspect_ratio=increase:flags=lanczos,crop=800:480:0:120,fps=10,setsar=1[result];
   [window][result]concat" -c:v libwebp_anim -quality 55 -compression_level 6 -loop 0 docs/images/drag.webp
 
 editor_image open ui_test-open

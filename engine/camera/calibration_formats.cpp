@@ -23,6 +23,7 @@
 #include <utility>
 
 #include "base/nesting.h"
+#include "base/parsing.h"
 #include "base/text.h"
 
 namespace sigs::calibration {
@@ -63,12 +64,21 @@ void append_binary(const YAML::Node& node, Field& field) {
     field.not_a_number = "binary data";
 }
 
-void append(const YAML::Node& node, Field& field) {
+// With a point as decimal separator whatever the locale, which yaml-cpp's own conversion follows; ".inf" and ".nan" are
+// read by that.
+std::optional<double> number_of(const YAML::Node& node) {
+  const std::string& text = node.Scalar();
   double number = 0;
+  if (text.find_first_of("0123456789") == std::string::npos && YAML::convert<double>::decode(node, number))
+    return number;
+  return parsed_number(text);
+}
+
+void append(const YAML::Node& node, Field& field) {
   if (node.IsScalar() && node.Tag() == "tag:yaml.org,2002:binary") {
     append_binary(node, field);
-  } else if (node.IsScalar() && YAML::convert<double>::decode(node, number)) {
-    field.numbers.push_back(number);
+  } else if (const std::optional<double> number = node.IsScalar() ? number_of(node) : std::nullopt) {
+    field.numbers.push_back(*number);
   } else if (node.IsSequence()) {
     for (const YAML::Node& element : node) append(element, field);
   } else if (!field.not_a_number) {

@@ -41,7 +41,7 @@ TEST_CASE("how footage looks is printed as a table, written as settings and draw
   CHECK(settings["light"]["kind"] == "sun");
   CHECK_FALSE(settings.contains("footage"));
   const cv::Mat page = cv::imread(plot);
-  CHECK(page.cols == 1200);
+  CHECK(page.cols == 1440);
   CHECK(page.rows >= 720);
   const Run again = run_sigs("appearance " + sample() + " --frames 0-1 --out " + out);
   CHECK(again.status == 73);

@@ -33,7 +33,7 @@ TEST_CASE("a model is described, and flights of it are written as CSV and drawn;
   const std::string text = read_text(csv).value();
   CHECK(std::count(text.begin(), text.end(), '\n') == 1 + 7 * 21);
   CHECK(text.starts_with("track,time_s,north_m,east_m,up_m,heading_deg,speed_mps,"));
-  CHECK(cv::imread(plot).cols == 1200);
+  CHECK(cv::imread(plot).cols == 1440);
   const std::string again = (folder / "b.csv").string();
   REQUIRE(run_sigs(draw + " --out " + again).status == 0);
   CHECK(read_text(again).value() == text);

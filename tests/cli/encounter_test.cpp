@@ -50,7 +50,7 @@ TEST_CASE("flights in a file: a table on stdout, JSON with the closed form's num
   CHECK(step.at("hmd_m").get<double>() == doctest::Approx(100));
   CHECK(step.at("volumes").at("nmac").at("time_to_entry_s").get<double>() == doctest::Approx(20 - half_s));
   CHECK(one.at("steps").at(1).at("volumes").at("nmac").at("time_to_entry_s").is_null());
-  CHECK(cv::imread(out + ".png").cols == 1200);
+  CHECK(cv::imread(out + ".png").cols == 1440);
   const Run again = run_sigs("encounter " + out + ".daa --volume nmac --dmod-ft 1000 --zthr-ft 200");
   CHECK(again.out == run.out);
   CHECK(run_sigs("encounter " + daa + " --json " + out + ".json").status == 73);

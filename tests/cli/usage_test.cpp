@@ -170,7 +170,7 @@ TEST_CASE("the direct method shows each step from the layer to the output, in or
   CHECK(run.status == 0);
   std::size_t last = 0;
   for (const char* const stage :
-       {"_00_input1", "_01_layer", "_02_bent", "_03_blurred", "_04_hidden", "_05_mask", "_06_output"}) {
+       {"_00_input1", "_01_layer", "_02_warped", "_03_blurred", "_04_occluded", "_05_mask", "_06_output"}) {
     const std::size_t at = run.out.find(stage);
     REQUIRE_MESSAGE(at != std::string::npos, stage);
     CHECK_MESSAGE(at >= last, stage);

@@ -164,7 +164,7 @@ TEST_CASE("coverage counts known annotations in the right bins, as text, JSON an
   CHECK(json["distractors"]["horizon"][2] == nlohmann::json{{"side", "below"}, {"count", 1}});
   CHECK(coverage_text(*coverage, "counted").find("100 to 200") != std::string::npos);
   const cv::Mat plot = coverage_plot(*coverage, "counted");
-  CHECK(plot.cols == 1200);
+  CHECK(plot.cols == 1440);
   CHECK(plot.type() == CV_8UC3);
 }
 

@@ -43,7 +43,8 @@ IntruderTruth visible_intruder(int id) {
   return {.id = id,
           .name = "airliner <\"A&B\">",
           .position_m = {899.25, -1e8, -20},
-          .world_from_body = rotation_of({rad_of_deg(180), rad_of_deg(-90), rad_of_deg(-179.9999999)}),
+          .world_from_body = rotation_of(id == 0 ? Attitude{.roll_rad = rad_of_deg(180), .yaw_rad = rad_of_deg(-100)}
+                                                 : Attitude{.pitch_rad = rad_of_deg(-90)}),
           .in_image = true,
           .visible_fraction = 0.5,
           .visible_box = cv::Rect(0, 7, 41, 13),
