@@ -45,7 +45,7 @@ void colored_text(ImU32 color, const std::string& text) {
 constexpr double kMin_s = 3;
 constexpr double kMinError_s = 15;
 constexpr double kReading_s = 0.05;  // more for each letter
-constexpr std::size_t kMax = 5;
+constexpr std::size_t kMaxToasts = 5;
 
 struct Plate {
   ScreenRect rect;
@@ -274,7 +274,7 @@ void Toasts::show(const ShowMessage& shown_message, double now_s) {
     return;
   }
   toasts_.push_back({message.text, message.is_error, until_s});
-  if (toasts_.size() <= kMax) return;
+  if (toasts_.size() <= kMaxToasts) return;
   // Passing ones make room first.
   const auto passing = std::ranges::find_if(toasts_, [](const Toast& toast) { return !toast.is_error; });
   toasts_.erase(passing != toasts_.end() ? passing : toasts_.begin());
