@@ -24,6 +24,7 @@ namespace {
 
 constexpr int kHorizonEvery = 10;           // frames
 constexpr double kMinCorrelation = 0.7;     // below it log and footage are not of the same flight
+constexpr double kFocalLimits = 0.2;        // width of the limits that a focal length by gyroscope is taken within
 constexpr double kStabilized_rad = 0.0017;  // 0.1 degrees turned by the camera itself
 // The share of the work that is done when all features are followed, and when the log is compared.
 constexpr double kFollowed = 0.8;
@@ -186,7 +187,7 @@ class Estimate {
   void fit_focal_length_by_gyro() {
     for (int round = 0; round < 2 && !is_cancelled(control_.cancel); ++round) {
       const auto found = focal_scale_by_gyro(seen_turns(), *rates_, offset_, camera_from_gyro_);
-      if (!found) return;
+      if (!found || found->largest - found->least > kFocalLimits * found->value) return;
       const double before = motion_.focal_factor;
       take_focal_length(found->value);
       motion_.focal_factor = before * found->value;

@@ -142,7 +142,7 @@ namespace {
 constexpr std::size_t kSlopeParts = 10;      // of the footage
 constexpr std::size_t kMinSlopeTurns = 100;  // frames
 constexpr double kMinGyroCorrelation = 0.9;  // of seen and recorded turns; less where images were stabilized
-constexpr double kMaxSlopeSd = 0.15;         // of the factor: a field of view that is guessed is off by more
+constexpr double kMaxSlopeSd = 0.15;         // of the factor
 constexpr double kMaxDisagreement = 0.05;    // of factors that ought to be equal, beside three standard deviations
 constexpr double kUnknownSlopeSd = 0.15;     // of turns about the line of sight, which say nothing beyond it
 constexpr double kMinRollShare = 0.05;       // of the squares of those across it
