@@ -166,10 +166,9 @@ IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, cons
     layers.row_motion.emplace(pose_at, scene.footage.size_px.height, scene.motion.readout_s);
     layers.silhouette = silhouette_of(model.points_m, *layers.row_motion, camera.lens);
   } else {
-    layers.silhouette = silhouette_by_groups(model.point_groups, placed.camera_from_body, camera.lens);
+    layers.silhouette = silhouette_of(model.points_m, placed.camera_from_body, camera.lens);
   }
-  if (!camera.lens.is_pinhole() && layers.silhouette)
-    layers.op_counts.lens_evaluations = layers.silhouette->lens_evaluations;
+  if (!camera.lens.is_pinhole() && layers.silhouette) layers.op_counts.lens_evaluations = std::ssize(model.points_m);
   layers.sigma_px = sigma_px_of(scene, placed.distance_m());
   if (scene.compositing.method == MethodChoice::direct && moment.exposure_s > 0) {
     const glm::dvec2 motion_px = motion_during_exposure(scene, moment, placed, camera.lens);

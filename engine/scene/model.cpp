@@ -122,7 +122,6 @@ std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points) {
 Model model_of(Mesh mesh) {
   Model model{.mesh = std::move(mesh)};
   model.points_m = measuring_points(model.mesh);
-  model.point_groups = point_tree_of(model.points_m);
   model.outermost_m = outermost_points(model.points_m);
   model.shape = shape_of(model.mesh);
   return model;

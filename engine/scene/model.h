@@ -4,7 +4,6 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "base/point_tree.h"
 #include "mesh/geometry.h"
 #include "mesh/mesh.h"
 
@@ -14,7 +13,6 @@ namespace sigs {
 struct Model {
   Mesh mesh;
   std::vector<glm::vec3> points_m;     // measuring_points(mesh)
-  PointTree point_groups;              // the same in groups
   std::vector<glm::vec3> outermost_m;  // outermost_points(points_m)
   ModelShape shape;                    // shape_of(mesh)
 };
