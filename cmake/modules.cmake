@@ -52,7 +52,7 @@ function(sigs_compile target kind)
     target_precompile_headers(${target} REUSE_FROM sigs_precompiled_${kind})
   endif()
   if(SIGS_UNITY STREQUAL "ON" OR target IN_LIST SIGS_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 24)
   endif()
 endfunction()
 

@@ -48,7 +48,7 @@ Frame rectangle(double sigma_px, cv::Point2d shift = {}, double body = kBody) {
 }
 
 // Normally distributed numbers, the same on every machine.
-class Noise {
+class WhiteNoise {
  public:
   double operator()() {
     double sum = -6;
@@ -136,7 +136,7 @@ TEST_CASE("contrast and percentiles are those of the two brightnesses") {
 }
 
 TEST_CASE("noise within the silhouette is measured, and beyond the background's") {
-  Noise noise;
+  WhiteNoise noise;
   const auto look = target_look(frame_with([&](int x, int y) {
                                   const double share = share_at(x, y, 0.5);
                                   return kSky + (kBody - kSky) * share + (share > 0.5 ? 4.0 : 1.0) * noise();

@@ -14,7 +14,7 @@
 namespace sigs::test {
 namespace {
 
-const cv::Size kImage(61, 43);
+const cv::Size kImageSize_px(61, 43);
 
 std::vector<cv::Rect> places() {
   return {{20, 12, 20, 16}, {0, 0, 9, 7}, {50, 35, 11, 8}, {0, 0, 61, 43}, {30, 20, 1, 1}, {60, 42, 1, 1}};
@@ -69,7 +69,7 @@ TEST_CASE("a patch without stages rounds to what blending makes, bit for bit") {
       for (const cv::Rect& place : places()) {
         CAPTURE(sort.name);
         CAPTURE(place);
-        Frame blended = grainy(sort, kImage);
+        Frame blended = grainy(sort, kImageSize_px);
         Frame patched = cloned(blended);
         const Layer layer = cloudy_layer(place, 21);
         blend_over(blended, layer, space);
@@ -82,7 +82,7 @@ TEST_CASE("a patch without stages rounds to what blending makes, bit for bit") {
 
 TEST_CASE("stages at zero change nothing") {
   for (const Sort& sort : all_sorts()) {
-    const Frame frame = grainy(sort, kImage);
+    const Frame frame = grainy(sort, kImageSize_px);
     FloatPatch patch = blended_patch(frame, cloudy_layer({10, 9, 30, 20}, 4), BlendChoice::linear, 6, {});
     const FloatPatch before = patch;
     std::array<cv::Mat, 3> codes;
@@ -100,13 +100,13 @@ TEST_CASE("all stages rewrite what they say and nothing else, in every layout an
     for (const cv::Rect& place : places()) {
       CAPTURE(sort.name);
       CAPTURE(place);
-      const Frame before = grainy(sort, kImage);
+      const Frame before = grainy(sort, kImageSize_px);
       Frame after = cloned(before);
       FloatPatch patch =
           blended_patch(after, white_layer(place, 0.8F), BlendChoice::linear, margin_of(sort.layout), {});
       all_stages(patch);
       const cv::Mat changed = write_patch(patch, after);
-      cv::Mat touched = cv::Mat::zeros(kImage, CV_8UC1);
+      cv::Mat touched = cv::Mat::zeros(kImageSize_px, CV_8UC1);
       changed.copyTo(touched(patch.planes[0].rect));
       check_kept(before, after, touched, sort);
       CHECK(cv::countNonZero(touched(place)) == place.area());
@@ -116,10 +116,10 @@ TEST_CASE("all stages rewrite what they say and nothing else, in every layout an
 TEST_CASE("samples of the own body keep their bits under all stages") {
   for (const Sort& sort : all_sorts()) {
     CAPTURE(sort.name);
-    const Frame before = grainy(sort, kImage);
+    const Frame before = grainy(sort, kImageSize_px);
     Frame after = cloned(before);
-    cv::Mat body = cv::Mat::zeros(kImage, CV_32FC1);
-    body.colRange(30, kImage.width).setTo(1);
+    cv::Mat body = cv::Mat::zeros(kImageSize_px, CV_32FC1);
+    body.colRange(30, kImageSize_px.width).setTo(1);
     // What is left of a layer from column 15 to 45.
     const Layer layer = white_layer({15, 10, 15, 20}, 1);
     FloatPatch patch = blended_patch(after, layer, BlendChoice::linear, margin_of(sort.layout), body);
@@ -167,9 +167,9 @@ TEST_CASE("sharpening keeps the mean of what the layer changes") {
 TEST_CASE("an opaque layer shows nothing of the footage's detail behind it, sharpened and spread") {
   for (const Sort& sort : all_sorts()) {
     CAPTURE(sort.name);
-    const cv::Rect all({0, 0}, kImage);
+    const cv::Rect all({0, 0}, kImageSize_px);
     FloatPatch busy =
-        blended_patch(grainy(sort, kImage), even_layer(all, {0.3F, 0.1F, 0.05F, 1}), BlendChoice::linear, 9, {});
+        blended_patch(grainy(sort, kImageSize_px), even_layer(all, {0.3F, 0.1F, 0.05F, 1}), BlendChoice::linear, 9, {});
     sharpen(busy, 3, 1);
     blur_chroma(busy, 1);
     for (int plane = 0; plane < busy.plane_count(); ++plane) {

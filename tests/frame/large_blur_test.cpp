@@ -81,7 +81,7 @@ Layer sharp_in_full(const Looked& look, const PlacedIntruder& placed, double sig
   return warped(*drawn, look.camera, target);
 }
 
-Project sample_project(const std::string& name) {
+Project read_sample(const std::string& name) {
   Result<ReadProject> read = read_project(source_dir() / "projects" / name / (name + ".json"));
   if (!read) FAIL(read.error().text());
   return std::move(read->project);
@@ -90,7 +90,7 @@ Project sample_project(const std::string& name) {
 Scene sample_scene(const std::string& name) {
   FootageShape shape{.size_px = {1280, 960}};
   for (int n = 0; n < 200; ++n) shape.times_s.push_back(n / 25.0);
-  Result<Scene> scene = open_scene(sample_project(name), shape);
+  Result<Scene> scene = open_scene(read_sample(name), shape);
   if (!scene) FAIL(scene.error().text());
   scene->own_body = cv::Mat();
   return std::move(*scene);

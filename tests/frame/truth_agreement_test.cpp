@@ -12,13 +12,13 @@ namespace sigs::test {
 namespace {
 
 // An image of whole codes cannot do better than the 0.29 that rounding alone makes.
-constexpr double kSoft_rmse = 0.75;
+constexpr double kSoftEdges_rmse = 0.75;
 // Sharp edges and paint fall across pixels' edges by up to 1 / supersampling of a pixel. One percent of the range, in
 // the intruder's own pixels, is not visible.
 constexpr double kSharp_rmse = 2.55;
 
-const char* const kAirliner = "airliner/airliner.obj";
-const char* const kLightAircraft = "light-aircraft/light-aircraft.obj";
+const char* const kAirlinerModel = "airliner/airliner.obj";
+const char* const kLightAircraftModel = "light-aircraft/light-aircraft.obj";
 
 struct Place {
   std::string name;
@@ -63,13 +63,13 @@ void check_box(const Compared& result, double extent_px) {
 
 TEST_CASE("blurred aircraft agree with ray tracing through the real lens") {
   for (const Place& place : places())
-    for (const char* model : {kAirliner, kLightAircraft}) {  // the latter with windows and a propeller of glass
-      if (place.lens != pinhole_lens() && model == kAirliner) continue;
+    for (const char* model : {kAirlinerModel, kLightAircraftModel}) {  // the latter with windows and a propeller of glass
+      if (place.lens != pinhole_lens() && model == kAirlinerModel) continue;
       Sight sight = sight_of(model, place, 60);
       sight.sigma_px = 2;
       const Compared result = compared(sight);
       tell(place.name, sight, result);
-      CHECK(result.rmse() < kSoft_rmse);
+      CHECK(result.rmse() < kSoftEdges_rmse);
       CHECK(std::abs(result.bias()) < 0.2);  // no brighter, no darker: less than rounding
       CHECK(result.percentile(0.999) < 4);
       check_box(result, 60);
@@ -78,7 +78,7 @@ TEST_CASE("blurred aircraft agree with ray tracing through the real lens") {
 
 TEST_CASE("sharp aircraft agree with ray tracing through the real lens") {
   for (const Place& place : places()) {
-    Sight sight = sight_of(kAirliner, place, 60);
+    Sight sight = sight_of(kAirlinerModel, place, 60);
     sight.supersampling = 4;
     sight.samples_per_pixel = 4;
     const Compared result = compared(sight);
@@ -89,7 +89,7 @@ TEST_CASE("sharp aircraft agree with ray tracing through the real lens") {
 }
 
 TEST_CASE("four times the supersampling comes more than twice as close to the truth") {
-  Sight sight = sight_of(kAirliner, places().back(), 240);  // small ones are drawn finer than asked for
+  Sight sight = sight_of(kAirlinerModel, places().back(), 240);  // small ones are drawn finer than asked for
   sight.supersampling = 1;
   const double coarse = compared(sight).rmse();
   sight.supersampling = 4;
@@ -98,19 +98,19 @@ TEST_CASE("four times the supersampling comes more than twice as close to the tr
 
 TEST_CASE("an aircraft 400 px large agrees with ray tracing, windows included") {
   for (const double sigma_px : {0.0, 2.0}) {
-    Sight sight = sight_of(kLightAircraft, places().front(), 400);
+    Sight sight = sight_of(kLightAircraftModel, places().front(), 400);
     sight.sigma_px = sigma_px;
     sight.supersampling = 4;
     const Compared result = compared(sight, {.samples_per_side = 8});
     tell("pinhole", sight, result);
-    CHECK(result.rmse() < (sigma_px > 0 ? kSoft_rmse : kSharp_rmse));
+    CHECK(result.rmse() < (sigma_px > 0 ? kSoftEdges_rmse : kSharp_rmse));
   }
 }
 
 TEST_CASE("far and tiny aircraft change the image by the correct amount") {
   for (const Place& place : places())
     for (const double extent_px : {8.0, 0.7}) {
-      const Sight sight = sight_of(kLightAircraft, place, extent_px);
+      const Sight sight = sight_of(kLightAircraftModel, place, extent_px);
       const Compared result = compared(sight);
       tell(place.name, sight, result);
       // An intruder of 0.04 px changes no code by more than rounding does; at 8 px all pixels are edges.
@@ -121,15 +121,15 @@ TEST_CASE("far and tiny aircraft change the image by the correct amount") {
 }
 
 TEST_CASE("half behind the own body and half beyond the image's edge, the rest is correct") {
-  Sight hidden = sight_of(kAirliner, places().front(), 60);
+  Sight hidden = sight_of(kAirlinerModel, places().front(), 60);
   hidden.sigma_px = 2;
   hidden.half_hidden = true;
-  CHECK(compared(hidden).rmse() < kSoft_rmse);
-  Sight leaving = sight_of(kAirliner, places().front(), 60);
+  CHECK(compared(hidden).rmse() < kSoftEdges_rmse);
+  Sight leaving = sight_of(kAirlinerModel, places().front(), 60);
   leaving.sigma_px = 2;
   leaving.direction = {1, -319.5 / 535, 0};  // middle on the left edge
   const Compared result = compared(leaving);
-  CHECK(result.rmse() < kSoft_rmse);
+  CHECK(result.rmse() < kSoftEdges_rmse);
   CHECK(result.reference.rect.x == 0);
 }
 
