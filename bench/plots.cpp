@@ -15,7 +15,7 @@
 
 #include "base/csv.h"
 #include "base/image_codecs.h"
-#include "base/parsing.h"
+#include "base/text.h"
 #include "plot/plot.h"
 
 namespace sigs::bench {

@@ -10,14 +10,12 @@
 #include <vector>
 
 #include "appearance/appearance.h"
-#include "appearance/project_hints.h"
 #include "base/json.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
-#include "cli/progress.h"
 #include "comparison/lit_like.h"
 #include "first_project/first_project.h"
 #include "project/json.h"

@@ -16,7 +16,6 @@
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
-#include "cli/progress.h"
 
 namespace sigs::cli {
 

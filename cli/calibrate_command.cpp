@@ -1,13 +1,134 @@
 // SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "autocalibration/autocalibration.h"
+#include "base/paths.h"
+#include "base/pose.h"
+#include "base/staged_outputs.h"
 #include "cli/calibrate_options.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
+#include "cli/process.h"
+#include "telemetry/read_track.h"
 
 namespace sigs::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct AutocalibrationInputs {
+  std::optional<Track> log;
+  fs::path log_file;  // empty: the footage itself
+};
+
+// The log that is named, else the one that the footage carries, if it does.
+Result<AutocalibrationInputs> inputs_of(const CalibrateOptions& options) {
+  AutocalibrationInputs inputs{.log = std::nullopt, .log_file = options.log};
+  const bool is_named = !options.log.empty();
+  Result<Track> log = read_track(is_named ? options.log : options.inputs[0], {.cancel = &interrupt_flag()});
+  if (!log && (is_named || log.error().kind == ErrorKind::interrupted)) return fail(log.error());
+  if (!log) return inputs;
+  for (const Warning& warning : log->warnings) print_warning(warning);
+  inputs.log = std::move(*log);
+  return inputs;
+}
+
+Result<Autocalibration> found_in(const CalibrateOptions& options) {
+  Result<FrameSource> footage =
+      FrameSource::open(options.inputs[0], &interrupt_flag(), Quantisers::leave_out, options.timing);
+  if (!footage) return fail(footage.error());
+  for (const Warning& warning : footage->info().warnings) print_warning(warning);
+  const Result<AutocalibrationInputs> inputs = inputs_of(options);
+  if (!inputs) return fail(inputs.error());
+  AutocalibrationSettings settings{.max_frames = options.max_frames};
+  if (options.fov_deg) settings.given_field_rad = rad_of_deg(*options.fov_deg);
+  Progress progress(progress_style(options.progress));
+  const AutocalibrationControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+                                       .cancel = &interrupt_flag()};
+  Result<Autocalibration> found =
+      autocalibrated(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);
+  progress.end();
+  return found;
+}
+
+// The places of the outputs while they are written; empty: not asked for.
+struct AutocalibrationOutputs {
+  fs::path calibration, plot, json;
+};
+
+Result<AutocalibrationOutputs> begun(StagedOutputs& outputs, const CalibrateOptions& options) {
+  if (options.inputs.size() != 1)
+    return fail("INPUT", "is one video where there is no --board; there are " + std::to_string(options.inputs.size()),
+                ErrorKind::usage);
+  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
+    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
+  std::vector<fs::path> inputs{options.inputs[0]};
+  if (!options.log.empty()) inputs.push_back(options.log);
+  AutocalibrationOutputs staged;
+  for (const auto& [path, place] :
+       {std::pair(&options.out, &staged.calibration), {&options.plot, &staged.plot}, {&options.json, &staged.json}}) {
+    if (path->empty()) continue;
+    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{*path}, inputs); !kept)
+      return fail(path->string(), kept.error().what, ErrorKind::cannot_create);
+    const Result<fs::path> added = outputs.add_file(*path);
+    if (!added) return fail(added.error());
+    *place = *added;
+  }
+  return staged;
+}
+
+Result<void> write_all(StagedOutputs& outputs, const AutocalibrationOutputs& staged, const Autocalibration& found) {
+  const Result<CalibrationText> text = calibration_text(found);
+  if (!text) return fail(text.error());
+  if (const auto written = write_bytes(staged.calibration, calibration_xml(*text)); !written)
+    return fail(outputs.with_final_names(written.error()));
+  if (!staged.json.empty())
+    if (const auto written = write_bytes(staged.json, json_of(found)); !written)
+      return fail(outputs.with_final_names(written.error()));
+  if (!staged.plot.empty())
+    if (const auto drawn = write_png(staged.plot, autocalibration_plot(found)); !drawn)
+      return fail(outputs.with_final_names(drawn.error()));
+  return outputs.commit();
+}
+
+}  // namespace
+
+void add_autocalibration_options(CLI::App& command, CalibrateOptions& options) {
+  command.add_option("--log", options.log, "without a board: a log with the camera's rates; else the video's own")
+      ->option_text("FILE")
+      ->check(not_empty());
+  command
+      .add_option("--fov", options.fov_deg, "without a board: the horizontal field of view, where it is known; degrees")
+      ->option_text("DEG")
+      ->check(from_to(1, 300));
+  add_timing_options(command, options.timing);
+  command.add_option("--max-frames", options.max_frames, "without a board: look at no more frames than these")
+      ->option_text("N")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 1000000));
+}
+
+Result<void> autocalibrate(const CalibrateOptions& options) {
+  defer_interrupts();
+  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  const Result<AutocalibrationOutputs> staged = begun(outputs, options);
+  if (!staged) return fail(staged.error());
+  const Result<Autocalibration> found = found_in(options);
+  if (!found) return fail(found.error());
+  for (const Warning& warning : found->warnings) print_warning(warning);
+  if (const Result<void> written = write_all(outputs, *staged, *found); !written) return written;
+  for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
+  std::fprintf(stderr, "rough: %s\n", summary_of(*found).c_str());
+  return {};
+}
 
 namespace {
 

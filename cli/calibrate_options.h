@@ -35,7 +35,7 @@ struct CalibrateOptions {
 // With a board (calibrate_board.cpp).
 [[nodiscard]] Result<void> calibrate_with_board(const CalibrateOptions& options);
 
-// Without one, from the footage itself (autocalibrate.cpp), and the options that only this has.
+// Without one, from the footage itself (calibrate_command.cpp), and the options that only this has.
 [[nodiscard]] Result<void> autocalibrate(const CalibrateOptions& options);
 void add_autocalibration_options(CLI::App& command, CalibrateOptions& options);
 

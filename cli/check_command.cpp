@@ -29,7 +29,7 @@ void print(const Error& error) {
   std::printf("%s\n", error.text().c_str());
 }
 
-// Two lines an intruder. The condition is that of spline/conditioning.h.
+// Two lines an intruder. The condition is that of spline/trajectory.h.
 void print_intruders(const Project& project, const Scene& scene, const std::vector<Visibility>& visibilities) {
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
     const IntruderSettings& intruder = project.intruders[i];

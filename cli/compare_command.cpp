@@ -18,7 +18,6 @@
 #include "cli/output_files.h"
 #include "cli/process.h"
 #include "comparison/inserted_target.h"
-#include "comparison/measured_target.h"
 #include "scene/opened_project.h"
 
 namespace sigs::cli {
@@ -150,7 +149,7 @@ std::optional<double> value_of(const CompareColumn& column, const LookMeasure& m
 }
 
 std::string compare_table_of(const std::vector<CompareColumn>& columns) {
-  std::string table = fmt::format("{:<22}{:<7}", "measure", "unit");
+  std::string table = fmt::format("{:<24}{:<7}", "measure", "unit");
   for (const CompareColumn& column : columns) table += fmt::format(" {:>12.12}", column.name);
   LookGroup group{};
   bool is_first = true;
@@ -158,7 +157,7 @@ std::string compare_table_of(const std::vector<CompareColumn>& columns) {
     if (is_first || measure.group != group) table += fmt::format("\n{}", name_of(measure.group));
     group = measure.group;
     is_first = false;
-    table += fmt::format("\n  {:<20}{:<7}", measure.name, measure.unit);
+    table += fmt::format("\n  {:<22}{:<7}", measure.name, measure.unit);
     for (const CompareColumn& column : columns) {
       const auto value = value_of(column, measure);
       table += fmt::format(" {:>12}", value ? fixed_text(*value, 3) : "-");

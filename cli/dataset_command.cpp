@@ -14,13 +14,11 @@
 #include <vector>
 
 #include "base/allocator.h"
-#include "base/parsing.h"
 #include "base/text.h"
 #include "cli/dataset_table.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
-#include "cli/progress.h"
 #include "dataset/coverage.h"
 #include "dataset/footage_cache.h"
 #include "dataset/plan.h"

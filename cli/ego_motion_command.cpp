@@ -16,7 +16,6 @@
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
-#include "cli/progress.h"
 #include "ego_motion/ego_motion.h"
 #include "ego_motion/project_motion.h"
 #include "project/json.h"

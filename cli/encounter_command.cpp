@@ -20,7 +20,7 @@
 #include "encounter/daa_file.h"
 #include "encounter/encounter_report.h"
 #include "encounter/well_clear.h"
-#include "scene/encounter_tracks.h"
+#include "scene/flight.h"
 #include "scene/opened_project.h"
 
 namespace sigs::cli {

@@ -20,7 +20,6 @@
 #include "cli/detect_inputs.h"
 #include "cli/evaluation_folder.h"
 #include "cli/process.h"
-#include "cli/progress.h"
 #include "evaluation/readers/sequence_truth.h"
 #include "evaluation/reports/report.h"
 

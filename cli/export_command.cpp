@@ -17,7 +17,6 @@
 #include "base/text.h"
 #include "cli/options.h"
 #include "cli/process.h"
-#include "cli/progress.h"
 #include "export/export_project.h"
 #include "labels/labels.h"
 #include "project/fields.h"

@@ -11,7 +11,6 @@
 
 #include "cli/options.h"
 #include "cli/process.h"
-#include "cli/progress.h"
 #include "first_project/first_project.h"
 
 namespace sigs::cli {

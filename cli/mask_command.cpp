@@ -20,7 +20,6 @@
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
-#include "cli/progress.h"
 #include "export/export_project.h"
 #include "occlusion/detect.h"
 #include "project/validate.h"

@@ -9,7 +9,6 @@
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
-#include "cli/progress.h"
 #include "occlusion/parallax.h"
 #include "project/validate.h"
 #include "scene/opened_project.h"

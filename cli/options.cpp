@@ -14,7 +14,6 @@
 
 #include "base/csv.h"
 #include "base/ensure.h"
-#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "project/fields.h"

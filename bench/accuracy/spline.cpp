@@ -8,7 +8,6 @@
 
 #include "accuracy/csv.h"
 #include "accuracy/exact_spline.h"
-#include "spline/conditioning.h"
 #include "spline/trajectory.h"
 
 namespace {

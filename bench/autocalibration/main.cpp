@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "autocalibration/autocalibration.h"
+#include "autocalibration/lens_by_motion.h"
+#include "autocalibration/made_tracks.h"
 #include "base/pose.h"
 #include "base/stopwatch.h"
-#include "calibration/autocalibration.h"
-#include "calibration/autocalibration_motion.h"
-#include "calibration/made_tracks.h"
 #include "telemetry/read_track.h"
 
 // bench_autocalibration made FIRST LAST   seeds of made tracks: error and coverage of both methods, by lens

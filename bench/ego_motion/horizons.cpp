@@ -21,7 +21,6 @@
 #include "ego_motion/measures.h"
 #include "horizon/horizon.h"
 #include "video/frame_source.h"
-#include "video/luma_stream.h"
 
 namespace sigs::bench {
 

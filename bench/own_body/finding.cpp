@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "accuracy/csv.h"
-#include "occlusion/mask_geometry.h"
+#include "occlusion/detect.h"
 #include "video/video_writer.h"
 
 #include <algorithm>

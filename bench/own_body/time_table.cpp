@@ -5,7 +5,7 @@
 
 #include "accuracy/csv.h"
 #include "base/statistics.h"
-#include "occlusion/mask_geometry.h"
+#include "occlusion/detect.h"
 #include "own_body/finding.h"
 #include "own_body/measures.h"
 

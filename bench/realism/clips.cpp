@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "accuracy/csv.h"
-#include "comparison/measured_target.h"
+#include "comparison/inserted_target.h"
 
 namespace sigs::bench {
 

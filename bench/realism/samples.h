@@ -9,8 +9,8 @@
 
 #include "accuracy/csv.h"
 #include "base/image.h"
-#include "comparison/measured_target.h"
-#include "frame/compose_context.h"
+#include "comparison/inserted_target.h"
+#include "frame/composed_frame.h"
 #include "realism/clips.h"
 #include "realism/look_settings.h"
 #include "scene/scene_files.h"

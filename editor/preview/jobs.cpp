@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "appearance/project_hints.h"
+#include "appearance/appearance.h"
 #include "base/staged_outputs.h"
 #include "first_project/first_camera.h"
 #include "scene/opened_project.h"

@@ -9,7 +9,7 @@
 
 #include "export/frame_stream.h"
 #include "project/project.h"
-#include "scene/encounter_tracks.h"
+#include "scene/flight.h"
 #include "scene/opened_project.h"
 #include "scene/scene.h"
 #include "scene/scene_at.h"

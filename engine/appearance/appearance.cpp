@@ -10,10 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/bounded_queue.h"
-#include "base/interrupt.h"
 #include "base/threads.h"
-#include "video/bit_depth.h"
 #include "video/frame.h"
 
 namespace sigs {

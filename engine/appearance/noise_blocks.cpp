@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "video/luma_stream.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 

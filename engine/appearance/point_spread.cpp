@@ -12,7 +12,7 @@
 #include "base/statistics.h"
 #include "video/chroma.h"
 #include "video/frame_quantisers.h"
-#include "video/luma_stream.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 

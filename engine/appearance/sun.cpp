@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/pose.h"
-#include "video/luma_stream.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 

@@ -69,6 +69,30 @@ struct Attitude {
 // The inverse of rotation_of(). Roll and yaw lie in (-pi, pi], pitch in [-pi/2, pi/2]; straight up or down, roll is 0.
 [[nodiscard]] Attitude attitude_of(const glm::dquat& rotation);
 
+// Rotations as rotation vectors (axis times angle, radians) and back.
+// Murray, Li, Sastry: A Mathematical Introduction to Robotic Manipulation, section 2.2.
+
+// The rotation by |vector_rad| about the direction of the vector.
+[[nodiscard]] inline glm::dquat turn_of(const glm::dvec3& vector_rad) {
+  const double angle_rad = glm::length(vector_rad);
+  if (angle_rad < 1e-12) return {1, vector_rad.x / 2, vector_rad.y / 2, vector_rad.z / 2};
+  return glm::angleAxis(angle_rad, vector_rad / angle_rad);
+}
+
+// The rotation vector of a unit quaternion; its length is 0..pi.
+[[nodiscard]] inline glm::dvec3 vector_of(const glm::dquat& turn) {
+  const glm::dvec3 along(turn.x, turn.y, turn.z);
+  const double sine = glm::length(along);
+  const double sign = turn.w < 0 ? -1 : 1;
+  if (sine < 1e-12) return 2 * sign * along;
+  return along * (2 * sign * std::atan2(sine, std::abs(turn.w)) / sine);
+}
+
+// The matrix of the cross product: cross_matrix(a) * b = a x b.
+[[nodiscard]] inline glm::dmat3 cross_matrix(const glm::dvec3& a) {
+  return {0, a.z, -a.y, -a.z, 0, a.x, a.y, -a.x, 0};
+}
+
 // The change of axes from our camera frame (X forward, Y right, Z down) to OpenCV's optical frame (x right, y down, z
 // forward), and back. Nothing else in the program changes between the two.
 [[nodiscard]] inline glm::dvec3 optical_of(const glm::dvec3& p_in_camera) {

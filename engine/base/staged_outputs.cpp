@@ -20,7 +20,7 @@
 #include <utility>
 
 #include "base/file_lock.h"
-#include "base/renaming.h"
+#include "base/paths.h"
 
 namespace sigs {
 

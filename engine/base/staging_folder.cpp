@@ -18,7 +18,6 @@
 #include "base/file_lock.h"
 #include "base/input_file.h"
 #include "base/paths.h"
-#include "base/renaming.h"
 
 namespace sigs {
 

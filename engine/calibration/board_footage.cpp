@@ -16,7 +16,7 @@
 #include "base/paths.h"
 #include "base/text.h"
 #include "base/threads.h"
-#include "video/luma_stream.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 

@@ -23,7 +23,6 @@
 #include <utility>
 
 #include "base/nesting.h"
-#include "base/parsing.h"
 #include "base/text.h"
 
 namespace sigs::calibration {

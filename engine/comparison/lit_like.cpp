@@ -10,14 +10,14 @@
 #include <optional>
 
 #include "appearance/target_silhouette.h"
-#include "base/interrupt.h"
 #include "base/statistics.h"
+#include "base/threads.h"
 #include "comparison/inserted_target.h"
-#include "frame/compose_context.h"
+#include "frame/composed_frame.h"
 #include "scene/opened_project.h"
 #include "scene/scene_files.h"
-#include "video/bit_depth.h"
 #include "video/color_space.h"
+#include "video/frame.h"
 
 namespace sigs {
 

@@ -10,8 +10,8 @@
 #include "base/image.h"
 #include "base/random.h"
 #include "compositor/blur.h"
-#include "video/bit_depth.h"
 #include "video/chroma.h"
+#include "video/frame.h"
 
 namespace sigs {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "video/bit_depth.h"
 #include "video/color_space.h"
+#include "video/frame.h"
 
 namespace sigs {
 namespace {

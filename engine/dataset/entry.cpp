@@ -16,9 +16,9 @@
 
 #include "base/ensure.h"
 #include "base/input_file.h"
-#include "base/interrupt.h"
 #include "base/json.h"
 #include "base/staged_outputs.h"
+#include "base/threads.h"
 #include "mesh/materials.h"
 #include "project/fields.h"
 #include "project/json.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 
-#include "base/interrupt.h"
+#include "base/threads.h"
 #include "export/export_project.h"
 #include "scene/model.h"
 #include "scene/opened_project.h"

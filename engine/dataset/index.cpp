@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/json.h"
-#include "base/renaming.h"
+#include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "dataset/dataset_lock.h"

@@ -7,11 +7,11 @@
 #include <map>
 #include <utility>
 
-#include "base/interrupt.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "dataset/footage_cache.h"
 #include "dataset/sample.h"
-#include "dataset/video_name.h"
+#include "dataset/video_folder.h"
 #include "dataset/video_sample.h"
 #include "project/validate.h"
 

@@ -11,10 +11,10 @@
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "dataset/recipe_reading.h"
-#include "dataset/video_name.h"
+#include "dataset/video_folder.h"
 #include "project/fields.h"
+#include "project/json.h"
 #include "project/project.h"
-#include "project/renamed_keys.h"
 #include "project/validate.h"
 
 namespace sigs {

@@ -13,9 +13,9 @@
 #include "base/text.h"
 #include "dataset/recipe.h"
 #include "dataset/recipe_reading.h"
-#include "dataset/video_name.h"
+#include "dataset/video_folder.h"
 #include "project/fields.h"
-#include "project/renamed_keys.h"
+#include "project/json.h"
 
 namespace sigs {
 

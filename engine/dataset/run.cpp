@@ -11,7 +11,6 @@
 #include <thread>
 #include <utility>
 
-#include "base/interrupt.h"
 #include "base/paths.h"
 #include "base/staging_folder.h"
 #include "base/stopwatch.h"
@@ -20,7 +19,6 @@
 #include "dataset/index.h"
 #include "dataset/merge_labels.h"
 #include "dataset/video_folder.h"
-#include "dataset/video_name.h"
 #include "project/validate.h"
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"

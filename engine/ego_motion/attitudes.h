@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ego_motion/ego_motion.h"
+#include "ego_motion/rotation_fit.h"
 #include "ego_motion/settings.h"
-#include "ego_motion/tracks.h"
 
 namespace sigs {
 

@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "ego_motion/rotation_fit.h"
 #include "ego_motion/settings.h"
-#include "ego_motion/tracks.h"
 
 namespace sigs {
 

@@ -8,8 +8,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "ego_motion/ego_motion.h"
+#include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
-#include "ego_motion/tracks.h"
 
 namespace sigs {
 

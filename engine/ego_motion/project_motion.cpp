@@ -18,7 +18,7 @@
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"
 #include "telemetry/track.h"
-#include "video/luma_stream.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 

@@ -6,33 +6,54 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
-#include "ego_motion/tracks.h"
+#include "base/pose.h"
 
 namespace sigs {
 
-// Rotations as rotation vectors (axis times angle, radians) and back.
-// Murray, Li, Sastry: A Mathematical Introduction to Robotic Manipulation, section 2.2.
+// A feature seen in one frame.
+struct RayObservation {
+  int id = 0;      // the same for the same feature in all frames
+  glm::dvec3 ray;  // unit, in camera axes
+  double row = 0;  // where it is in the image: -0.5 at the first row, 0 in the middle, 0.5 at the last
+};
 
-// The rotation by |vector_rad| about the direction of the vector.
-[[nodiscard]] inline glm::dquat turn_of(const glm::dvec3& vector_rad) {
-  const double angle_rad = glm::length(vector_rad);
-  if (angle_rad < 1e-12) return {1, vector_rad.x / 2, vector_rad.y / 2, vector_rad.z / 2};
-  return glm::angleAxis(angle_rad, vector_rad / angle_rad);
-}
+// All features seen in one frame, by rising id.
+using FrameRays = std::vector<RayObservation>;
 
-// The rotation vector of a unit quaternion; its length is 0..pi.
-[[nodiscard]] inline glm::dvec3 vector_of(const glm::dquat& turn) {
-  const glm::dvec3 along(turn.x, turn.y, turn.z);
-  const double sine = glm::length(along);
-  const double sign = turn.w < 0 ? -1 : 1;
-  if (sine < 1e-12) return 2 * sign * along;
-  return along * (2 * sign * std::atan2(sine, std::abs(turn.w)) / sine);
-}
+// How the camera turns while a frame's rows are exposed, about its own axes: t after the middle row it has turned by
+// rate t + rate_change t^2 / 2 since then.
+struct ReadoutTurn {
+  glm::dvec3 rate_radps = glm::dvec3(0);
+  glm::dvec3 rate_change_radps2 = glm::dvec3(0);
 
-// The matrix of the cross product: cross_matrix(a) * b = a x b.
-[[nodiscard]] inline glm::dmat3 cross_matrix(const glm::dvec3& a) {
-  return {0, a.z, -a.y, -a.z, 0, a.x, a.y, -a.x, 0};
+  [[nodiscard]] glm::dvec3 after(double time_s) const {
+    return rate_radps * time_s + rate_change_radps2 * (time_s * time_s / 2);
+  }
+  ReadoutTurn& operator+=(const ReadoutTurn& more) {
+    rate_radps += more.rate_radps;
+    rate_change_radps2 += more.rate_change_radps2;
+    return *this;
+  }
+};
+
+// One feature seen in two frames.
+struct RayPair {
+  glm::dvec3 before;
+  glm::dvec3 after;
+};
+
+// The features that both frames have.
+[[nodiscard]] inline std::vector<RayPair> common_rays(const FrameRays& before, const FrameRays& after) {
+  std::vector<RayPair> pairs;
+  auto b = after.begin();
+  for (const RayObservation& a : before) {
+    while (b != after.end() && b->id < a.id) ++b;
+    if (b == after.end()) break;
+    if (b->id == a.id) pairs.push_back({a.ray, b->ray});
+  }
+  return pairs;
 }
 
 // Two unit vectors that span the plane orthogonal to a unit vector.

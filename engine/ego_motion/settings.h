@@ -4,11 +4,11 @@
 #include <functional>
 #include <optional>
 
-#include "base/interrupt.h"
+#include "base/threads.h"
 
 namespace sigs {
 
-// A function of this module that takes a CancelFlag (base/interrupt.h) ends within a fraction of a second once it is
+// A function of this module that takes a CancelFlag (base/threads.h) ends within a fraction of a second once it is
 // true, and what it returns then means nothing: who gave the flag has to look at it.
 
 // What a long step of the work takes: the flag, and whom to tell which share of the step is done, 0 to 1, on the

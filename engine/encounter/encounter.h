@@ -7,7 +7,6 @@
 
 #include "base/result.h"
 #include "encounter/encounter_track.h"
-#include "encounter/relative_motion.h"
 #include "encounter/well_clear.h"
 
 namespace sigs {

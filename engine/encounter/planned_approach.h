@@ -5,7 +5,6 @@
 #include <tl/expected.hpp>
 
 #include "encounter/encounter_track.h"
-#include "encounter/relative_motion.h"
 
 namespace sigs {
 

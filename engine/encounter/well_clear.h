@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/result.h"
-#include "encounter/relative_motion.h"
+#include "encounter/encounter_track.h"
 
 namespace sigs {
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parsing.h"
 #include "base/text.h"
 #include "base/xml_text.h"
 

@@ -7,7 +7,7 @@
 #include "base/xml_text.h"
 #include "encounter/encounter_report.h"
 #include "labels/label_files.h"
-#include "scene/encounter_tracks.h"
+#include "scene/flight.h"
 
 namespace sigs {
 

@@ -16,7 +16,7 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "export/export_files.h"
-#include "export/frame_pipeline.h"
+#include "export/frame_stream.h"
 #include "frame/compose_frame.h"
 #include "labels/labels.h"
 #include "scene/opened_project.h"

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "base/result.h"
-#include "frame/compose_context.h"
 #include "frame/composed_frame.h"
 #include "project/project.h"
-#include "scene/given_poses.h"
+#include "scene/posed_intruder.h"
 #include "scene/scene.h"
 #include "scene/scene_files.h"
 #include "video/frame_source.h"

@@ -18,7 +18,7 @@
 #include "scene/scene_at.h"
 #include "scene/scene_light.h"
 #include "telemetry/log_samples.h"
-#include "video/luma_stream.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 

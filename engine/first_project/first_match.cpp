@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "appearance/appearance.h"
-#include "appearance/project_hints.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "ego_motion/ego_motion.h"

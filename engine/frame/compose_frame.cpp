@@ -23,7 +23,7 @@
 #include "truth/measure.h"
 #include "video/color_space.h"
 #include "video/frame.h"
-#include "video/luma_stream.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 namespace {

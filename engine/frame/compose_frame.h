@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/result.h"
-#include "frame/compose_context.h"
 #include "frame/composed_frame.h"
 #include "frame/render_plan.h"
 #include "scene/scene.h"

@@ -11,7 +11,6 @@
 #include "camera/lens.h"
 #include "camera/lens_table.h"
 #include "compositor/codec_match.h"
-#include "frame/compose_context.h"
 #include "frame/composed_frame.h"
 #include "frame/render_plan.h"
 #include "scene/scene.h"

@@ -18,7 +18,6 @@
 #include "base/image.h"
 #include "base/image_codecs.h"
 #include "base/input_file.h"
-#include "base/parsing.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"

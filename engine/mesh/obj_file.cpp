@@ -13,7 +13,6 @@
 #include <sstream>
 #include <string_view>
 
-#include "base/parsing.h"
 #include "base/text.h"
 #include "base/threads.h"
 

@@ -9,7 +9,6 @@
 
 #include "base/ensure.h"
 #include "occlusion/detect.h"
-#include "occlusion/mask_geometry.h"
 
 namespace sigs {
 

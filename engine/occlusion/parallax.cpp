@@ -10,8 +10,8 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "base/ensure.h"
-#include "base/interrupt.h"
 #include "base/statistics.h"
+#include "base/threads.h"
 
 namespace sigs {
 

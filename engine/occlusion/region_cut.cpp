@@ -15,7 +15,7 @@
 #include "base/ensure.h"
 #include "base/image.h"
 #include "base/statistics.h"
-#include "occlusion/mask_geometry.h"
+#include "occlusion/detect.h"
 
 namespace sigs {
 namespace {

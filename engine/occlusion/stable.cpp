@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "occlusion/detect.h"
-#include "occlusion/mask_geometry.h"
 #include "occlusion/mean_frame.h"
 #include "occlusion/region_cut.h"
 #include "occlusion/stable_motion.h"

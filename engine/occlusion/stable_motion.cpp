@@ -8,7 +8,7 @@
 
 #include "base/ensure.h"
 #include "base/statistics.h"
-#include "occlusion/mask_geometry.h"
+#include "occlusion/detect.h"
 
 namespace sigs {
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "plot/axis.h"
 #include "plot/canvas.h"
 
 namespace sigs {

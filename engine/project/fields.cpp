@@ -10,8 +10,8 @@
 
 #include "base/nesting.h"
 #include "base/text.h"
+#include "project/json.h"
 #include "project/places.h"
-#include "project/renamed_keys.h"
 
 namespace sigs {
 

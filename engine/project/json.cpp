@@ -12,7 +12,6 @@
 #include "base/staged_outputs.h"
 #include "project/fields.h"
 #include "project/places.h"
-#include "project/renamed_keys.h"
 
 namespace sigs {
 

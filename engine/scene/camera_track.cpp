@@ -12,7 +12,7 @@
 #include "base/pose.h"
 #include "project/places.h"
 #include "scene/scene_at.h"
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
 #include "telemetry/log_samples.h"
 #include "telemetry/track_report.h"
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/interrupt.h"
 #include "base/result.h"
+#include "base/threads.h"
 #include "project/project.h"
 #include "scene/scene.h"
 #include "scene/scene_files.h"

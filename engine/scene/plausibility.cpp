@@ -11,7 +11,7 @@
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 #include "scene/visibility.h"
-#include "spline/conditioning.h"
+#include "spline/trajectory.h"
 
 namespace sigs {
 

@@ -31,7 +31,7 @@ inline constexpr double kMinAircraft_m = 0.1;
 [[nodiscard]] std::vector<Problem> plausibility_issues(const Project& project, const Scene& scene);
 
 // Condition number of the interpolation through the intruder's waypoints over the scene's range of frames
-// (spline/conditioning.h): large where neighbouring legs last very differently long. None for an approximating
+// (spline/trajectory.h): large where neighbouring legs last very differently long. None for an approximating
 // spline, whose shape does not depend on times. The waypoints must make a trajectory.
 //   intruder  index in project.intruders
 [[nodiscard]] std::optional<double> path_condition(const Project& project, std::size_t intruder, const Scene& scene);

@@ -20,7 +20,6 @@
 #include "base/image.h"
 #include "base/image_file.h"
 #include "base/input_file.h"
-#include "base/parsing.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"

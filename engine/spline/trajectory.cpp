@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "spline/trajectory.h"
-
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -13,7 +14,7 @@
 #include "base/ensure.h"
 #include "spline/attitude.h"
 #include "spline/constant_speed.h"
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
 
 namespace sigs {
 
@@ -99,6 +100,133 @@ Pose<frame::World, frame::Body> Trajectory::world_from_body(double time_s) const
   const Motion motion = motion_at(path_->timed_curve, time_s);
   if (const auto* const always = std::get_if<glm::dquat>(&path_->attitude)) return {*always, motion.position_m};
   return {std::get<AttitudeTable>(path_->attitude).world_from_body(time_s, motion.velocity_mps), motion.position_m};
+}
+
+namespace {
+
+constexpr int kMoments = 16;                 // of a leg at which the magnitudes are summed
+constexpr int kOvershootSamples = 64;        // of a leg at which its distance from the straight line is measured
+constexpr double kMinOvershootShare = 0.01;  // of the longest leg: a smaller overshoot does not count
+
+// Number of waypoints after which a cardinal function's acceleration is negligible: it at least halves from one to the
+// next, so 2^-96. The acceleration itself may be 1e20 times larger where a leg is that much shorter than another,
+// squared.
+constexpr std::size_t kInfluence = 96;
+
+// The rows of interpolating_spline(), eliminated once and solved for many right sides that are nearly all zero.
+class CardinalFunctions {
+ public:
+  explicit CardinalFunctions(std::span<const TimedWaypoint> waypoints) {
+    for (std::size_t i = 0; i + 1 < waypoints.size(); ++i)
+      durations_s_.push_back(waypoints[i + 1].time_s - waypoints[i].time_s);
+    after_.assign(waypoints.size(), 0.0);
+    for (std::size_t i = 1; i < durations_s_.size(); ++i) after_[i] = share_after(i) / pivot(i);
+  }
+
+  // The sum over all of them of their magnitudes at the moments of each leg.
+  [[nodiscard]] std::vector<std::array<double, kMoments>> sums_of_magnitudes() const {
+    std::vector<std::array<double, kMoments>> sums(durations_s_.size());
+    for (std::size_t waypoint = 0; waypoint <= durations_s_.size(); ++waypoint) add_magnitudes(waypoint, sums);
+    return sums;
+  }
+
+ private:
+  [[nodiscard]] std::size_t last() const { return durations_s_.size(); }
+  [[nodiscard]] double both_s(std::size_t i) const { return durations_s_[i - 1] + durations_s_[i]; }
+  [[nodiscard]] double share_before(std::size_t i) const { return durations_s_[i - 1] / both_s(i); }
+  [[nodiscard]] double share_after(std::size_t i) const { return durations_s_[i] / both_s(i); }
+  [[nodiscard]] double pivot(std::size_t i) const { return 2 - share_before(i) * after_[i - 1]; }
+
+  // Right side of row i for the function that is 1 at `waypoint` and 0 at the others.
+  [[nodiscard]] double right(std::size_t i, std::size_t waypoint) const {
+    if (i == 0 || i == last()) return 0;
+    const double before = 1 / durations_s_[i - 1];
+    const double after = 1 / durations_s_[i];
+    if (waypoint + 1 == i) return 6 * before / both_s(i);
+    if (waypoint == i + 1) return 6 * after / both_s(i);
+    return waypoint == i ? -6 * (before + after) / both_s(i) : 0.0;
+  }
+
+  void add_magnitudes(std::size_t waypoint, std::vector<std::array<double, kMoments>>& sums) const {
+    const std::size_t first = waypoint > kInfluence ? waypoint - kInfluence : 0;
+    const std::size_t end = std::min(waypoint + kInfluence, last());
+    std::vector<double> a(end - first + 1, 0.0);  // accelerations at the waypoints from `first` on
+    for (std::size_t i = std::max<std::size_t>(first, 1); i <= end && i < last(); ++i) {
+      const double before = i > first ? a[i - first - 1] : 0.0;
+      a[i - first] = (right(i, waypoint) - share_before(i) * before) / pivot(i);
+    }
+    for (std::size_t i = end; i-- > first;) a[i - first] -= after_[i] * a[i - first + 1];
+    for (std::size_t leg = first; leg < end; ++leg) {
+      const double from = leg == waypoint ? 1.0 : 0.0;
+      const double to = leg + 1 == waypoint ? 1.0 : 0.0;
+      const double bow = durations_s_[leg] * durations_s_[leg] / 6;
+      for (int m = 0; m < kMoments; ++m) {
+        const double u = (m + 0.5) / kMoments;
+        const double w = 1 - u;
+        sums[leg][static_cast<std::size_t>(m)] += std::abs(
+            w * from + u * to - bow * ((w - w * w * w) * a[leg - first] + (u - u * u * u) * a[leg - first + 1]));
+      }
+    }
+  }
+
+  std::vector<double> durations_s_;
+  std::vector<double> after_;
+};
+
+double distance_to_segment_m(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 way = b - a;
+  const double squared = dot(way, way);
+  const double share = squared > 0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0.0;
+  return distance(p, a + share * way);
+}
+
+// Upper bound: a curve leaves its chord by an eighth of the greatest acceleration times the duration squared at most.
+double max_overshoot_m(const PiecewiseCubic& curve, const TimedWaypoint& from, const TimedWaypoint& to) {
+  const double duration_s = to.time_s - from.time_s;
+  const double max_mps2 = std::max(length(curve.motion_at(from.time_s).acceleration_mps2),
+                                   length(curve.motion_at(to.time_s).acceleration_mps2));
+  return max_mps2 * duration_s * duration_s / 8;
+}
+
+double overshoot_m_of(const PiecewiseCubic& curve, const TimedWaypoint& from, const TimedWaypoint& to) {
+  double farthest_m = 0;
+  for (int i = 1; i < kOvershootSamples; ++i) {
+    const double time_s = from.time_s + (to.time_s - from.time_s) * i / kOvershootSamples;
+    const glm::dvec3 p_m = curve.motion_at(time_s).position_m;
+    farthest_m = std::max(farthest_m, distance_to_segment_m(p_m, from.position_m, to.position_m));
+  }
+  return farthest_m;
+}
+
+}  // namespace
+
+double interpolation_condition(std::span<const TimedWaypoint> waypoints) {
+  ENSURE(!waypoints.empty());
+  double condition = 1;  // at a waypoint its own function is 1 and all others are 0
+  for (const std::array<double, kMoments>& leg : CardinalFunctions(waypoints).sums_of_magnitudes())
+    condition = std::max(condition, *std::max_element(leg.begin(), leg.end()));
+  return condition;
+}
+
+std::vector<Overshoot> overshoots_of(std::span<const TimedWaypoint> waypoints) {
+  const PiecewiseCubic curve = interpolating_spline(waypoints);
+  std::vector<double> lengths_m;
+  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i)
+    lengths_m.push_back(distance(waypoints[i].position_m, waypoints[i + 1].position_m));
+  const double min_overshoot_m =
+      lengths_m.empty() ? 0 : kMinOvershootShare * *std::max_element(lengths_m.begin(), lengths_m.end());
+  std::vector<Overshoot> overshoots;
+  for (std::size_t leg = 0; leg < lengths_m.size(); ++leg) {
+    const std::size_t first = leg > 0 ? leg - 1 : 0;
+    const std::size_t end = std::min(leg + 2, lengths_m.size());
+    const double max_leg_m = *std::max_element(lengths_m.begin() + static_cast<std::ptrdiff_t>(first),
+                                               lengths_m.begin() + static_cast<std::ptrdiff_t>(end));
+    const double limit_m = std::max(max_leg_m, min_overshoot_m);
+    if (max_overshoot_m(curve, waypoints[leg], waypoints[leg + 1]) <= limit_m) continue;
+    const double overshoot_m = overshoot_m_of(curve, waypoints[leg], waypoints[leg + 1]);
+    if (overshoot_m > limit_m) overshoots.push_back({leg, overshoot_m, max_leg_m});
+  }
+  return overshoots;
 }
 
 }  // namespace sigs

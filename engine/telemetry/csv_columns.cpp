@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/csv_columns.h"
+#include "telemetry/track_csv.h"
 
 #include <cmath>
 #include <map>

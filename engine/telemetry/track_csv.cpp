@@ -12,9 +12,7 @@
 
 #include "base/csv.h"
 #include "base/input_file.h"
-#include "base/parsing.h"
 #include "base/text.h"
-#include "telemetry/csv_columns.h"
 #include "telemetry/log_samples.h"
 #include "telemetry/track.h"
 

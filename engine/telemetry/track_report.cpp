@@ -16,9 +16,9 @@
 #include "base/text.h"
 #include "geo/geodetic.h"
 #include "plot/plot.h"
-#include "telemetry/csv_columns.h"
 #include "telemetry/log_samples.h"
 #include "telemetry/track.h"
+#include "telemetry/track_csv.h"
 
 namespace sigs {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "base/ensure.h"
-#include "video/bit_depth.h"
+#include "video/frame.h"
 
 namespace sigs {
 namespace {

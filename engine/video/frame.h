@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <utility>
 
 namespace sigs {
 
@@ -47,7 +48,7 @@ struct ColorInfo {
 
 // One image of the footage in its own planes. Unused planes are empty.
 //   bit_depth  of the samples, 8 to 16 (usual are 8, 10, 12 and 16). Of 8 bits planes are CV_8UC1; else CV_16UC1 with
-//              codes from 0 to 2^bit_depth - 1 (video/bit_depth.h)
+//              codes from 0 to 2^bit_depth - 1
 struct Frame {
   PixelLayout layout = PixelLayout::yuv420;
   int bit_depth = 8;
@@ -94,5 +95,42 @@ struct CodeToRgb {
 // The reverse: a BGR image of 8 (CV_8UC3) or 16 bits (CV_16UC3) as a frame, chroma averaged at its site
 // (shrunk_chroma), codes rounded.
 [[nodiscard]] Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& color, int bit_depth = 8);
+
+// How many bits the samples of a frame have, 8 to 16, and what follows from that.
+
+// The highest code value: 255 for 8 bits, 1023 for 10.
+[[nodiscard]] constexpr int max_code(int bit_depth) {
+  return (1 << bit_depth) - 1;
+}
+
+// How many codes of this depth one step of 8 bits is, in limited range: 1 for 8 bits, 4 for 10 (H.273, equations 20 to
+// 25).
+[[nodiscard]] constexpr int codes_per_8_bit_step(int bit_depth) {
+  return 1 << (bit_depth - 8);
+}
+
+// OpenCV's type of a plane: CV_8UC1 for 8 bits, else CV_16UC1.
+[[nodiscard]] constexpr int plane_type(int bit_depth) {
+  return bit_depth > 8 ? CV_16UC1 : CV_8UC1;
+}
+
+// Calls work with a sample (0) of the type that planes of this depth have, uchar or ushort, and gives back its result:
+//   with_sample_type(frame.bit_depth, [&](auto sample) { using Sample = decltype(sample); ... });
+template <class Work>
+decltype(auto) with_sample_type(int bit_depth, Work&& work) {
+  if (bit_depth > 8) return std::forward<Work>(work)(ushort{0});
+  return std::forward<Work>(work)(uchar{0});
+}
+
+// The sample at a place of a plane.
+[[nodiscard]] inline int sample_at(const cv::Mat& plane, int y, int x) {
+  return plane.depth() == CV_8U ? int{plane.at<uchar>(y, x)} : int{plane.at<ushort>(y, x)};
+}
+
+// The frame with another depth, each sample rounded to the nearest code of the same meaning. Limited range: codes times
+// a power of two. Full range and RGB: 0 to the highest code, chroma about its own middle. A frame that has the depth
+// already is returned with its samples shared. For what reads 8 bits (measurements of the footage, trackers), and for
+// codecs that do not have the footage's depth.
+[[nodiscard]] Frame with_bit_depth(const Frame& frame, int bit_depth);
 
 }  // namespace sigs

@@ -18,7 +18,6 @@ extern "C" {
 
 #include "base/input_file.h"
 #include "base/numbered_files.h"
-#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/statistics.h"
 #include "base/text.h"

@@ -20,7 +20,7 @@
 #include "base/output_stream.h"
 #include "base/result.h"
 #include "base/threads.h"
-#include "video/bit_depth.h"
+#include "video/frame.h"
 #include "video/libav/video_file.h"
 
 namespace sigs {

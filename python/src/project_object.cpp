@@ -12,7 +12,6 @@
 #include "project/fields.h"
 #include "project/json.h"
 #include "project/places.h"
-#include "project/renamed_keys.h"
 #include "project/validate.h"
 
 namespace sigs::python {

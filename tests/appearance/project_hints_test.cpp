@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "appearance/project_hints.h"
+#include "appearance/appearance.h"
 
 #include <doctest/doctest.h>
 

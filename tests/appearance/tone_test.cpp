@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "appearance/tone.h"
+#include "appearance/surroundings.h"
 
 #include <doctest/doctest.h>
 

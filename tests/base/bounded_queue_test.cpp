@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/bounded_queue.h"
+#include "base/threads.h"
 
 using namespace sigs;
 

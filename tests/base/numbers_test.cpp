@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "base/interpolation.h"
-#include "base/parsing.h"
 #include "base/pose.h"
 #include "base/random.h"
+#include "base/text.h"
 #include "base/transfer.h"
 
 using namespace sigs;

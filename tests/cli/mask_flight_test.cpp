@@ -11,7 +11,7 @@
 #include "cli/program.h"
 #include "docs/markdown.h"
 #include "flights/flights.h"
-#include "occlusion/mask_geometry.h"
+#include "occlusion/detect.h"
 #include "support/test_data.h"
 #include "video/video_writer.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "comparison/measured_target.h"
+#include "comparison/inserted_target.h"
 
 #include <doctest/doctest.h>
 

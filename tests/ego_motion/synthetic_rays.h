@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
-#include "ego_motion/tracks.h"
 
 namespace sigs::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "encounter/relative_motion.h"
+#include "encounter/encounter_track.h"
 
 #include <doctest/doctest.h>
 

@@ -11,7 +11,7 @@
 #include "evaluation/reports/report_files.h"
 #include "evaluation/synthetic_report.h"
 #include "labels/label_text.h"
-#include "plot/axis.h"
+#include "plot/canvas.h"
 
 namespace sigs::test {
 namespace {

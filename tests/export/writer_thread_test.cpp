@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/writer_thread.h"
+#include "export/export_files.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "export/export_files.h"
 #include "frame/synthetic_scenes.h"
 
 namespace sigs::test {

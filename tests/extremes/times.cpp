@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "extremes/validity.h"
-#include "spline/conditioning.h"
 #include "spline/flights.h"
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
+#include "spline/trajectory.h"
 
 namespace sigs::test {
 namespace {

@@ -10,7 +10,7 @@
 #include "frame/synthetic_scenes.h"
 #include "scene/opened_project.h"
 #include "support/files.h"
-#include "video/bit_depth.h"
+#include "video/frame.h"
 
 namespace sigs::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "occlusion/mask_geometry.h"
+#include "occlusion/detect.h"
 
 #include <doctest/doctest.h>
 

@@ -12,7 +12,6 @@
 
 #include "flights/flights.h"
 #include "occlusion/detect.h"
-#include "occlusion/mask_geometry.h"
 #include "occlusion/synthetic_masks.h"
 
 namespace sigs::test {

@@ -4,7 +4,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "occlusion/detect.h"
-#include "occlusion/mask_geometry.h"
 
 namespace {
 

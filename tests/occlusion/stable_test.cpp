@@ -8,7 +8,6 @@
 #include <string>
 
 #include "flights/flights.h"
-#include "occlusion/mask_geometry.h"
 #include "occlusion/synthetic_clip.h"
 #include "support/test_data.h"
 #include "video/clips.h"

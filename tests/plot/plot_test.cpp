@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plot/axis.h"
+#include "plot/canvas.h"
 
 #include <doctest/doctest.h>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "project/renamed_keys.h"
+#include "project/json.h"
 
 #include <doctest/doctest.h>
 #include <algorithm>
 
 #include "project/fields.h"
-#include "project/json.h"
 
 using namespace sigs;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The smaller levels of textures, read back from the driver, against their definition and against the driver's own.
 
-#include "render/mipmaps.h"
+#include "render/gpu_mesh.h"
 
 #include <doctest/doctest.h>
 #include <epoxy/gl.h>

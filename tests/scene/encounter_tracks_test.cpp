@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/encounter_tracks.h"
+#include "scene/flight.h"
 
 #include <doctest/doctest.h>
 

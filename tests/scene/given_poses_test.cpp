@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/given_poses.h"
+#include "scene/posed_intruder.h"
 
 #include <doctest/doctest.h>
 

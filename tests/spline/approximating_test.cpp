@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "flights.h"
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
 
 namespace sigs {
 

@@ -7,7 +7,7 @@
 
 #include "flights.h"
 #include "spline/constant_speed.h"
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
 
 namespace sigs {
 

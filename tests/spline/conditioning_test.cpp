@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "flights.h"
-#include "spline/conditioning.h"
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
+#include "spline/trajectory.h"
 
 namespace sigs::test {
 namespace {

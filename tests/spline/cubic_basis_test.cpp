@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <cmath>
 
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
 
 namespace sigs {
 

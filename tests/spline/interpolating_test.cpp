@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "flights.h"
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
 
 namespace sigs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "video/bit_depth.h"
+#include "video/frame.h"
 
 #include <doctest/doctest.h>
 

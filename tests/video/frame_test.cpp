@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "video/clips.h"
-#include "video/luma_stream.h"
+#include "video/frame_source.h"
 
 using namespace sigs;
 using namespace sigs::test;

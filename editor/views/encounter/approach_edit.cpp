@@ -9,7 +9,7 @@
 #include "editor/document/waypoint_edits.h"
 #include "editor/views/waypoint_actions.h"
 #include "project/places.h"
-#include "scene/encounter_tracks.h"
+#include "scene/flight.h"
 #include "scene/scene_parts.h"
 
 namespace sigs::editor {

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "base/numbered_files.h"
-#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "editor/document/project_paths.h"

@@ -6,7 +6,7 @@
 #include "base/paths.h"
 #include "editor/document/field_edits.h"
 #include "editor/document/project_paths.h"
-#include "occlusion/mask_geometry.h"
+#include "occlusion/detect.h"
 #include "scene/scene_files.h"
 
 namespace sigs::editor {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "editor/preview/preview_output.h"
-#include "scene/encounter_tracks.h"
+#include "scene/flight.h"
 #include "scene/scene_light.h"
 
 namespace sigs::editor {

@@ -10,7 +10,6 @@
 #include <pugixml.hpp>
 #include <utility>
 
-#include "base/parsing.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "evaluation/readers/text_parsing.h"

@@ -9,7 +9,6 @@
 
 #include "base/csv.h"
 #include "base/input_file.h"
-#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "evaluation/readers/results_formats.h"

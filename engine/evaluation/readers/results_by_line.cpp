@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/csv.h"
-#include "base/parsing.h"
 #include "base/text.h"
 #include "evaluation/readers/results_formats.h"
 #include "evaluation/readers/text_parsing.h"

@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "base/input_file.h"
-#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "evaluation/readers/results_formats.h"

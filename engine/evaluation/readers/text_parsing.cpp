@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parsing.h"
 #include "base/text.h"
 
 namespace sigs {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/input_file.h"
-#include "base/parsing.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "evaluation/readers/results_formats.h"

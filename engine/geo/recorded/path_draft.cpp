@@ -10,7 +10,6 @@
 #include <tuple>
 #include <utility>
 
-#include "base/parsing.h"
 #include "base/text.h"
 #include "base/xml_text.h"
 #include "geo/utc_time.h"

@@ -13,10 +13,10 @@ extern "C" {
 
 #include "base/ensure.h"
 #include "base/text.h"
-#include "video/bit_depth.h"
 #include "video/chroma.h"
-#include "video/libav/color_tags.h"
+#include "video/frame.h"
 #include "video/libav/planes.h"
+#include "video/libav/stream_info.h"
 
 namespace sigs::libav {
 namespace {

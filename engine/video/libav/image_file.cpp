@@ -16,7 +16,6 @@ extern "C" {
 #include "base/image.h"
 #include "base/image_file.h"
 #include "base/input_file.h"
-#include "video/libav/color_tags.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/planes.h"
 #include "video/libav/stream_info.h"

@@ -18,8 +18,8 @@ extern "C" {
 }
 
 #include "base/ensure.h"
-#include "video/bit_depth.h"
 #include "video/chroma.h"
+#include "video/frame.h"
 
 namespace sigs::libav {
 namespace {

@@ -9,9 +9,9 @@
 #include "editor/views/view_fixture.h"
 #include "encounter/encounter.h"
 #include "project/places.h"
-#include "scene/encounter_tracks.h"
+#include "scene/flight.h"
 #include "scene/scene_parts.h"
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
 
 using namespace sigs;
 using namespace sigs::editor;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/mask_fixture.h"
 
-#include "occlusion/mask_geometry.h"
+#include "occlusion/detect.h"
 
 using namespace sigs;
 using namespace sigs::editor;

@@ -10,7 +10,7 @@
 #include "editor/views/view_fixture.h"
 #include "editor/views/world/picks.h"
 #include "scene/scene_parts.h"
-#include "spline/splines.h"
+#include "spline/piecewise_cubic.h"
 
 using namespace sigs;
 using namespace sigs::editor;
