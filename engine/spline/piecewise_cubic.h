@@ -22,7 +22,7 @@ struct Motion {
 using CubicPiece = std::array<glm::dvec3, 4>;
 
 // A curve in the world that consists of cubic pieces, each over its own interval of time. Both kinds of spline
-// (splines.h) give one. Each piece counts its time and position from its own beginning, so that no digits are lost far
+// (below) give one. Each piece counts its time and position from its own beginning, so that no digits are lost far
 // from the origin. Before the first and after the last knot the curve goes on as a straight line.
 class PiecewiseCubic {
  public:
