@@ -24,21 +24,21 @@ using Row = std::vector<std::string>;
 // take half or twice as much.
 double bytes_a_pixel(const ExportSettings& output) {
   switch (output.codec) {
-    case CodecChoice::ffv1:
+    case VideoCodec::ffv1:
       return 0.38;
-    case CodecChoice::h264:
+    case VideoCodec::h264:
       return 0.017;
-    case CodecChoice::hevc:
-    case CodecChoice::av1:
+    case VideoCodec::hevc:
+    case VideoCodec::av1:
       return 0.012;
-    case CodecChoice::mjpeg:
+    case VideoCodec::mjpeg:
       return 0.13;
-    case CodecChoice::png:
-    case CodecChoice::tiff:
+    case VideoCodec::png:
+    case VideoCodec::tiff:
       return 1.2;
-    case CodecChoice::jpeg:
+    case VideoCodec::jpeg:
       return 0.15;
-    case CodecChoice::raw:
+    case VideoCodec::raw:
       return 1.5;
   }
   return 1;

@@ -142,7 +142,7 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
   if (codec_alone) project->output.container = ContainerChoice::automatic;
   // y4m holds nothing else.
   if (given(options, "export.video.container") == "y4m" && given(options, "export.video.codec").empty())
-    project->output.codec = CodecChoice::raw;
+    project->output.codec = VideoCodec::raw;
   if (const Result<void> set = set_options(*project, options); !set) return fail(set.error());
   if (is_stream(options))
     if (const Result<void> stream = prepare_for_stream(*project, options); !stream) return fail(stream.error());

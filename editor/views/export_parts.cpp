@@ -143,7 +143,7 @@ void draw_video_choices(const ViewContext& context) {
       // A container that was chosen for another codec may not hold this one.
       if (p.output.codec != codec) p.output.container = ContainerChoice::automatic;
       p.output.codec = codec;
-      if (const int worst = max_crf(video_codec_of(codec)); worst > 0) p.output.crf = std::min(p.output.crf, worst);
+      if (const int worst = max_crf(codec); worst > 0) p.output.crf = std::min(p.output.crf, worst);
     });
   ImGui::SameLine();
   ImGui::BeginDisabled(writes_images(output.codec));
@@ -155,8 +155,8 @@ void draw_video_choices(const ViewContext& context) {
 
 void draw_quality(const ViewContext& context) {
   ExportSettings output = context.project().output;
-  const int worst = max_crf(video_codec_of(output.codec));
-  const bool is_jpeg = output.codec == CodecChoice::jpeg;
+  const int worst = max_crf(output.codec);
+  const bool is_jpeg = output.codec == VideoCodec::jpeg;
   begin_setting(label_of(is_jpeg ? "export.video.quality" : "export.video.crf").c_str());
   ImGui::SetNextItemWidth(scaled(210));
   ImGui::BeginDisabled(worst == 0 && !is_jpeg);

@@ -175,8 +175,8 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& reci
   values.merge(planned->derived);
   for (const auto& [name, value] : values) video.sampled[flyer.prefix + name] = value;
   if (planned->waypoints.size() > 2) {  // a drawn or recorded flight passes its waypoints
-    intruder.trajectory.spline = SplineChoice::interpolating;
-    intruder.trajectory.timing = TimingChoice::frames;
+    intruder.trajectory.spline = SplineKind::interpolating;
+    intruder.trajectory.timing = Timing::frames;
   }
   intruder.trajectory.waypoints = std::move(planned->waypoints);
   video.project.intruders.push_back(std::move(intruder));

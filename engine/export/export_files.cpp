@@ -118,7 +118,7 @@ int encoder_threads() {
 }
 
 VideoFormat video_format(const ExportSettings& output, const VideoInfo& footage, int threads) {
-  return {.codec = video_codec_of(output.codec),
+  return {.codec = output.codec,
           .container = container_of(output, footage),
           .jpeg_quality = output.jpeg_quality,
           .crf = output.crf,
@@ -160,19 +160,18 @@ Frame frame_of_mask(cv::Mat mask, double time_s) {
 LabelSequence label_sequence(const Project& project, const VideoInfo& footage, const Scene& scene,
                              const FrameRange& range, const std::string& output) {
   const bool has_images = writes_images(project.output.codec);
-  LabelSequence sequence{
-      .name = project.name,
-      .footage = footage_truth(footage, range),
-      .categories = categories_of(project),
-      .video = has_images ? std::string() : output,
-      .channels = footage.layout == PixelLayout::gray ? 1 : 3,
-      .image_extension = has_images ? image_extension_of(video_codec_of(project.output.codec)) : ".png",
-      .images = project.name,
-      .own_body = scene.own_body,
-      .camera = scene.camera,
-      .thresholds = {.min_pixels = project.output.label_min_pixels,
-                     .min_visible_fraction = project.output.label_min_visible_fraction},
-      .volumes = project.output.encounter};
+  LabelSequence sequence{.name = project.name,
+                         .footage = footage_truth(footage, range),
+                         .categories = categories_of(project),
+                         .video = has_images ? std::string() : output,
+                         .channels = footage.layout == PixelLayout::gray ? 1 : 3,
+                         .image_extension = has_images ? image_extension_of(project.output.codec) : ".png",
+                         .images = project.name,
+                         .own_body = scene.own_body,
+                         .camera = scene.camera,
+                         .thresholds = {.min_pixels = project.output.label_min_pixels,
+                                        .min_visible_fraction = project.output.label_min_visible_fraction},
+                         .volumes = project.output.encounter};
   for (std::size_t i = 0; i < scene.intruders.size(); ++i)
     sequence.intruders.push_back({.id = static_cast<int>(i),
                                   .name = scene.intruders[i].name,

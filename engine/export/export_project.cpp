@@ -110,7 +110,7 @@ void warn_of_missing_images(const ExportSettings& output, const ExportControl& c
 void warn_of_other_container(const Project& project, const VideoInfo& footage, const ExportControl& control,
                              ExportReport& report) {
   const ExportSettings& output = project.output;
-  if (output.codec != CodecChoice::mjpeg || output.container != ContainerChoice::automatic) return;
+  if (output.codec != VideoCodec::mjpeg || output.container != ContainerChoice::automatic) return;
   if (container_of(output, footage) == Container::mkv)
     say(control, report,
         {project.file.string() + ": export.video.container",
@@ -192,13 +192,13 @@ Container container_of(const ExportSettings& output, const VideoInfo& footage) {
       break;
   }
   switch (output.codec) {
-    case CodecChoice::h264:
-    case CodecChoice::hevc:
-    case CodecChoice::av1:
+    case VideoCodec::h264:
+    case VideoCodec::hevc:
+    case VideoCodec::av1:
       return Container::mp4;
-    case CodecChoice::mjpeg:
+    case VideoCodec::mjpeg:
       return has_even_times(footage) ? Container::avi : Container::mkv;
-    case CodecChoice::raw:
+    case VideoCodec::raw:
       return Container::nut;
     default:
       return Container::mkv;
@@ -222,7 +222,7 @@ Result<void> check_output(const Project& project, const VideoInfo& footage) {
   const cv::Size size = footage.size_px;
   const bool odd = size.width % 2 != 0 || size.height % 2 != 0;
   const bool shares_chroma = footage.layout != PixelLayout::yuv444 && footage.layout != PixelLayout::rgb;
-  const VideoCodec codec = video_codec_of(project.output.codec);
+  const VideoCodec codec = project.output.codec;
   if ((codec == VideoCodec::h264 || codec == VideoCodec::hevc) && odd && shares_chroma)
     return fail(project.file.string() + ": export.video.codec",
                 fmt::format("{} needs an even width and height, the footage is {}; use ffv1, av1, mjpeg or png",

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "base/pose.h"
+#include "spline/trajectory.h"
+#include "video/video_writer.h"
 
 namespace sigs {
 
@@ -186,16 +188,11 @@ struct WaypointSettings {
   [[nodiscard]] bool operator==(const WaypointSettings&) const = default;
 };
 
-// What the trajectory is made of; spline/trajectory.h says what each choice means.
-enum class SplineChoice { interpolating, approximating };
-enum class TimingChoice { frames, constant_speed };
-enum class BankChoice { coordinated, level };
-
 // The flight of an intruder, as it is planned: spline/trajectory.h computes the trajectory from it.
 struct TrajectoryPlan {
-  SplineChoice spline = SplineChoice::interpolating;
-  TimingChoice timing = TimingChoice::frames;
-  BankChoice bank = BankChoice::coordinated;
+  SplineKind spline = SplineKind::interpolating;
+  Timing timing = Timing::frames;
+  Bank bank = Bank::coordinated;
   double bank_limit_deg = 60;
   std::vector<WaypointSettings> waypoints;
 
@@ -298,7 +295,6 @@ struct AppearanceSettings {
 };
 
 // Formats of the exported video and masks; automatic: the container that suits the codec.
-enum class CodecChoice { ffv1, h264, hevc, av1, mjpeg, png, tiff, jpeg, raw };
 enum class ContainerChoice { automatic, mkv, mp4, avi, nut, y4m };
 enum class MasksChoice { none, video, png };
 
@@ -317,7 +313,7 @@ inline constexpr auto kWellClearNames =
 // of more bits are rounded to this many. The two thresholds leave out labels of intruders with fewer visible pixels, or
 // a smaller visible share.
 struct ExportSettings {
-  CodecChoice codec = CodecChoice::ffv1;
+  VideoCodec codec = VideoCodec::ffv1;
   ContainerChoice container = ContainerChoice::automatic;
   int crf = 18;
   int jpeg_quality = 95;  // 1 to 100
@@ -331,11 +327,6 @@ struct ExportSettings {
 
   [[nodiscard]] bool operator==(const ExportSettings&) const = default;
 };
-
-// Whether a codec writes a folder of images, one for each frame, instead of a video.
-[[nodiscard]] constexpr bool writes_images(CodecChoice codec) {
-  return codec == CodecChoice::png || codec == CodecChoice::tiff || codec == CodecChoice::jpeg;
-}
 
 // A whole project file.
 struct Project {

@@ -125,22 +125,22 @@ void check_frames(const FootageSettings& footage, Problems& problems) {
 
 void check_output(const ExportSettings& output, Problems& problems) {
   const ContainerChoice container = output.container;
-  if (output.codec == CodecChoice::ffv1 && container == ContainerChoice::mp4)
+  if (output.codec == VideoCodec::ffv1 && container == ContainerChoice::mp4)
     problems.push_back({"export.video.container", "mp4 cannot hold ffv1; use mkv or avi"});
-  const bool is_hevc = output.codec == CodecChoice::hevc;
-  if ((is_hevc || output.codec == CodecChoice::av1) && container == ContainerChoice::avi)
+  const bool is_hevc = output.codec == VideoCodec::hevc;
+  if ((is_hevc || output.codec == VideoCodec::av1) && container == ContainerChoice::avi)
     problems.push_back(
         {"export.video.container", fmt::format("avi cannot hold {}; use mp4 or mkv", is_hevc ? "hevc" : "av1")});
-  if ((is_hevc || output.codec == CodecChoice::h264) && output.crf > 51)
+  if ((is_hevc || output.codec == VideoCodec::h264) && output.crf > 51)
     problems.push_back({"export.video.crf", fmt::format("is {}; of h264 and hevc 51 is the worst", output.crf)});
   if (writes_images(output.codec) && container != ContainerChoice::automatic)
     problems.push_back(
         {"export.video.container", "png, tiff and jpeg write numbered images, not a container; use auto"});
-  if (container == ContainerChoice::y4m && output.codec != CodecChoice::raw)
+  if (container == ContainerChoice::y4m && output.codec != VideoCodec::raw)
     problems.push_back({"export.video.container", "y4m holds uncompressed video alone; use the codec raw"});
   const bool holds_raw =
       container == ContainerChoice::automatic || container == ContainerChoice::nut || container == ContainerChoice::y4m;
-  if (output.codec == CodecChoice::raw && !holds_raw)
+  if (output.codec == VideoCodec::raw && !holds_raw)
     problems.push_back({"export.video.container", "raw goes into nut or y4m; use one of them or auto"});
 }
 

@@ -117,30 +117,6 @@ std::vector<Warning> warnings_of(const VideoInfo& video) {
   return warnings;
 }
 
-VideoCodec video_codec_of(CodecChoice choice) {
-  switch (choice) {
-    case CodecChoice::ffv1:
-      return VideoCodec::ffv1;
-    case CodecChoice::h264:
-      return VideoCodec::h264;
-    case CodecChoice::hevc:
-      return VideoCodec::hevc;
-    case CodecChoice::av1:
-      return VideoCodec::av1;
-    case CodecChoice::mjpeg:
-      return VideoCodec::mjpeg;
-    case CodecChoice::png:
-      return VideoCodec::png;
-    case CodecChoice::tiff:
-      return VideoCodec::tiff;
-    case CodecChoice::jpeg:
-      return VideoCodec::jpeg;
-    case CodecChoice::raw:
-      return VideoCodec::raw;
-  }
-  return VideoCodec::ffv1;
-}
-
 namespace {
 
 std::string codecs_of_depth(int bit_depth) {
@@ -158,7 +134,7 @@ std::vector<Warning> depth_warnings_of(const Project& project, const VideoInfo& 
     warnings.push_back({project.file.string() + ": " + field, std::move(what)});
   };
   const int depth = std::min(video.bit_depth, project.output.max_bit_depth);
-  const VideoCodec codec = video_codec_of(project.output.codec);
+  const VideoCodec codec = project.output.codec;
   if (depth > max_bit_depth(codec))
     warn("export.video.codec",
          fmt::format("{} has {} bits a sample at most, the footage {}: all samples are rounded; "

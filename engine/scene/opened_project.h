@@ -66,9 +66,6 @@ struct OpenedProject {
 [[nodiscard]] std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
                                                const std::vector<Visibility>& visibilities);
 
-// The codec that an export writes.
-[[nodiscard]] VideoCodec video_codec_of(CodecChoice choice);
-
 // What becomes of the footage's coding: that the codec match has to do with a default quantiser, as neither the footage
 // nor the project states one; of footage of more than 8 bits, what rounds its samples, and that there is no codec
 // match.

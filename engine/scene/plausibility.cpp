@@ -127,7 +127,7 @@ void check_flight(const Scene& scene, const SceneIntruder& intruder, const std::
 
 // The waypoints of a path whose shape depends on their times; none of an approximating spline.
 std::vector<TimedWaypoint> shaping_waypoints(const TrajectoryPlan& plan, const Scene& scene) {
-  if (plan.spline != SplineChoice::interpolating) return {};
+  if (plan.spline != SplineKind::interpolating) return {};
   return timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame);
 }
 

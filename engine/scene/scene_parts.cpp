@@ -183,9 +183,9 @@ Result<std::shared_ptr<const Model>, Problem> scene_model(const Project& project
 }
 
 TrajectorySettings trajectory_settings(const TrajectoryPlan& plan) {
-  return {.spline = plan.spline == SplineChoice::interpolating ? SplineKind::interpolating : SplineKind::approximating,
-          .timing = plan.timing == TimingChoice::frames ? Timing::frames : Timing::constant_speed,
-          .bank = plan.bank == BankChoice::coordinated ? Bank::coordinated : Bank::level,
+  return {.spline = plan.spline,
+          .timing = plan.timing,
+          .bank = plan.bank,
           .bank_limit_rad = rad_of_deg(plan.bank_limit_deg)};
 }
 

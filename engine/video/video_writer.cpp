@@ -144,10 +144,6 @@ Result<void> Y4mFile::write(const Frame& frame) {
   return out_.write(bytes_);
 }
 
-bool writes_images(VideoCodec codec) {
-  return *image_extension_of(codec) != '\0';
-}
-
 const char* image_extension_of(VideoCodec codec) {
   switch (codec) {
     case VideoCodec::png:

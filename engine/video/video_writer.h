@@ -87,7 +87,9 @@ class VideoWriter {
 [[nodiscard]] const char* extension_of(Container container);
 
 // Whether a codec writes a folder of numbered images instead of a video: png, tiff, jpeg.
-[[nodiscard]] bool writes_images(VideoCodec codec);
+[[nodiscard]] constexpr bool writes_images(VideoCodec codec) {
+  return codec == VideoCodec::png || codec == VideoCodec::tiff || codec == VideoCodec::jpeg;
+}
 
 // The extension of its images with the dot: ".png", ".tiff", ".jpg". Empty for the other codecs.
 [[nodiscard]] const char* image_extension_of(VideoCodec codec);

@@ -21,7 +21,7 @@ namespace {
 // v0, v1, v3 in train, v2 in test; every image a file, so that labels can point at it.
 class Labelled {
  public:
-  explicit Labelled(const std::vector<std::string>& labels, CodecChoice codec = CodecChoice::ffv1) : tiny(4, 3) {
+  explicit Labelled(const std::vector<std::string>& labels, VideoCodec codec = VideoCodec::ffv1) : tiny(4, 3) {
     for (PlannedVideo& video : tiny.plan.videos) {
       video.project.output.labels = labels;
       video.project.output.codec = codec;
@@ -44,7 +44,7 @@ const std::map<std::string, std::string> kNotMerged{
 }  // namespace
 
 TEST_CASE("COCO labels of a split have every image and annotation of its videos, with ids of their own") {
-  const Labelled made({"coco"}, CodecChoice::png);
+  const Labelled made({"coco"}, VideoCodec::png);
   const nlohmann::json train = json_of(made.labels() / "coco/train.json");
   CHECK(json_of(made.labels() / "coco/test.json")["videos"].size() == 1);
   CHECK(train["categories"] == json_of(made.tiny.out() / "v0/v0.coco.json")["categories"]);
@@ -112,7 +112,7 @@ TEST_CASE("CSV labels of a split are the rows of its videos under one header") {
 }
 
 TEST_CASE("MOT labels of a split are one benchmark, as TrackEval looks for it") {
-  const Labelled made({"mot"}, CodecChoice::png);
+  const Labelled made({"mot"}, VideoCodec::png);
   CHECK(text_of(made.labels() / "mot/seqmaps/tiny-train.txt") == "name\nv0\nv1\nv3\n");
   CHECK(text_of(made.labels() / "mot/seqmaps/tiny-test.txt") == "name\nv2\n");
   for (const std::string file : {"gt/gt.txt", "seqinfo.ini", "img1/000001.png", "img1/000003.png"})
@@ -137,7 +137,7 @@ TEST_CASE("KITTI and VOT labels of a split are one folder each") {
 }
 
 TEST_CASE("YOLO's data.yaml names folders of images that are there, each beside its labels") {
-  const Labelled made({"yolo"}, CodecChoice::png);
+  const Labelled made({"yolo"}, VideoCodec::png);
   std::istringstream lines(text_of(made.labels() / "yolo/data.yaml"));
   std::map<std::string, int> folders;
   std::string key;
@@ -160,7 +160,7 @@ TEST_CASE("YOLO's data.yaml names folders of images that are there, each beside 
 }
 
 TEST_CASE("every format has merged labels of each split, or a reason why not") {
-  const Labelled made({kLabelNames.begin(), kLabelNames.end()}, CodecChoice::png);
+  const Labelled made({kLabelNames.begin(), kLabelNames.end()}, VideoCodec::png);
   for (const std::string_view format : kLabelNames) {
     const bool is_merged = fs::exists(made.labels() / format);
     CHECK_MESSAGE(is_merged != kNotMerged.contains(std::string(format)),

@@ -91,12 +91,12 @@ TEST_CASE("settings apply to all videos, and a background's values override them
                       {"camera.attitude_deg.pitch", -3}, {"intruders[0].trajectory.bank", "level"}};
   const Plan plan = RecipeFolder().plan(json);
   const Project& project = plan.videos.at(0).project;
-  CHECK(project.output.codec == CodecChoice::h264);
+  CHECK(project.output.codec == VideoCodec::h264);
   CHECK(project.output.crf == 30);
   CHECK(project.output.labels == std::vector<std::string>{"xml", "csv"});
   CHECK(project.camera.speed_mps == 22);
   CHECK(project.camera.pitch_deg == -3);
-  CHECK(project.intruders.at(0).trajectory.bank == BankChoice::level);
+  CHECK(project.intruders.at(0).trajectory.bank == Bank::level);
 }
 
 TEST_CASE("settings of the command line override the recipe's and give the same errors") {

@@ -55,26 +55,26 @@ const cv::Size kSize(160, 120);
 }  // namespace
 
 TEST_CASE("an export gives the same bytes on one thread and on several and every time") {
-  constexpr CodecChoice kCodecs[] = {CodecChoice::ffv1, CodecChoice::h264,  CodecChoice::hevc,
-                                     CodecChoice::av1,  CodecChoice::mjpeg, CodecChoice::png,
-                                     CodecChoice::tiff, CodecChoice::jpeg,  CodecChoice::raw};
+  constexpr VideoCodec kCodecs[] = {VideoCodec::ffv1, VideoCodec::h264,  VideoCodec::hevc,
+                                    VideoCodec::av1,  VideoCodec::mjpeg, VideoCodec::png,
+                                    VideoCodec::tiff, VideoCodec::jpeg,  VideoCodec::raw};
   Scenario scenario(kSize, kFrames);
   prepare(scenario);
   int number = 0;
   for (const MethodChoice method : kMethods)
-    for (const CodecChoice codec : kCodecs) {
+    for (const VideoCodec codec : kCodecs) {
       CAPTURE(static_cast<int>(method));
       CAPTURE(static_cast<int>(codec));
       scenario.project.compositing.method = method;
       scenario.project.output.codec = codec;
-      scenario.project.output.masks = codec == CodecChoice::png ? MasksChoice::png : MasksChoice::video;
+      scenario.project.output.masks = codec == VideoCodec::png ? MasksChoice::png : MasksChoice::video;
       const std::string name = "out" + std::to_string(number++);
       const ExportReport report = exported(scenario, name + "a", 1);
       exported(scenario, name + "b", 2);
       exported(scenario, name + "c", 1);
       const auto files = contents_of(scenario.path(name + "a"));
       const int images = writes_images(codec) ? kFrames : 1;
-      CHECK(files.size() == images + (codec == CodecChoice::png ? kFrames : 1) + 1);
+      CHECK(files.size() == images + (codec == VideoCodec::png ? kFrames : 1) + 1);
       CHECK(report.written.size() == 3);
       CHECK(report.frames == kFrames);
       CHECK(files == contents_of(scenario.path(name + "b")));
@@ -214,7 +214,7 @@ TEST_CASE("a range of frames keeps the numbers and times of the footage") {
   }
   CHECK(number == 5);
 
-  scenario.project.output = {.codec = CodecChoice::png, .masks = MasksChoice::png};
+  scenario.project.output = {.codec = VideoCodec::png, .masks = MasksChoice::png};
   exported(scenario, "images", 2, FrameRange{2, 4});
   for (const char* const folder : {"images/lot", "images/lot.masks"}) {
     CHECK(!fs::exists(scenario.path(folder) / "frame_000001.png"));

@@ -56,11 +56,11 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
-constexpr CodecChoice kCodecs[] = {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png};
+constexpr VideoCodec kCodecs[] = {VideoCodec::ffv1, VideoCodec::h264, VideoCodec::mjpeg, VideoCodec::png};
 
-void set_codec(Project& project, CodecChoice codec) {
+void set_codec(Project& project, VideoCodec codec) {
   project.output.codec = codec;
-  project.output.masks = codec == CodecChoice::png ? MasksChoice::png : MasksChoice::video;
+  project.output.masks = codec == VideoCodec::png ? MasksChoice::png : MasksChoice::video;
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ TEST_CASE("progress is reported once for every frame and in order") {
 }
 
 TEST_CASE("a cancelled export returns this error and leaves no file") {
-  for (const CodecChoice codec : kCodecs)
+  for (const VideoCodec codec : kCodecs)
     for (const int at : {0, 1, kClipFrames - 1})
       for (const int jobs : {1, 2}) {
         CAPTURE(static_cast<int>(codec));
@@ -134,7 +134,7 @@ TEST_CASE("an existing output is not overwritten unless requested and no other f
 }
 
 TEST_CASE("an existing output is overwritten when requested") {
-  for (const CodecChoice codec : kCodecs) {
+  for (const VideoCodec codec : kCodecs) {
     CAPTURE(static_cast<int>(codec));
     Scenario scenario(kClipSize, kClipFrames);
     prepare_one_aircraft(scenario);
@@ -149,14 +149,14 @@ TEST_CASE("an existing output is overwritten when requested") {
     if (!again) FAIL(again.error().text());
     // Images of the longer export do not stay among those of the shorter one.
     CHECK(everything_below(scenario.path("out")).size() ==
-          files.size() - (codec == CodecChoice::png ? 2 * (kClipFrames - 4) : 0));
+          files.size() - (codec == VideoCodec::png ? 2 * (kClipFrames - 4) : 0));
   }
 }
 
 TEST_CASE("an export never replaces a folder that holds anything but its own images") {
   Scenario scenario(kClipSize, kClipFrames);
   prepare_one_aircraft(scenario);
-  set_codec(scenario.project, CodecChoice::png);
+  set_codec(scenario.project, VideoCodec::png);
   write_file_and_folders(scenario.path("out/lot/diary.txt"), "mine");
   const Result<ExportReport> report =
       export_project({.project = scenario.project, .folder = scenario.path("out"), .overwrite = true}, {});
@@ -184,7 +184,7 @@ TEST_CASE("an export never overwrites what it reads") {
 }
 
 TEST_CASE("a full disk is reported and no file is left behind") {
-  for (const CodecChoice codec : {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::mjpeg, CodecChoice::png}) {
+  for (const VideoCodec codec : {VideoCodec::ffv1, VideoCodec::h264, VideoCodec::mjpeg, VideoCodec::png}) {
     CAPTURE(static_cast<int>(codec));
     Scenario scenario(kClipSize, kClipFrames);
     prepare_one_aircraft(scenario);
@@ -208,7 +208,7 @@ TEST_CASE("labels that cannot be written to their end fail the export") {
   write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
   for (int i = 0; i < 4; ++i) scenario.add("aircraft.obj", {-100, 0, -150});
   scenario.project.output.masks = MasksChoice::none;
-  scenario.project.output.codec = CodecChoice::png;
+  scenario.project.output.codec = VideoCodec::png;
   Result<ExportReport> report = fail("", "not run");
   {
     const FileSizeLimit limit(20000);  // an image of 16 by 16 is far smaller, the labels of 60 frames are larger

@@ -35,7 +35,7 @@ void prepare_two_aircraft(Scenario& scenario) {
   body.rowRange(100, 120).setTo(255);
   cv::imwrite(scenario.path("body.png").string(), body);
   scenario.project.footage.own_body_mask = "body.png";
-  scenario.project.output.codec = CodecChoice::png;
+  scenario.project.output.codec = VideoCodec::png;
   scenario.project.output.masks = MasksChoice::none;
   scenario.project.output.labels = {"xml", "coco", "yolo", "voc", "cvat"};
 }
@@ -119,7 +119,7 @@ TEST_CASE("labels of an export have the same truth in every format, and images b
 TEST_CASE("a video's labels have no images and name the video") {
   Scenario scenario(kLabelledSize, kLabelledFrames);
   prepare_two_aircraft(scenario);
-  scenario.project.output.codec = CodecChoice::ffv1;
+  scenario.project.output.codec = VideoCodec::ffv1;
   REQUIRE(export_project(request_of(scenario), {}).has_value());
   CHECK(json_of(scenario.path("out/lot.coco.json"))["videos"][0]["file_name"] == "lot.mkv");
   CHECK_FALSE(fs::exists(scenario.path("out/lot.yolo/images")));
@@ -162,7 +162,7 @@ TEST_CASE("every file of every folder of labels is recognized by a later export"
   for (const LabelFormat& format : label_formats()) {
     if (!format.is_folder) continue;
     CAPTURE(format.name);
-    for (const CodecChoice codec : {CodecChoice::png, CodecChoice::ffv1}) {
+    for (const VideoCodec codec : {VideoCodec::png, VideoCodec::ffv1}) {
       Scenario scenario(kLabelledSize, kLabelledFrames);
       prepare_two_aircraft(scenario);
       scenario.project.output.codec = codec;

@@ -116,7 +116,7 @@ TEST_CASE("of several failing outputs the first frame's error is reported and of
       CAPTURE(fault.video_fails_at);
       CAPTURE(fault.masks_fail_at);
       Scenario scenario;
-      scenario.project.output.codec = CodecChoice::png;
+      scenario.project.output.codec = VideoCodec::png;
       scenario.project.output.masks = MasksChoice::png;
       scenario.project.output.labels = {};
       const ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};

@@ -108,7 +108,7 @@ TEST_CASE("footage of 8192 by 4320 goes through a whole export") {
   REQUIRE(writer->write(background, 0).has_value());
   REQUIRE(writer->finish().has_value());
   add_plate(scenario, 6, kEye_m + glm::dvec3(30, 0, 0));
-  scenario.project.output = {.codec = CodecChoice::mjpeg, .masks = MasksChoice::none};
+  scenario.project.output = {.codec = VideoCodec::mjpeg, .masks = MasksChoice::none};
   const Result<ExportReport> report = exported(scenario);
   if (!report) FAIL(report.error().text());
   CHECK(report->frames == 1);

@@ -36,7 +36,7 @@ void fly(Scenario& scenario, CodecMatchChoice match) {
   intruder.trajectory.waypoints = {{.frame = 0, .position_m = {70, -45, -160}},
                                    {.frame = kCodedFrames, .position_m = {80, 30, -148}}};
   scenario.project.appearance.codec.match = match;
-  scenario.project.output = {.codec = CodecChoice::ffv1, .masks = MasksChoice::video};
+  scenario.project.output = {.codec = VideoCodec::ffv1, .masks = MasksChoice::video};
 }
 
 RawVideo exported(Scenario& scenario, int jobs) {

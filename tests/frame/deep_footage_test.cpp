@@ -143,9 +143,9 @@ TEST_CASE("what cannot keep the footage's depth is named in a warning") {
     return false;
   };
   CHECK(codec_warnings_of(scenario.project, ten).empty());
-  scenario.project.output.codec = CodecChoice::mjpeg;
+  scenario.project.output.codec = VideoCodec::mjpeg;
   CHECK(warned(ten, "export.video.codec", "ffv1, h264, hevc, av1, png"));
-  scenario.project.output.codec = CodecChoice::h264;
+  scenario.project.output.codec = VideoCodec::h264;
   CHECK(codec_warnings_of(scenario.project, ten).empty());
   CHECK(warned({.bit_depth = 12}, "export.video.codec", "ffv1, hevc, av1, png"));
   scenario.project.output.max_bit_depth = 8;

@@ -77,7 +77,7 @@ struct Shot {
     scenario.add("plate.obj", {60, 0, -150});
     scenario.project.light.ambient = 1;
     scenario.project.appearance = sky.look;
-    scenario.project.output = {.codec = CodecChoice::ffv1, .masks = MasksChoice::video, .labels = {"xml", "csv"}};
+    scenario.project.output = {.codec = VideoCodec::ffv1, .masks = MasksChoice::video, .labels = {"xml", "csv"}};
     if (sky.first_row_of_body < kSkySize.height) {
       cv::imwrite(scenario.path("body.png").string(), body_of(sky));
       scenario.project.footage.own_body_mask = "body.png";

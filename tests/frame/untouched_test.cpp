@@ -24,7 +24,7 @@ struct Exported {
 Exported exported(Scenario& scenario, const std::filesystem::path& clip, MethodChoice method) {
   scenario.project.footage.video = clip.string();
   scenario.project.compositing.method = method;
-  scenario.project.output = {.codec = CodecChoice::ffv1, .masks = MasksChoice::video};
+  scenario.project.output = {.codec = VideoCodec::ffv1, .masks = MasksChoice::video};
   const ExportRequest request{.project = scenario.project,
                               .folder = scenario.path("out"),
                               .frames = FrameRange{0, kUntouchedFrames - 1},

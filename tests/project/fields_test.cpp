@@ -39,7 +39,7 @@ TEST_CASE("numbers and vectors and names and texts are set by their key") {
   REQUIRE(set_field(p, "intruders[0].trajectory.waypoints[1].position_m=[1,2,3]").has_value());
   CHECK(p.camera.speed_mps == 30);
   CHECK(p.light.position_m == glm::dvec3(0, 0, -500));
-  CHECK(p.output.codec == CodecChoice::h264);
+  CHECK(p.output.codec == VideoCodec::h264);
   CHECK(p.footage.video == "a=b.mkv");
   CHECK(p.name == "42");
   CHECK(p.output.encounter == std::vector<std::string>{"small-uas", "nmac"});

@@ -57,7 +57,7 @@ TEST_CASE("each remedy that the warning names removes the overshoot") {
   CHECK(opened(spread).issues.empty());
 
   Project approximating = ill_conditioned_project();
-  approximating.intruders[0].trajectory.spline = SplineChoice::approximating;
+  approximating.intruders[0].trajectory.spline = SplineKind::approximating;
   CHECK(opened(approximating).issues.empty());
 
   Project more = ill_conditioned_project();
@@ -72,7 +72,7 @@ TEST_CASE("each remedy that the warning names removes the overshoot") {
 
 TEST_CASE("constant speed along the same curve does not remove the overshoot") {
   Project project = ill_conditioned_project();
-  project.intruders[0].trajectory.timing = TimingChoice::constant_speed;
+  project.intruders[0].trajectory.timing = Timing::constant_speed;
   CHECK(opened(project).issues.size() == 1);
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("the condition of a path of one frame and 1e5 frames is large, that of
   Project project = ill_conditioned_project();
   const Scene scene = opened(project);
   CHECK(path_condition(project, 0, scene).value() > 1e4);
-  project.intruders[0].trajectory.spline = SplineChoice::approximating;
+  project.intruders[0].trajectory.spline = SplineKind::approximating;
   CHECK(!path_condition(project, 0, scene));
 }
 

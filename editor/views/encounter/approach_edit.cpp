@@ -212,7 +212,7 @@ tl::expected<std::vector<WaypointSettings>, std::string> waypoints_for(const App
   // The flight as planned by numbers alone says why there can be none at all.
   tl::expected<std::vector<WaypointSettings>, std::string> plain = straight(start, wanted);
   const bool is_curve = !present.is_straight && start.plan.waypoints.size() > 2 &&
-                        start.plan.timing == TimingChoice::frames && start.plan.spline == SplineChoice::interpolating;
+                        start.plan.timing == Timing::frames && start.plan.spline == SplineKind::interpolating;
   return plain && is_curve ? curved(start, wanted) : plain;
 }
 

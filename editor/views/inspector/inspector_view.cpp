@@ -58,7 +58,7 @@ void draw_compositing(const ViewContext& context, FieldRows& rows) {
 }
 
 void draw_export(const ViewContext& context, FieldRows& rows) {
-  const bool has_crf = max_crf(video_codec_of(context.project().output.codec)) > 0;
+  const bool has_crf = max_crf(context.project().output.codec) > 0;
   rows.rows("export.", [&](const Field& field) {
     RowOptions look;
     if (field.key == "export.video.crf" && !has_crf) look.off_because = "Counts for h264, hevc and av1 alone.";

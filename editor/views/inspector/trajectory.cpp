@@ -257,8 +257,7 @@ void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   const std::optional<int> intruder = current_intruder(context);
   if (!intruder) return note("No intruder yet. Add one above.");
   const std::string key = fmt::format("intruders[{}].trajectory.", *intruder);
-  const bool is_level =
-      context.project().intruders[static_cast<std::size_t>(*intruder)].trajectory.bank == BankChoice::level;
+  const bool is_level = context.project().intruders[static_cast<std::size_t>(*intruder)].trajectory.bank == Bank::level;
   rows.rows(key, [&](const Field& field) {
     RowOptions look;
     if (is_level && field.key.ends_with("bank_limit_deg")) look.off_because = "The wings stay level.";

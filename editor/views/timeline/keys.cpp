@@ -38,7 +38,7 @@ const TrajectoryPlan& plan_of(const KeyMarks& marks) {
 // At constant speed those between the first and the last are passed when the speed brings the aircraft there.
 bool has_time_of_its_own(const TrajectoryPlan& plan, std::size_t waypoint) {
   const bool at_an_end = waypoint == 0 || waypoint + 1 == plan.waypoints.size();
-  return plan.waypoints[waypoint].frame.has_value() && (plan.timing == TimingChoice::frames || at_an_end);
+  return plan.waypoints[waypoint].frame.has_value() && (plan.timing == Timing::frames || at_an_end);
 }
 
 void draw_key(ImDrawList& list, const KeyMarks& marks, std::size_t waypoint) {

@@ -144,7 +144,7 @@ void draw_flagged(WorldCanvas& canvas, const WorldCurve& curve, const Survey* su
 
 // Waypoints off the curve pull at it: the lines between them say how.
 void draw_control_lines(WorldCanvas& canvas, const TrajectoryPlan& plan, ImU32 color) {
-  if (plan.spline != SplineChoice::approximating) return;
+  if (plan.spline != SplineKind::approximating) return;
   for (std::size_t i = 1; i < plan.waypoints.size() && i < 100; ++i)
     canvas.line(plan.waypoints[i - 1].position_m, plan.waypoints[i].position_m, faded(color, 0.25));
 }

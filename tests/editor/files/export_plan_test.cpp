@@ -18,9 +18,9 @@ TEST_CASE("the files that an export will write are known in advance, for every c
   Project project = read_project(tiny.project()).value().project;
   VideoInfo footage;
   footage.times_s = {0, 0.04};
-  for (const CodecChoice codec :
-       {CodecChoice::ffv1, CodecChoice::h264, CodecChoice::hevc, CodecChoice::av1, CodecChoice::mjpeg, CodecChoice::png,
-        CodecChoice::tiff, CodecChoice::jpeg, CodecChoice::raw})
+  for (const VideoCodec codec :
+       {VideoCodec::ffv1, VideoCodec::h264, VideoCodec::hevc, VideoCodec::av1, VideoCodec::mjpeg, VideoCodec::png,
+        VideoCodec::tiff, VideoCodec::jpeg, VideoCodec::raw})
     for (const MasksChoice masks : {MasksChoice::none, MasksChoice::video, MasksChoice::png})
       for (const bool labels : {false, true}) {
         project.output.codec = codec;
@@ -71,7 +71,7 @@ TEST_CASE("settings that are not saved are in the command: what it sets makes th
   CHECK(assignments_between(saved, saved)->empty());
   Project present = saved;
   present.name = "it's mine";
-  present.output.codec = CodecChoice::h264;
+  present.output.codec = VideoCodec::h264;
   present.output.crf = 23;
   present.output.labels = {"xml", "coco"};
   present.footage.last_frame = 30;
