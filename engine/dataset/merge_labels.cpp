@@ -7,11 +7,11 @@
 #include <array>
 #include <map>
 #include <string_view>
-#include <system_error>
 
 #include "base/interrupt.h"
 #include "base/text.h"
 #include "dataset/video_name.h"
+#include "labels/label_files.h"
 #include "labels/label_text.h"
 #include "labels/labels.h"
 
@@ -92,13 +92,6 @@ std::vector<SplitLabels> labels_of(std::string_view format, const MergeRequest& 
   return sets;
 }
 
-Result<fs::path> made(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
-  return folder;
-}
-
 }  // namespace
 
 Result<void> check_labels_agree(const Plan& plan) {
@@ -110,18 +103,19 @@ Result<void> merge_labels(const MergeRequest& request, const std::vector<Finishe
   for (const Merger& merger : kMergers) {
     for (const SplitLabels& labels : labels_of(merger.format, request, videos)) {
       if (const Result<void> on = check_interrupt(request.cancel); !on) return on;
-      const Result<fs::path> folder = made(request.folder / merger.format);
-      if (!folder) return fail(folder.error());
+      const fs::path folder = request.folder / merger.format;
+      if (const Result<void> made = make_inner_folder(folder); !made) return made;
       const bool is_file = !merger.suffix.empty();
       const Result<void> merged =
-          merger.merge(labels, is_file ? *folder / (labels.split + std::string(merger.suffix)) : *folder);
+          merger.merge(labels, is_file ? folder / (labels.split + std::string(merger.suffix)) : folder);
       if (!merged) return merged;
     }
   }
   const std::vector<SplitLabels> yolo = labels_of("yolo", request, videos);
   if (yolo.empty()) return {};
-  const Result<fs::path> folder = made(request.folder / "yolo");
-  return folder ? merge_yolo(yolo, *folder, "../../") : fail(folder.error());
+  const fs::path folder = request.folder / "yolo";
+  const Result<void> made = make_inner_folder(folder);
+  return made ? merge_yolo(yolo, folder, "../../") : made;
 }
 
 }  // namespace sigs
