@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/text.h"
+#include "base/threads.h"
 #include "cli/detect_inputs.h"
-#include "cli/evaluate_aot.h"
 #include "cli/evaluation_folder.h"
 #include "cli/options.h"
 #include "cli/process.h"
@@ -46,10 +46,6 @@ struct DetectOptions {
   bool force = false;
 };
 
-tl::unexpected<Error> interrupted() {
-  return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-}
-
 // The results of one detector on one clip.
 Result<Results> results_of(const ClipFiles& files, const fs::path& file, const FootageTruth& footage,
                            ResultsFormat format) {
@@ -75,7 +71,7 @@ Result<std::vector<std::vector<DetectedClip>>> shared_clips(const DetectInputs& 
   for (const ClipFiles& files : inputs.clips) truths.push_back(&*files.truth);
   std::vector<std::vector<DetectedClip>> clips;
   for (const fs::path& file : inputs.clips.front().results) {
-    if (interrupt_flag().load()) return interrupted();
+    if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return fail(on.error());
     Result<std::vector<Results>> results = read_shared_results(file, truths, format);
     if (!results) return fail(results.error());
     warn_of_boxes_elsewhere(results->front(), file);
@@ -92,7 +88,7 @@ Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInp
   if (inputs.is_shared) return shared_clips(inputs, format);
   std::vector<std::vector<DetectedClip>> clips(inputs.detectors.size());
   for (const ClipFiles& files : inputs.clips) {
-    if (interrupt_flag().load()) return interrupted();
+    if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return fail(on.error());
     const Result<ClipTruth> truth = files.truth ? Result<ClipTruth>(files.truth->truth) : read_truth(files.labels);
     if (!truth) return fail(truth.error());
     for (std::size_t i = 0; i < clips.size(); ++i) {
@@ -128,21 +124,36 @@ void print(const DetectionReport& report) {
   for (const std::string& reason : uncounted_in(report)) print_warning({"", reason});
 }
 
-Result<void> write(EvaluationFolder& folder, const DetectionReport& report) {
-  const Result<WrittenReport> written = write_report(folder.staging_path(), report);
-  if (!written) return fail(written.error());
-  const Result<std::vector<fs::path>> kept = folder.commit(written->files);
-  if (!kept) return fail(kept.error());
-  for (const fs::path& file : *kept) std::printf("%s\n", file.c_str());
-  return {};
+// `sigs evaluate detect --rules aot`: a groundtruth.json and a result.json of the Airborne Object Tracking challenge,
+// by that challenge's own rules.
+Result<void> run_by_aot_rules(const DetectOptions& options) {
+  AotPolicy policy = options.aot;
+  policy.min_score = options.policy.min_score;
+  if (options.inputs.size() != 1 || options.results.size() != 1)
+    return fail("--rules aot", "takes one groundtruth.json and one result.json", ErrorKind::usage);
+  if (policy.target_fppi && policy.target_hfar)
+    return fail("--target-fppi", "and --target-hfar exclude each other", ErrorKind::usage);
+  const fs::path& result_file = options.results.front();
+  defer_interrupts();
+  Result<std::optional<EvaluationFolder>> folder =
+      EvaluationFolder::reserved(options.folder, options.force, {options.inputs.front(), result_file});
+  if (!folder) return fail(folder.error());
+  const Result<AotTruth> truth = read_aot_truth(options.inputs.front());
+  if (!truth) return fail(truth.error());
+  const Result<std::vector<AotReport>> reports = read_aot_reports(result_file);
+  if (!reports) return fail(reports.error());
+  const Result<AotScore> score = aot_score(*truth, *reports, policy);
+  if (!score) return fail(result_file.string(), score.error().what);
+  if (score->unknown_images > 0)
+    print_warning({result_file.string(),
+                   count_text(score->unknown_images, "box") + " of images that the truth does not have: ignored"});
+  std::printf("%s", aot_table(*score).c_str());
+  if (!*folder) return {};
+  return (*folder)->commit(write_report((*folder)->staging_path(), *truth, *score));
 }
 
 Result<void> run(const DetectOptions& options) {
-  if (options.rules == "aot") {
-    AotPolicy policy = options.aot;
-    policy.min_score = options.policy.min_score;
-    return evaluate_by_aot_rules(options.inputs, options.results, policy, options.folder, options.force);
-  }
+  if (options.rules == "aot") return run_by_aot_rules(options);
   if (options.aot.target_fppi || options.aot.target_hfar || options.aot.min_track_length > 0)
     return fail("--target-fppi, --target-hfar and --min-track-length", "need --rules aot", ErrorKind::usage);
   if (options.policy.false_overlap > options.policy.match_overlap)
@@ -156,22 +167,19 @@ Result<void> run(const DetectOptions& options) {
   const Result<DetectInputs> inputs = detect_inputs(options.inputs, options.results, options.split, truth);
   if (!inputs) return fail(inputs.error());
   defer_interrupts();
-  std::optional<EvaluationFolder> folder;
-  if (!options.folder.empty()) {
-    std::vector<fs::path> read = options.inputs;
-    read.insert(read.end(), options.results.begin(), options.results.end());
-    for (const ClipFiles& clip : inputs->clips) {
-      read.push_back(clip.labels);
-      read.insert(read.end(), clip.results.begin(), clip.results.end());
-    }
-    Result<EvaluationFolder> reserved = EvaluationFolder::reserved(options.folder, options.force, read);
-    if (!reserved) return fail(reserved.error());
-    folder.emplace(std::move(*reserved));
+  std::vector<fs::path> read = options.inputs;
+  read.insert(read.end(), options.results.begin(), options.results.end());
+  for (const ClipFiles& clip : inputs->clips) {
+    read.push_back(clip.labels);
+    read.insert(read.end(), clip.results.begin(), clip.results.end());
   }
+  Result<std::optional<EvaluationFolder>> folder = EvaluationFolder::reserved(options.folder, options.force, read);
+  if (!folder) return fail(folder.error());
   const Result<DetectionReport> report = report_of(options, *inputs);
   if (!report) return fail(report.error());
   print(*report);
-  return folder ? write(*folder, *report) : Result<void>();
+  if (!*folder) return {};
+  return (*folder)->commit(write_report((*folder)->staging_path(), *report));
 }
 
 void add_policy_options(CLI::App& command, DetectionPolicy& policy) {

@@ -100,30 +100,14 @@ std::string heading_of(const TrackReport& report) {
                      report.policy.from_frame, report.footage.last_frame);
 }
 
-// The results of the trackers that ran, in a format that can be read again.
-Result<std::vector<fs::path>> write_results(const fs::path& folder, const std::vector<Results>& results) {
-  std::error_code code;
-  if (!results.empty()) fs::create_directory(folder, code);
-  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
-  std::vector<fs::path> files;
-  for (const Results& one : results) {
-    files.push_back(folder / (one.name + ".csv"));
-    if (const Result<void> written = write_text(files.back(), csv_text(one), true); !written)
-      return fail(written.error());
-  }
-  return files;
-}
-
 Result<void> write(EvaluationFolder& folder, const TrackReport& report, const TrackedClip& clip) {
   Result<WrittenReport> written = write_report(folder.staging_path(), report);
   if (!written) return fail(written.error());
-  const Result<std::vector<fs::path>> results = write_results(folder.staging_path() / "results", clip.results);
-  if (!results) return fail(results.error());
-  written->files.insert(written->files.end(), results->begin(), results->end());
-  const Result<std::vector<fs::path>> kept = folder.commit(written->files);
-  if (!kept) return fail(kept.error());
-  for (const fs::path& file : *kept) std::printf("%s\n", file.c_str());
-  return {};
+  for (const Results& one : clip.results) {
+    if (const Result<void> kept = folder.write_results(one.name, one); !kept) return kept;
+    written->files.push_back(folder.staging_path() / "results" / (one.name + ".csv"));
+  }
+  return folder.commit(written);
 }
 
 // The files that a project names; labels name none. Errors in it are reported when it is opened.
@@ -140,17 +124,13 @@ Result<void> run(const TrackOptions& options) {
     return evaluate_track_set(*request, options.split, options.folder, options.force);
   if (!options.split.empty()) return fail("--split", "goes with a dataset's folder", ErrorKind::usage);
   defer_interrupts();
-  std::optional<EvaluationFolder> folder;
-  if (!options.folder.empty()) {
-    std::vector<fs::path> inputs = request->results;
-    inputs.push_back(request->input.file);
-    if (!request->video.empty()) inputs.push_back(request->video);
-    const std::vector<fs::path> named = files_named_by(request->input);
-    inputs.insert(inputs.end(), named.begin(), named.end());
-    Result<EvaluationFolder> reserved = EvaluationFolder::reserved(options.folder, options.force, inputs);
-    if (!reserved) return fail(reserved.error());
-    folder.emplace(std::move(*reserved));
-  }
+  std::vector<fs::path> inputs = request->results;
+  inputs.push_back(request->input.file);
+  if (!request->video.empty()) inputs.push_back(request->video);
+  const std::vector<fs::path> named = options.folder.empty() ? std::vector<fs::path>() : files_named_by(request->input);
+  inputs.insert(inputs.end(), named.begin(), named.end());
+  Result<std::optional<EvaluationFolder>> folder = EvaluationFolder::reserved(options.folder, options.force, inputs);
+  if (!folder) return fail(folder.error());
   const Result<TrackedClip> clip = tracked_clip(*request);
   if (!clip) return fail(clip.error());
   for (const std::string& remark : clip->remarks) print_warning({"", remark});
@@ -158,7 +138,7 @@ Result<void> run(const TrackOptions& options) {
   if (!all) return fail(all.error());
   const TrackReport report = report_of(*clip, *all);
   std::printf("%s%s", heading_of(report).c_str(), table_text(report).c_str());
-  return folder ? write(*folder, report, *clip) : Result<void>();
+  return *folder ? write(**folder, report, *clip) : Result<void>();
 }
 
 void add_scoring_options(CLI::App& command, TrackOptions& options) {

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "base/paths.h"
-#include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
 #include "cli/detect_inputs.h"
@@ -49,10 +48,6 @@ struct TrackRuns {
   std::vector<std::string> trackers;  // OpenCV's, then those of the files
   std::vector<std::string> remarks;
 };
-
-tl::unexpected<Error> interrupted_set() {
-  return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-}
 
 Result<std::vector<fs::path>> labels_of(const fs::path& folder, const std::string& split) {
   std::error_code code;
@@ -101,7 +96,7 @@ Result<void> read_set_results(const TrackRequest& request, TrackRuns& all) {
                   ErrorKind::usage);
     all.trackers.push_back(free_name(name_of_folder(folder), all.trackers));
     for (TrackRun& run : all.runs) {
-      if (interrupt_flag().load()) return interrupted_set();
+      if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return fail(on.error());
       const Result<fs::path> file = results_in(folder, run.name);
       if (!file) return fail(file.error());
       Result<Results> results = read_results(*file, all.inputs[run.input].truth.footage,
@@ -121,7 +116,7 @@ Result<TrackRuns> all_runs(const TrackRequest& request, const std::string& split
   if (!labels) return fail(labels.error());
   TrackRuns all{.trackers = request.trackers};
   for (const fs::path& path : *labels) {
-    if (interrupt_flag().load()) return interrupted_set();
+    if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return fail(on.error());
     Result<TrackInput> input = read_track_input(request, path);
     if (!input) return fail(input.error());
     all.inputs.push_back(std::move(*input));
@@ -183,7 +178,7 @@ Result<void> make_runs(const TrackRequest& request, TrackRuns& all) {
     }
   });
   progress.end();
-  if (interrupt_flag().load()) return interrupted_set();
+  if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return fail(on.error());
   for (const TrackRun& run : all.runs)
     if (!run.outcome) return run.outcome;
   return {};
@@ -200,33 +195,19 @@ TrackSetReport set_report(const TrackRequest& request, TrackRuns& all) {
   return report;
 }
 
-// results/TRACKER/CLIP.csv, which --results takes again.
-Result<std::vector<fs::path>> write_set_results(const fs::path& folder, const TrackRuns& all) {
-  std::vector<fs::path> files;
-  for (const TrackRun& run : all.runs)
-    for (const Results& results : run.from_opencv) {
-      std::error_code code;
-      fs::create_directories(folder / results.name, code);
-      if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
-      files.push_back(folder / results.name / (run.name + ".csv"));
-      if (const Result<void> written = write_text(files.back(), csv_text(results), true); !written)
-        return fail(written.error());
-    }
-  return files;
-}
-
 Result<void> write_set(EvaluationFolder& folder, const TrackSetReport& report, const TrackRuns& all) {
   Result<WrittenReport> written = write_report(folder.staging_path(), report);
   if (!written) return fail(written.error());
-  const Result<std::vector<fs::path>> results = write_set_results(folder.staging_path() / "results", all);
-  if (!results) return fail(results.error());
+  bool has_results = false;
+  for (const TrackRun& run : all.runs)
+    for (const Results& results : run.from_opencv) {
+      if (const Result<void> kept = folder.write_results(fs::path(results.name) / run.name, results); !kept)
+        return kept;
+      has_results = true;
+    }
   // The results are many; their folder stands for them.
-  const std::size_t own = written->files.size();
-  if (!results->empty()) written->files.push_back(folder.staging_path() / "results");
-  const Result<std::vector<fs::path>> kept = folder.commit(written->files);
-  if (!kept) return fail(kept.error());
-  for (std::size_t i = 0; i < kept->size(); ++i) std::printf("%s%s\n", (*kept)[i].c_str(), i < own ? "" : "/");
-  return {};
+  if (has_results) written->files.push_back(folder.staging_path() / "results" / "");
+  return folder.commit(written);
 }
 
 }  // namespace
@@ -240,14 +221,10 @@ bool is_track_set(const fs::path& path) {
 Result<void> evaluate_track_set(const TrackRequest& request, const std::string& split, const fs::path& folder,
                                 bool force) {
   defer_interrupts();
-  std::optional<EvaluationFolder> out;
-  if (!folder.empty()) {
-    std::vector<fs::path> inputs = request.results;
-    inputs.push_back(request.input.file);
-    Result<EvaluationFolder> reserved = EvaluationFolder::reserved(folder, force, inputs);
-    if (!reserved) return fail(reserved.error());
-    out.emplace(std::move(*reserved));
-  }
+  std::vector<fs::path> inputs = request.results;
+  inputs.push_back(request.input.file);
+  Result<std::optional<EvaluationFolder>> out = EvaluationFolder::reserved(folder, force, inputs);
+  if (!out) return fail(out.error());
   Result<TrackRuns> all = all_runs(request, split);
   if (!all) return fail(all.error());
   if (const Result<void> made = make_runs(request, *all); !made) return made;
@@ -256,7 +233,7 @@ Result<void> evaluate_track_set(const TrackRequest& request, const std::string& 
   std::printf("%s: over all frames, and the mean over clips\n%s\n%s\n%s",
               count_text(std::ssize(report.clips), "clip").c_str(), table_text(report).c_str(),
               intervals_text(report).c_str(), slices_text(report).c_str());
-  return out ? write_set(*out, report, *all) : Result<void>();
+  return *out ? write_set(**out, report, *all) : Result<void>();
 }
 
 }  // namespace sigs::cli

@@ -13,7 +13,7 @@
 #include "base/paths.h"
 #include "cli/options.h"
 #include "evaluation/opencv_tracker.h"
-#include "evaluation/reports/report.h"
+#include "labels/label_files.h"
 
 namespace sigs::cli {
 
@@ -79,8 +79,9 @@ Result<void> check_free(const fs::path& shown, const fs::path& place, bool overw
 
 }  // namespace
 
-Result<EvaluationFolder> EvaluationFolder::reserved(const fs::path& folder, bool overwrite,
-                                                    const std::vector<fs::path>& inputs) {
+Result<std::optional<EvaluationFolder>> EvaluationFolder::reserved(const fs::path& folder, bool overwrite,
+                                                                   const std::vector<fs::path>& inputs) {
+  if (folder.empty()) return std::nullopt;
   const fs::path place = canonical_path(folder);
   if (const Result<void> kept = check_inputs_not_overwritten(std::vector{folder}, inputs); !kept)
     return fail(kept.error());
@@ -90,14 +91,22 @@ Result<EvaluationFolder> EvaluationFolder::reserved(const fs::path& folder, bool
   Result<TemporaryFile> file = TemporaryFile::create_folder(
       place, true, [overwrite](const fs::path& there) { return check_free(there, there, overwrite); });
   if (!file) return fail(file.error());
-  return EvaluationFolder(folder, std::move(above), std::move(*file));
+  return std::optional(EvaluationFolder(folder, std::move(above), std::move(*file)));
 }
 
-Result<std::vector<fs::path>> EvaluationFolder::commit(const std::vector<fs::path>& written) {
+Result<void> EvaluationFolder::write_results(const fs::path& name, const Results& results) const {
+  const fs::path file = (staging_path() / "results" / name).concat(".csv");
+  if (const Result<void> made = make_inner_folder(file.parent_path()); !made) return made;
+  return write_text(file, csv_text(results), true);
+}
+
+Result<void> EvaluationFolder::commit(const Result<WrittenReport>& written) {
+  if (!written) return fail(written.error());
   std::vector<fs::path> final_paths;
-  for (const fs::path& path : written) final_paths.push_back(shown_ / path.lexically_relative(file_.temporary_path()));
+  for (const fs::path& path : written->files) final_paths.push_back(shown_ / path.lexically_relative(staging_path()));
   if (const Result<void> kept = file_.commit(); !kept) return fail(kept.error());
-  return final_paths;
+  print_written(final_paths);
+  return {};
 }
 
 void add_format_option(CLI::App& command, ResultsFormat& format) {

@@ -18,6 +18,7 @@
 #include "base/result.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "cli/process.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/readers/clip_truth.h"
@@ -160,11 +161,6 @@ std::optional<TrackPolicy> started(const TrackRequest& request, const TrackedCli
                            request.min_side_px);
 }
 
-Result<void> check_interrupt() {
-  if (interrupt_flag().load()) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-  return {};
-}
-
 Error never_trackable(const TrackRequest& request, const TrackedClip& clip, const fs::path& file) {
   const TargetTruth& target = clip.truth.targets[static_cast<std::size_t>(clip.target)];
   std::string what = fmt::format("intruder {} is in no frame seen with sides of at least {} px", target.id,
@@ -224,7 +220,7 @@ Result<TrackedClip> tracked_project(const TrackRequest& request, TrackerGroup gr
   const int total = clip->footage().last_frame - clip->footage().first_frame + 1;
   Progress progress(progress_style(request.progress));
   const Result<int> damaged = clip->show(request.jobs, [&](const StreamFrame& frame) -> Result<void> {
-    if (const Result<void> on = check_interrupt(); !on) return on;
+    if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return on;
     if (const Result<void> added = add_frame(tracked.truth, frame.truth); !added) return added;
     if (!request.trackers.empty() && (group.is_started() || started(request, tracked)))
       track_frame(group, tracked, frame.truth.index, frame.image, request);
@@ -305,7 +301,7 @@ Result<void> track_images(const TrackRequest& request, const TrackInput& input, 
   const int first = clip.policy.from_frame;
   const int last = clip.truth.footage.last_frame;
   for (int frame = first; frame <= last; ++frame) {
-    if (const Result<void> on = check_interrupt(); !on) return on;
+    if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return on;
     const Result<cv::Mat> image = images->at(frame);
     if (!image) return fail(image.error());
     if (clip.truth.footage.size_px.empty()) clip.truth.footage.size_px = image->size();

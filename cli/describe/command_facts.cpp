@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/text.h"
+
 namespace sigs::cli {
 
 namespace {
@@ -14,12 +16,6 @@ bool is_word(const std::string& text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   });
-}
-
-std::string without_blanks_around(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
 }
 
 std::vector<std::string> parts_of(const std::string& text, std::string_view separators) {
@@ -39,7 +35,7 @@ std::vector<std::string> words_of(std::string list) {
     list.replace(place, 4, ", ");
   std::vector<std::string> words;
   for (const std::string& part : parts_of(list, ",")) {
-    words.push_back(without_blanks_around(part));
+    words.emplace_back(trimmed(part));
     if (!is_word(words.back())) return {};
   }
   return words;
@@ -116,9 +112,9 @@ void read_footer(const std::string& footer, CommandFacts& facts) {
     } else if (line == "Examples:" || line == "Example:") {
       are_examples = true;
     } else if (are_examples) {
-      facts.examples.push_back(without_blanks_around(line));
+      facts.examples.emplace_back(trimmed(line));
     } else {
-      paragraph += (paragraph.empty() ? "" : " ") + without_blanks_around(line);
+      paragraph += (paragraph.empty() ? "" : " ") + std::string(trimmed(line));
     }
   }
   finish();
@@ -144,7 +140,7 @@ CommandFacts facts_of_command(const CLI::App& command, const std::string& name, 
 std::vector<std::string> listed_words(const std::string& help) {
   std::vector<std::string> words;
   for (const std::string& part : parts_of(help, ":;")) {
-    std::vector<std::string> found = words_of(without_blanks_around(part));
+    std::vector<std::string> found = words_of(std::string(trimmed(part)));
     const bool is_list = found.size() > 1;
     if (words.empty() && !is_list) continue;
     if (!words.empty() && found.size() != 1) break;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "cli/describe/command_facts.h"
 
 namespace sigs::cli {
@@ -43,14 +44,8 @@ constexpr const char* kEnd = R"(
 }
 )";
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 std::string values_of(const OptionFacts& option) {
-  if (!option.choices.empty()) return (option.takes_list ? "LIST " : "") + joined(option.choices);
+  if (!option.choices.empty()) return (option.takes_list ? "LIST " : "") + listed(option.choices, " ");
   return option.kind == ValueKind::file ? "FILE" : option.kind == ValueKind::folder ? "DIR" : "TEXT";
 }
 
@@ -73,11 +68,9 @@ std::string option_cases(const CommandFacts& command) {
   std::string names;
   std::string values;
   for (const OptionFacts& option : command.options) {
-    names += (names.empty() ? "" : " ") + joined(option.names);
+    names += (names.empty() ? "" : " ") + listed(option.names, " ");
     if (option.value.empty()) continue;
-    std::string patterns;
-    for (const std::string& name : option.names) patterns += (patterns.empty() ? "" : "|") + name;
-    values += fmt::format("        {}) values='{}' ;;\n", patterns, values_of(option));
+    values += fmt::format("        {}) values='{}' ;;\n", listed(option.names, "|"), values_of(option));
   }
   std::string below;
   for (const CommandFacts& one : command.commands) below += (below.empty() ? "" : " ") + last_word(one.name);
@@ -89,12 +82,17 @@ std::string option_cases(const CommandFacts& command) {
   return text;
 }
 
+std::string function_name(const std::string& command) {
+  std::string name = "_" + command;
+  for (char& c : name)
+    if (c == '-' || c == ' ') c = '_';
+  return name;
+}
+
 }  // namespace
 
 std::string bash_completion(const CommandFacts& program) {
-  std::string function = "_" + program.name;
-  for (char& c : function)
-    if (c == '-') c = '_';
+  const std::string function = function_name(program.name);
   std::string text =
       fmt::format("# Completion of {} for bash; made from the program's own descriptions.\n", program.name);
   text += fmt::format("{}() {{", function) + kBegin + fmt::format("  command='{}'\n", program.name);
@@ -106,13 +104,6 @@ std::string bash_completion(const CommandFacts& program) {
 }
 
 namespace {
-
-std::string function_name(const std::string& command) {
-  std::string name = "_" + command;
-  for (char& c : name)
-    if (c == '-' || c == ' ') c = '_';
-  return name;
-}
 
 // Within single quotes and the brackets of _arguments.
 std::string quoted(const std::string& text) {
@@ -130,8 +121,7 @@ std::string quoted(const std::string& text) {
 
 std::string action_of(const OptionFacts& option) {
   if (!option.choices.empty()) {
-    std::string words;
-    for (const std::string& word : option.choices) words += (words.empty() ? "" : " ") + word;
+    const std::string words = listed(option.choices, " ");
     return option.takes_list ? fmt::format("_values -s , {} {}", "value", words) : fmt::format("({})", words);
   }
   if (option.kind == ValueKind::file) return "_files";
@@ -160,10 +150,10 @@ std::string function_of(const CommandFacts& command) {
       "  local curcontext=$curcontext state line\n  _arguments -C \\\n" + option_lines(command) +
       "    '1:command:->command' '*::argument:->argument'\n  case $state in\n    command)\n      local -a commands=(\n";
   for (const CommandFacts& below : command.commands)
-    text += fmt::format("        '{}:{}'\n", below.name.substr(below.name.rfind(' ') + 1), quoted(below.summary));
+    text += fmt::format("        '{}:{}'\n", last_word(below.name), quoted(below.summary));
   text += "      )\n      _describe command commands ;;\n    argument)\n      case $line[1] in\n";
   for (const CommandFacts& below : command.commands)
-    text += fmt::format("        {}) {} ;;\n", below.name.substr(below.name.rfind(' ') + 1), function_name(below.name));
+    text += fmt::format("        {}) {} ;;\n", last_word(below.name), function_name(below.name));
   text += "      esac ;;\n  esac\n}\n\n";
   for (const CommandFacts& below : command.commands) text += function_of(below);
   return text;

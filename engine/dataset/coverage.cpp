@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/coverage.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

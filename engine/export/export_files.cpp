@@ -181,13 +181,6 @@ LabelSequence label_sequence(const Project& project, const VideoInfo& footage, c
   return sequence;
 }
 
-Result<void> make_folder(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
-  return {};
-}
-
 // A folder of images is replaced as a whole; one that contains a foreign file is not.
 Result<void> check_image_folder(const fs::path& folder) {
   std::error_code code;
@@ -259,7 +252,7 @@ Result<void> ExportFiles::write_encounters(const fs::path& path, const Project& 
 Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
                                       const FrameRange& range, const std::atomic<bool>* cancel) {
   if (request.video_descriptor < 0)
-    if (const Result<void> folder = make_folder(request.folder); !folder) return fail(folder.error());
+    if (const Result<void> folder = make_inner_folder(request.folder); !folder) return fail(folder.error());
   ExportFiles files(request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
   const Result<void> opened = files.open_all(request, footage, scene, range, cancel);
   if (!opened) return fail(files.outputs_.with_final_names(opened.error()));

@@ -9,7 +9,6 @@
 
 #include "base/csv.h"
 #include "base/ensure.h"
-#include "base/pose.h"
 #include "base/text.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
@@ -55,11 +54,11 @@ class CsvRow {
   // Infinite: empty.
   void add_if_finite(double number) { std::isfinite(number) ? add(number) : add_empty(1); }
   void add(int number) { add(std::to_string(number)); }
-  void add(const glm::dvec3& position_m) {
-    for (int i = 0; i < 3; ++i) add(position_m[i]);
-  }
-  void add(const Attitude& attitude) {
-    for (const double rad : {attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad}) add(deg_of_rad(rad));
+  // Those that are missing of `fields` or infinite: empty.
+  void add(const LabelNumbers& numbers, int fields) {
+    for (const LabelNumber& number : numbers)
+      std::isfinite(number.value) ? add(number.value, number.decimals) : add_empty(1);
+    add_empty(fields - static_cast<int>(numbers.size()));
   }
   // Fields that are separated by commas and quoted where they need to be.
   void add_fields(const std::string& fields) { text_ += "," + fields; }
@@ -70,41 +69,12 @@ class CsvRow {
   std::string text_;
 };
 
-void add_box_fields(CsvRow& row, const IntruderTruth& truth) {
-  if (truth.visible_box) {
-    for (const int number :
-         {truth.visible_box->x, truth.visible_box->y, truth.visible_box->width, truth.visible_box->height})
-      row.add(number);
-    row.add(truth.visible_pixels);
-  } else {
-    row.add_empty(5);
-  }
-  if (!truth.amodal_box) return row.add_empty(4);
-  const Box& box = *truth.amodal_box;
-  for (const double number : {box.x, box.y, box.width, box.height}) row.add(number, kLabelPixelDecimals);
-}
-
-void add_appearance_fields(CsvRow& row, const IntruderTruth& truth) {
-  if (!truth.detectability) return row.add_empty(6);
-  const Detectability& seen = *truth.detectability;
-  const ImageFormation& formation = truth.image_formation;
-  for (const double number :
-       {seen.weber_contrast, seen.rms_contrast, seen.signal_to_noise, formation.blur_px, formation.motion_blur_px})
-    row.add(number);
-  if (!formation.visibility_m) return row.add_empty(1);
-  row.add(*formation.visibility_m);
-}
-
 void add_encounter_fields(CsvRow& row, const IntruderTruth& truth, std::size_t volumes) {
   if (volumes == 0) return;
   if (!truth.encounter) return row.add_empty(8 + 3 * static_cast<int>(volumes));
-  const EncounterTruth& now = *truth.encounter;
-  for (const double number :
-       {now.range_rate_mps, now.closing_speed_mps, deg_of_rad(now.bearing_rad), deg_of_rad(now.elevation_rad),
-        now.hmd_m, now.vmd_m, now.time_to_closest_approach_s, now.time_to_coaltitude_s})
-    row.add_if_finite(number);
-  ENSURE(now.of_volumes.size() == volumes);
-  for (const WellClearTruth& volume : now.of_volumes) {
+  row.add(encounter_numbers(*truth.encounter), 8);
+  ENSURE(truth.encounter->of_volumes.size() == volumes);
+  for (const WellClearTruth& volume : truth.encounter->of_volumes) {
     row.add(volume.is_lost ? "true" : "false");
     row.add_if_finite(volume.tau_mod_s);
     row.add(volume.severity);
@@ -128,8 +98,8 @@ class CsvLabels : public LabelWriter {
     CsvRow row;
     row.add(frame.index);
     row.add(frame.time_s);
-    row.add(frame.camera_position_m);
-    row.add(attitude_of(frame.world_from_camera));
+    row.add(position_numbers(frame.camera_position_m), 3);
+    row.add(attitude_numbers(frame.world_from_camera), 3);
     row.add(truth.id);
     row.add(xml_text(truth.name));
     row.add(xml_text(labelled_intruder(sequence_, truth.id).category));
@@ -137,15 +107,16 @@ class CsvLabels : public LabelWriter {
     row.add(truth.inside_fraction);
     row.add(truth.visible_fraction);
     row.add(name_of(truth.horizon));
-    row.add(truth.position_m);
+    row.add(position_numbers(truth.position_m), 3);
     row.add(glm::length(truth.position_m));
-    row.add(attitude_of(truth.world_from_body));
-    add_box_fields(row, truth);
+    row.add(attitude_numbers(truth.world_from_body), 3);
+    row.add(box_numbers(truth), 5);
+    row.add(silhouette_numbers(truth), 4);
     add_footage(row);
     row.add(frame.substituted ? "true" : "false");
     row.add_fields(camera_source_fields(frame.camera));
     row.add_fields(place_fields(truth.place));
-    add_appearance_fields(row, truth);
+    row.add(appearance_numbers(truth), 6);
     add_encounter_fields(row, truth, sequence_.volumes.size());
     return row.line();
   }

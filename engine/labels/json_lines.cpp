@@ -4,7 +4,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/pose.h"
 #include "base/text.h"
 #include "labels/formats.h"
 #include "labels/label_files.h"
@@ -31,97 +30,46 @@ class JsonObject {
   void add_if_finite(std::string_view key, double number) {
     if (std::isfinite(number)) add(key, number);
   }
+  void add(const LabelNumbers& numbers) {
+    for (const LabelNumber& number : numbers) add(number.name, number.value, number.decimals);
+  }
   [[nodiscard]] std::string text() const { return "{" + text_ + "}"; }
 
  private:
   std::string text_;
 };
 
-JsonObject position_json(const glm::dvec3& position_m) {
+JsonObject numbers_json(const LabelNumbers& numbers) {
   JsonObject object;
-  object.add("x_m", position_m.x);
-  object.add("y_m", position_m.y);
-  object.add("z_m", position_m.z);
+  object.add(numbers);
   return object;
 }
 
-JsonObject attitude_json(const Attitude& attitude) {
-  JsonObject object;
-  object.add("roll_deg", deg_of_rad(attitude.roll_rad));
-  object.add("pitch_deg", deg_of_rad(attitude.pitch_rad));
-  object.add("yaw_deg", deg_of_rad(attitude.yaw_rad));
-  return object;
+void add_numbers_json(JsonObject& object, std::string_view key, const LabelNumbers& numbers) {
+  if (!numbers.empty()) object.add(key, numbers_json(numbers));
 }
 
 void add_place_json(JsonObject& object, const std::optional<GeodeticPosition>& place) {
-  if (!place) return;
-  JsonObject child;
-  child.add("latitude_deg", place->latitude_deg, kLabelPlaceDecimals);
-  child.add("longitude_deg", place->longitude_deg, kLabelPlaceDecimals);
-  child.add("height_m", place->height_m);
-  object.add("place", child);
+  if (place) object.add("place", numbers_json(place_numbers(*place)));
 }
 
 JsonObject camera_object(const FrameTruth& truth) {
   JsonObject object;
-  object.add("position", position_json(truth.camera_position_m));
-  object.add("attitude", attitude_json(attitude_of(truth.world_from_camera)));
+  object.add("position", numbers_json(position_numbers(truth.camera_position_m)));
+  object.add("attitude", numbers_json(attitude_numbers(truth.world_from_camera)));
   const CameraTruth& camera = truth.camera;
   if (!camera.position_source.empty()) object.add_text("position_source", camera.position_source);
   if (!camera.attitude_source.empty()) object.add_text("attitude_source", camera.attitude_source);
-  if (const std::optional<glm::dvec3> sd_deg = attitude_sd_deg(camera)) {
-    object.add("sd_x_deg", sd_deg->x);
-    object.add("sd_y_deg", sd_deg->y);
-    object.add("sd_z_deg", sd_deg->z);
-  }
+  object.add(deviation_numbers(camera));
   add_place_json(object, camera.place);
   return object;
-}
-
-void add_boxes_json(JsonObject& object, const IntruderTruth& truth) {
-  if (truth.visible_box) {
-    JsonObject box;
-    box.add("x", truth.visible_box->x);
-    box.add("y", truth.visible_box->y);
-    box.add("width", truth.visible_box->width);
-    box.add("height", truth.visible_box->height);
-    box.add("pixels", truth.visible_pixels);
-    object.add("box", box);
-  }
-  if (truth.amodal_box) {
-    JsonObject silhouette;
-    silhouette.add("x", truth.amodal_box->x, kLabelPixelDecimals);
-    silhouette.add("y", truth.amodal_box->y, kLabelPixelDecimals);
-    silhouette.add("width", truth.amodal_box->width, kLabelPixelDecimals);
-    silhouette.add("height", truth.amodal_box->height, kLabelPixelDecimals);
-    object.add("silhouette", silhouette);
-  }
-}
-
-void add_appearance_json(JsonObject& object, const IntruderTruth& truth) {
-  if (!truth.detectability) return;
-  JsonObject appearance;
-  appearance.add("weber_contrast", truth.detectability->weber_contrast);
-  appearance.add("rms_contrast", truth.detectability->rms_contrast);
-  appearance.add("signal_to_noise", truth.detectability->signal_to_noise);
-  appearance.add("blur_px", truth.image_formation.blur_px);
-  appearance.add("motion_blur_px", truth.image_formation.motion_blur_px);
-  if (truth.image_formation.visibility_m) appearance.add("visibility_m", *truth.image_formation.visibility_m);
-  object.add("appearance", appearance);
 }
 
 void add_encounter_json(JsonObject& object, const IntruderTruth& truth) {
   if (!truth.encounter) return;
   const EncounterTruth& now = *truth.encounter;
   JsonObject encounter;
-  encounter.add("range_rate_mps", now.range_rate_mps);
-  encounter.add("closing_speed_mps", now.closing_speed_mps);
-  encounter.add("bearing_deg", deg_of_rad(now.bearing_rad));
-  encounter.add("elevation_deg", deg_of_rad(now.elevation_rad));
-  encounter.add("hmd_m", now.hmd_m);
-  encounter.add("vmd_m", now.vmd_m);
-  encounter.add("time_to_closest_approach_s", now.time_to_closest_approach_s);
-  encounter.add_if_finite("time_to_coaltitude_s", now.time_to_coaltitude_s);
+  for (const LabelNumber& number : encounter_numbers(now)) encounter.add_if_finite(number.name, number.value);
   std::vector<std::string> volumes;
   for (const WellClearTruth& volume : now.of_volumes) {
     JsonObject well_clear;
@@ -144,12 +92,13 @@ std::string intruder_json(const IntruderTruth& truth, const LabelSequence& seque
   object.add("in_picture", truth.in_image);
   object.add("visible_fraction", truth.visible_fraction);
   object.add_text("horizon", name_of(truth.horizon));
-  object.add("position", position_json(truth.position_m));
+  object.add("position", numbers_json(position_numbers(truth.position_m)));
   object.add("distance_m", glm::length(truth.position_m));
-  object.add("attitude", attitude_json(attitude_of(truth.world_from_body)));
+  object.add("attitude", numbers_json(attitude_numbers(truth.world_from_body)));
   add_place_json(object, truth.place);
-  add_boxes_json(object, truth);
-  add_appearance_json(object, truth);
+  add_numbers_json(object, "box", box_numbers(truth));
+  add_numbers_json(object, "silhouette", silhouette_numbers(truth));
+  add_numbers_json(object, "appearance", appearance_numbers(truth));
   add_encounter_json(object, truth);
   return object.text();
 }

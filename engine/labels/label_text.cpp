@@ -108,6 +108,68 @@ std::optional<glm::dvec3> attitude_sd_deg(const CameraTruth& camera) {
   return sd_deg;
 }
 
+LabelNumbers position_numbers(const glm::dvec3& position_m) {
+  return {{"x_m", position_m.x}, {"y_m", position_m.y}, {"z_m", position_m.z}};
+}
+
+LabelNumbers attitude_numbers(const glm::dquat& world_from_body) {
+  const glm::dvec3 deg = degrees(world_from_body);
+  return {{"roll_deg", deg.x}, {"pitch_deg", deg.y}, {"yaw_deg", deg.z}};
+}
+
+LabelNumbers deviation_numbers(const CameraTruth& camera) {
+  const std::optional<glm::dvec3> sd_deg = attitude_sd_deg(camera);
+  if (!sd_deg) return {};
+  return {{"sd_x_deg", sd_deg->x}, {"sd_y_deg", sd_deg->y}, {"sd_z_deg", sd_deg->z}};
+}
+
+LabelNumbers place_numbers(const GeodeticPosition& place) {
+  return {{"latitude_deg", place.latitude_deg, kLabelPlaceDecimals},
+          {"longitude_deg", place.longitude_deg, kLabelPlaceDecimals},
+          {"height_m", place.height_m}};
+}
+
+LabelNumbers box_numbers(const IntruderTruth& truth) {
+  if (!truth.visible_box) return {};
+  const cv::Rect2d box = *truth.visible_box;
+  return {{"x", box.x},
+          {"y", box.y},
+          {"width", box.width},
+          {"height", box.height},
+          {"pixels", static_cast<double>(truth.visible_pixels)}};
+}
+
+LabelNumbers silhouette_numbers(const IntruderTruth& truth) {
+  if (!truth.amodal_box) return {};
+  const Box& box = *truth.amodal_box;
+  return {{"x", box.x, kLabelPixelDecimals},
+          {"y", box.y, kLabelPixelDecimals},
+          {"width", box.width, kLabelPixelDecimals},
+          {"height", box.height, kLabelPixelDecimals}};
+}
+
+LabelNumbers appearance_numbers(const IntruderTruth& truth) {
+  if (!truth.detectability) return {};
+  LabelNumbers numbers{{"weber_contrast", truth.detectability->weber_contrast},
+                       {"rms_contrast", truth.detectability->rms_contrast},
+                       {"signal_to_noise", truth.detectability->signal_to_noise},
+                       {"blur_px", truth.image_formation.blur_px},
+                       {"motion_blur_px", truth.image_formation.motion_blur_px}};
+  if (truth.image_formation.visibility_m) numbers.push_back({"visibility_m", *truth.image_formation.visibility_m});
+  return numbers;
+}
+
+LabelNumbers encounter_numbers(const EncounterTruth& now) {
+  return {{"range_rate_mps", now.range_rate_mps},
+          {"closing_speed_mps", now.closing_speed_mps},
+          {"bearing_deg", deg_of_rad(now.bearing_rad)},
+          {"elevation_deg", deg_of_rad(now.elevation_rad)},
+          {"hmd_m", now.hmd_m},
+          {"vmd_m", now.vmd_m},
+          {"time_to_closest_approach_s", now.time_to_closest_approach_s},
+          {"time_to_coaltitude_s", now.time_to_coaltitude_s}};
+}
+
 bool has_source(const CameraTruth& camera) {
   return !camera.position_source.empty() || !camera.attitude_source.empty() || camera.attitude_sd_rad || camera.place;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/xml_text.h"  // xml_text, line_text
 #include "truth/annotation.h"
@@ -61,6 +62,24 @@ inline constexpr int kLabelPlaceDecimals = 9;
 
 // Whether there is anything to say: a project without log and without a place on the Earth says nothing.
 [[nodiscard]] bool has_source(const CameraTruth& camera);
+
+// A number of the truth under the name that the SIGS annotation file, JSON Lines and, in this order, CSV have for it.
+struct LabelNumber {
+  const char* name;
+  double value = 0;
+  int decimals = kLabelDecimals;
+};
+using LabelNumbers = std::vector<LabelNumber>;
+
+[[nodiscard]] LabelNumbers position_numbers(const glm::dvec3& position_m);
+[[nodiscard]] LabelNumbers attitude_numbers(const glm::dquat& world_from_body);
+[[nodiscard]] LabelNumbers deviation_numbers(const CameraTruth& camera);  // empty: attitude_sd_deg() has none
+[[nodiscard]] LabelNumbers place_numbers(const GeodeticPosition& place);
+[[nodiscard]] LabelNumbers box_numbers(const IntruderTruth& truth);  // visible, with pixels; empty: there is none
+[[nodiscard]] LabelNumbers silhouette_numbers(const IntruderTruth& truth);  // amodal box; empty: there is none
+[[nodiscard]] LabelNumbers appearance_numbers(
+    const IntruderTruth& truth);                                          // visibility_m comes last, where it is known
+[[nodiscard]] LabelNumbers encounter_numbers(const EncounterTruth& now);  // the last may be infinite
 
 // The columns of one frame, and their values: position and attitude in the world, sources, deviation and place. Those
 // not known are empty.

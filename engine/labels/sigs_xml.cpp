@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "base/pose.h"
 #include "base/text.h"
 #include "labels/formats.h"
 #include "labels/label_text.h"
@@ -19,24 +18,13 @@ void set(pugi::xml_node node, const char* name, double number, int decimals = kL
   node.append_attribute(name) = number_text(number, decimals).c_str();
 }
 
-void set_position(pugi::xml_node node, const glm::dvec3& position_m) {
-  set(node, "x_m", position_m.x);
-  set(node, "y_m", position_m.y);
-  set(node, "z_m", position_m.z);
+void set_all(pugi::xml_node node, const LabelNumbers& numbers) {
+  for (const LabelNumber& number : numbers) set(node, number.name, number.value, number.decimals);
 }
 
-void set_attitude(pugi::xml_node node, const Attitude& attitude) {
-  set(node, "roll_deg", deg_of_rad(attitude.roll_rad));
-  set(node, "pitch_deg", deg_of_rad(attitude.pitch_rad));
-  set(node, "yaw_deg", deg_of_rad(attitude.yaw_rad));
-}
-
-void add_place(pugi::xml_node node, const std::optional<GeodeticPosition>& place) {
-  if (!place) return;
-  pugi::xml_node child = node.append_child("place");
-  set(child, "latitude_deg", place->latitude_deg, kLabelPlaceDecimals);
-  set(child, "longitude_deg", place->longitude_deg, kLabelPlaceDecimals);
-  set(child, "height_m", place->height_m);
+// Without numbers there is no element.
+void add_numbers(pugi::xml_node node, const char* name, const LabelNumbers& numbers) {
+  if (!numbers.empty()) set_all(node.append_child(name), numbers);
 }
 
 void add_source(pugi::xml_node node, const CameraTruth& camera) {
@@ -44,41 +32,8 @@ void add_source(pugi::xml_node node, const CameraTruth& camera) {
     node.append_attribute("position_source") = xml_text(camera.position_source).c_str();
   if (!camera.attitude_source.empty())
     node.append_attribute("attitude_source") = xml_text(camera.attitude_source).c_str();
-  if (const std::optional<glm::dvec3> sd_deg = attitude_sd_deg(camera)) {
-    set(node, "sd_x_deg", sd_deg->x);
-    set(node, "sd_y_deg", sd_deg->y);
-    set(node, "sd_z_deg", sd_deg->z);
-  }
-  add_place(node, camera.place);
-}
-
-void add_box_elements(pugi::xml_node node, const IntruderTruth& truth) {
-  if (truth.visible_box) {
-    pugi::xml_node box = node.append_child("box");
-    box.append_attribute("x") = truth.visible_box->x;
-    box.append_attribute("y") = truth.visible_box->y;
-    box.append_attribute("width") = truth.visible_box->width;
-    box.append_attribute("height") = truth.visible_box->height;
-    box.append_attribute("pixels") = truth.visible_pixels;
-  }
-  if (truth.amodal_box) {
-    pugi::xml_node silhouette = node.append_child("silhouette");
-    set(silhouette, "x", truth.amodal_box->x, kLabelPixelDecimals);
-    set(silhouette, "y", truth.amodal_box->y, kLabelPixelDecimals);
-    set(silhouette, "width", truth.amodal_box->width, kLabelPixelDecimals);
-    set(silhouette, "height", truth.amodal_box->height, kLabelPixelDecimals);
-  }
-}
-
-void add_appearance(pugi::xml_node node, const IntruderTruth& truth) {
-  if (!truth.detectability) return;
-  pugi::xml_node appearance = node.append_child("appearance");
-  set(appearance, "weber_contrast", truth.detectability->weber_contrast);
-  set(appearance, "rms_contrast", truth.detectability->rms_contrast);
-  set(appearance, "signal_to_noise", truth.detectability->signal_to_noise);
-  set(appearance, "blur_px", truth.image_formation.blur_px);
-  set(appearance, "motion_blur_px", truth.image_formation.motion_blur_px);
-  if (truth.image_formation.visibility_m) set(appearance, "visibility_m", *truth.image_formation.visibility_m);
+  set_all(node, deviation_numbers(camera));
+  if (camera.place) add_numbers(node, "place", place_numbers(*camera.place));
 }
 
 // A number that is infinite does not come: it is left out.
@@ -90,14 +45,7 @@ void add_encounter(pugi::xml_node node, const IntruderTruth& truth) {
   if (!truth.encounter) return;
   const EncounterTruth& now = *truth.encounter;
   pugi::xml_node encounter = node.append_child("encounter");
-  set(encounter, "range_rate_mps", now.range_rate_mps);
-  set(encounter, "closing_speed_mps", now.closing_speed_mps);
-  set(encounter, "bearing_deg", deg_of_rad(now.bearing_rad));
-  set(encounter, "elevation_deg", deg_of_rad(now.elevation_rad));
-  set(encounter, "hmd_m", now.hmd_m);
-  set(encounter, "vmd_m", now.vmd_m);
-  set(encounter, "time_to_closest_approach_s", now.time_to_closest_approach_s);
-  set_if_finite(encounter, "time_to_coaltitude_s", now.time_to_coaltitude_s);
+  for (const LabelNumber& number : encounter_numbers(now)) set_if_finite(encounter, number.name, number.value);
   for (const WellClearTruth& volume : now.of_volumes) {
     pugi::xml_node well_clear = encounter.append_child("well_clear");
     well_clear.append_attribute("volume") = xml_text(volume.volume).c_str();
@@ -115,12 +63,13 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   node.append_attribute("in_picture") = truth.in_image;
   set(node, "visible_fraction", truth.visible_fraction);
   node.append_attribute("horizon") = name_of(truth.horizon).data();
-  set_position(node.append_child("position"), truth.position_m);
+  add_numbers(node, "position", position_numbers(truth.position_m));
   set(node.append_child("distance"), "m", glm::length(truth.position_m));
-  set_attitude(node.append_child("attitude"), attitude_of(truth.world_from_body));
-  add_place(node, truth.place);
-  add_box_elements(node, truth);
-  add_appearance(node, truth);
+  add_numbers(node, "attitude", attitude_numbers(truth.world_from_body));
+  if (truth.place) add_numbers(node, "place", place_numbers(*truth.place));
+  add_numbers(node, "box", box_numbers(truth));
+  add_numbers(node, "silhouette", silhouette_numbers(truth));
+  add_numbers(node, "appearance", appearance_numbers(truth));
   add_encounter(node, truth);
 }
 
@@ -149,8 +98,8 @@ std::string xml_of(const FrameTruth& truth) {
   set(frame, "time_s", truth.time_s);
   if (truth.substituted) frame.append_attribute("substituted") = true;
   pugi::xml_node camera = frame.append_child("camera");
-  set_position(camera, truth.camera_position_m);
-  set_attitude(camera, attitude_of(truth.world_from_camera));
+  set_all(camera, position_numbers(truth.camera_position_m));
+  set_all(camera, attitude_numbers(truth.world_from_camera));
   add_source(camera, truth.camera);
   for (const IntruderTruth& intruder : truth.intruders) add_intruder(frame, intruder);
   std::ostringstream text;

@@ -84,16 +84,8 @@ std::string put(const Json& json, const Choice& choice) {
   return mismatch("one of " + listed(choice.names), json);
 }
 
-Json json_of_value(const double* value) {
-  return *value;
-}
-Json json_of_value(const int* value) {
-  return *value;
-}
-Json json_of_value(const std::string* value) {
-  return *value;
-}
-Json json_of_value(const std::vector<std::string>* value) {
+template <class T>
+Json json_of_value(const T* value) {
   return *value;
 }
 Json json_of_value(const glm::dvec3* value) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string_view>
 
 #include "base/numbered_files.h"
@@ -148,23 +149,14 @@ bool is_twice(const std::vector<std::string>& list, const std::string& text) {
   return std::count(list.begin(), list.end(), text) > 1;
 }
 
-void check_labels(const ExportSettings& output, Problems& problems) {
-  for (const std::string& label : output.labels) {
-    if (std::find(kLabelNames.begin(), kLabelNames.end(), label) == kLabelNames.end())
-      problems.push_back(
-          {"export.labels", fmt::format("knows no format \"{}\"; there are {}", label, listed(kLabelNames))});
-    if (is_twice(output.labels, label))
-      return problems.push_back({"export.labels", fmt::format("has \"{}\" twice; leave one out", label)});
-  }
-}
-
-void check_encounter(const ExportSettings& output, Problems& problems) {
-  for (const std::string& volume : output.encounter) {
-    if (std::find(kWellClearNames.begin(), kWellClearNames.end(), volume) == kWellClearNames.end())
-      problems.push_back(
-          {"export.encounter", fmt::format("knows no volume \"{}\"; there are {}", volume, listed(kWellClearNames))});
-    if (is_twice(output.encounter, volume))
-      return problems.push_back({"export.encounter", fmt::format("has \"{}\" twice; leave one out", volume)});
+// The names of a list are known, each once.
+//   kind  what they name, for messages
+void check_names(const std::vector<std::string>& names, std::span<const std::string_view> known, const char* key,
+                 const char* kind, Problems& problems) {
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      problems.push_back({key, fmt::format("knows no {} \"{}\"; there are {}", kind, name, listed(known))});
+    if (is_twice(names, name)) return problems.push_back({key, fmt::format("has \"{}\" twice; leave one out", name)});
   }
 }
 
@@ -194,8 +186,8 @@ std::vector<Problem> validate(const Project& project) {
   check_name(project, problems);
   check_frames(project.footage, problems);
   check_output(project.output, problems);
-  check_labels(project.output, problems);
-  check_encounter(project.output, problems);
+  check_names(project.output.labels, kLabelNames, "export.labels", "format", problems);
+  check_names(project.output.encounter, kWellClearNames, "export.encounter", "volume", problems);
   check_places(project, problems);
   check_track(project.camera, problems);
   check_categories(project, problems);

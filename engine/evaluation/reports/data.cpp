@@ -41,6 +41,22 @@ Json joined(Json row, Json more) {
   return row;
 }
 
+// The row of a table of figures: each name with the prefix; of an interval, "figure_95", the columns figure_low_95 and
+// figure_high_95.
+Json row_of(const Json& figures, const std::string& prefix = "") {
+  Json row = Json::object();
+  for (const auto& [name, value] : figures.items()) {
+    if (!value.is_array()) {
+      row[prefix + name] = value;
+      continue;
+    }
+    const std::string figure = prefix + name.substr(0, name.rfind("_95"));
+    row[figure + "_low_95"] = value.at(0);
+    row[figure + "_high_95"] = value.at(1);
+  }
+  return row;
+}
+
 Json json_of(const std::optional<double>& number) {
   return number ? Json(*number) : Json(nullptr);
 }
@@ -158,27 +174,31 @@ Json slices_json(const std::vector<Slice>& slices) {
   return json;
 }
 
-Json json_of(const DetectionScore& score) {
-  Json encounters = Json::array();
-  for (const EncounterScore& encounter : score.encounters) encounters.push_back(json_of(encounter));
-  return {{"name", line_text(score.name)},
-          {"encounter_detection_rate",
-           {{"all", json_of(score.all)},
-            {"above_horizon", json_of(score.above_horizon)},
-            {"on_horizon", json_of(score.on_horizon)},
-            {"below_horizon", json_of(score.below_horizon)},
-            {"unknown_horizon", json_of(score.unknown_horizon)}}},
-          {"encounters_too_short", score.encounters_too_short},
-          {"encounters_too_far", score.encounters_too_far},
-          {"false_alarm_tracks", score.false_alarm_tracks},
+// The figures of one detector that do not concern encounters.
+Json figures_of(const DetectionScore& score) {
+  return {{"false_alarm_tracks", score.false_alarm_tracks},
           {"false_alarms_per_hour", score.false_alarms_per_hour},
           {"false_alarm_boxes", score.false_alarm_boxes},
           {"false_boxes_per_frame", score.false_boxes_per_frame},
           {"frame_detection_rate", score.frame_detection_rate},
           {"mean_first_range_m", score.mean_first_range_m},
           {"frames", score.frames},
-          {"hours", score.hours},
-          {"encounters", encounters}};
+          {"hours", score.hours}};
+}
+
+Json json_of(const DetectionScore& score) {
+  Json encounters = Json::array();
+  for (const EncounterScore& encounter : score.encounters) encounters.push_back(json_of(encounter));
+  Json json{{"name", line_text(score.name)},
+            {"encounter_detection_rate",
+             {{"all", json_of(score.all)},
+              {"above_horizon", json_of(score.above_horizon)},
+              {"on_horizon", json_of(score.on_horizon)},
+              {"below_horizon", json_of(score.below_horizon)},
+              {"unknown_horizon", json_of(score.unknown_horizon)}}},
+            {"encounters_too_short", score.encounters_too_short},
+            {"encounters_too_far", score.encounters_too_far}};
+  return joined(joined(std::move(json), figures_of(score)), {{"encounters", encounters}});
 }
 
 Json json_of(const TrackSetClip& clip) {
@@ -207,27 +227,20 @@ Json summary_row(const std::string& name, const TrackScore& score) {
 }
 
 Json summary_row(const DetectionScore& score) {
-  return {{"detector", line_text(score.name)},
-          {"encounters", score.all.encounters},
-          {"encounters_too_short", score.encounters_too_short},
-          {"encounters_too_far", score.encounters_too_far},
-          {"detected", score.all.detected},
-          {"encounters_above", score.above_horizon.encounters},
-          {"detected_above", score.above_horizon.detected},
-          {"encounters_on", score.on_horizon.encounters},
-          {"detected_on", score.on_horizon.detected},
-          {"encounters_below", score.below_horizon.encounters},
-          {"detected_below", score.below_horizon.detected},
-          {"encounters_unknown", score.unknown_horizon.encounters},
-          {"detected_unknown", score.unknown_horizon.detected},
-          {"false_alarm_tracks", score.false_alarm_tracks},
-          {"false_alarms_per_hour", score.false_alarms_per_hour},
-          {"false_alarm_boxes", score.false_alarm_boxes},
-          {"false_boxes_per_frame", score.false_boxes_per_frame},
-          {"frame_detection_rate", score.frame_detection_rate},
-          {"mean_first_range_m", score.mean_first_range_m},
-          {"frames", score.frames},
-          {"hours", score.hours}};
+  Json row{{"detector", line_text(score.name)},
+           {"encounters", score.all.encounters},
+           {"encounters_too_short", score.encounters_too_short},
+           {"encounters_too_far", score.encounters_too_far},
+           {"detected", score.all.detected},
+           {"encounters_above", score.above_horizon.encounters},
+           {"detected_above", score.above_horizon.detected},
+           {"encounters_on", score.on_horizon.encounters},
+           {"detected_on", score.on_horizon.detected},
+           {"encounters_below", score.below_horizon.encounters},
+           {"detected_below", score.below_horizon.detected},
+           {"encounters_unknown", score.unknown_horizon.encounters},
+           {"detected_unknown", score.unknown_horizon.detected}};
+  return joined(std::move(row), figures_of(score));
 }
 
 Json encounter_row(const std::string& detector, const EncounterScore& encounter) {
@@ -239,13 +252,7 @@ Json slice_row(const std::string& detector, const FrameSlice& slice) {
 }
 
 Json slice_row(const std::string& tracker, const TrackSlice& slice) {
-  return {{"tracker", line_text(tracker)},
-          {"by", slice.by},
-          {"slice", slice.name},
-          {"frames", slice.frames},
-          {"mean_overlap", slice.mean_overlap},
-          {"mean_overlap_low_95", slice.interval.low},
-          {"mean_overlap_high_95", slice.interval.high}};
+  return joined({{"tracker", line_text(tracker)}, {"by", slice.by}}, row_of(json_of(slice)));
 }
 
 Json clip_row(const TrackSetClip& clip, const TrackScore& score) {
@@ -253,32 +260,28 @@ Json clip_row(const TrackSetClip& clip, const TrackScore& score) {
                 summary_row(score.name, score));
 }
 
+// The figures of one tracker over clips.
+Json clip_figures_of(const TrackSetFigures& figures) {
+  return {{"mean_center_error_px", figures.clips_center_error_px},
+          {"precision_at_20_px", figures.clips_precision_at_20},
+          {"success_auc", figures.clips_success_auc},
+          {"success_auc_95", json_of(figures.clips_success)},
+          {"normalized_precision_auc", figures.clips_normalized_precision_auc},
+          {"mean_overlap", figures.clips_mean_overlap},
+          {"lost_share", figures.clips_lost_share}};
+}
+
 Json summary_row(const TrackSetFigures& figures, std::size_t clips) {
   const TrackScore& score = figures.over_frames;
-  return joined(joined({{"tracker", line_text(score.name)}, {"clips", clips}}, figures_of(score)),
-                {{"success_auc_low_95", figures.frames_success.low},
-                 {"success_auc_high_95", figures.frames_success.high},
-                 {"clips_mean_center_error_px", figures.clips_center_error_px},
-                 {"clips_precision_at_20_px", figures.clips_precision_at_20},
-                 {"clips_success_auc", figures.clips_success_auc},
-                 {"clips_success_auc_low_95", figures.clips_success.low},
-                 {"clips_success_auc_high_95", figures.clips_success.high},
-                 {"clips_normalized_precision_auc", figures.clips_normalized_precision_auc},
-                 {"clips_mean_overlap", figures.clips_mean_overlap},
-                 {"clips_lost_share", figures.clips_lost_share}});
+  Json row = joined({{"tracker", line_text(score.name)}, {"clips", clips}}, figures_of(score));
+  row = joined(std::move(row), row_of({{"success_auc_95", json_of(figures.frames_success)}}));
+  return joined(std::move(row), row_of(clip_figures_of(figures), "clips_"));
 }
 
 // Of one tracker in evaluation.json.
 Json json_of(const TrackSetFigures& figures, const std::vector<TrackSlice>& slices) {
   return joined(json_of(figures.over_frames), {{"success_auc_95", json_of(figures.frames_success)},
-                                               {"over_clips",
-                                                {{"mean_center_error_px", figures.clips_center_error_px},
-                                                 {"precision_at_20_px", figures.clips_precision_at_20},
-                                                 {"success_auc", figures.clips_success_auc},
-                                                 {"success_auc_95", json_of(figures.clips_success)},
-                                                 {"normalized_precision_auc", figures.clips_normalized_precision_auc},
-                                                 {"mean_overlap", figures.clips_mean_overlap},
-                                                 {"lost_share", figures.clips_lost_share}}},
+                                               {"over_clips", clip_figures_of(figures)},
                                                {"frames_by", slices_json(slices)}});
 }
 

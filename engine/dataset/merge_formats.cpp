@@ -4,20 +4,22 @@
 #include <cstdint>
 #include <functional>
 #include <utility>
+#include <vector>
 
 #include "base/json.h"
+#include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "dataset/merge_labels.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
 
-// The formats that have one file for each split: COCO, AOT and CSV. All of them are put together from the label files
-// of the videos, since nothing else that is kept of a video has what they need: NAME.xml is written only where the
-// recipe asks for it, and has neither the masks that COCO encodes nor the labels' thresholds.
-
 namespace sigs {
 
 namespace fs = std::filesystem;
+
+// --- The formats that have one file for each split: COCO, AOT and CSV. All of them are put together from the label
+// files of the videos, since nothing else that is kept of a video has what they need: NAME.xml is written only where
+// the recipe asks for it, and has neither the masks that COCO encodes nor the labels' thresholds.
 
 namespace {
 
@@ -210,6 +212,131 @@ Result<void> merge_aot(const SplitLabels& labels, const fs::path& file) {
   } catch (const Json::exception&) {
     return fail(file.string(), kUnreadableLabels);
   }
+}
+
+// --- The formats that have folders: MOT, KITTI, VOT and YOLO.
+
+namespace {
+
+// Every file under `from` gets a second name under `to`.
+Result<void> link_tree(const fs::path& from, const fs::path& to) {
+  if (const Result<void> step = make_inner_folder(to); !step) return step;
+  const Result<std::vector<fs::path>> paths = folder_contents(from);
+  if (!paths) return fail(paths.error());
+  for (const fs::path& path : *paths) {
+    const fs::path place = to / path.filename();
+    const Result<void> step = is_folder(path) ? link_tree(path, place) : link_or_copy(path, place);
+    if (!step) return step;
+  }
+  return {};
+}
+
+// Every folder directly in `from`, except the one of this name.
+Result<void> link_folders(const fs::path& from, const fs::path& to, const std::string& but) {
+  if (const Result<void> step = make_inner_folder(to); !step) return step;
+  const Result<std::vector<fs::path>> paths = folder_contents(from);
+  if (!paths) return fail(paths.error());
+  for (const fs::path& path : *paths) {
+    if (!is_folder(path) || path.filename() == but) continue;
+    if (const Result<void> step = link_tree(path, to / path.filename()); !step) return step;
+  }
+  return {};
+}
+
+std::string without_first_line(const std::string& text) {
+  const std::size_t end = text.find('\n');
+  return end == std::string::npos ? std::string() : text.substr(end + 1);
+}
+
+// From the line that begins with this text to the end.
+std::string from_line(const std::string& text, const std::string& begin) {
+  const std::size_t place = text.find("\n" + begin);
+  return place == std::string::npos ? std::string() : text.substr(place + 1);
+}
+
+// The images of a split, a folder for each video, as seen from where `from` leads to the dataset.
+Result<std::string> yolo_list(const SplitLabels& labels, const std::string& from) {
+  std::string list;
+  for (const VideoLabels& video : labels.videos) {
+    // As labels/yolo's writer arranges them: one folder in labels/, and in images/ where there are images.
+    const Result<std::vector<fs::path>> folders = folder_contents(video.path / "labels");
+    if (!folders) return fail(folders.error());
+    for (const fs::path& folder : *folders) {
+      if (!is_folder(folder)) continue;  // readers leave caches there
+      const fs::path images = fs::path(from) / video.video / video.path.filename() / "images" / folder.filename();
+      list += "  - " + yaml_text(images.string()) + "\n";
+    }
+  }
+  return list;
+}
+
+// Readers ask for train and val: where there is no such split, another takes its place.
+const SplitLabels& substitute_split(const std::vector<SplitLabels>& splits, const char* name) {
+  for (const char* const wanted : {name, "test", "train"})
+    for (const SplitLabels& labels : splits)
+      if (labels.split == wanted) return labels;
+  return splits.front();
+}
+
+// The folders of all videos side by side, and their lists of sequences one after the other.
+Result<void> merge_folders_and_list(const SplitLabels& labels, const fs::path& folder, const char* list_name) {
+  std::string list;
+  for (const VideoLabels& video : labels.videos) {
+    const Result<std::string> sequences = read_text(video.path / list_name);
+    if (!sequences) return fail(sequences.error());
+    list += *sequences;
+    if (const Result<void> linked = link_folders(video.path, folder / labels.split, ""); !linked) return linked;
+  }
+  return write_text_file(folder / labels.split / list_name, list);
+}
+
+}  // namespace
+
+Result<void> merge_mot(const SplitLabels& labels, const fs::path& folder) {
+  const std::string name = line_name(labels.dataset + "-" + labels.split);
+  std::string map = "name\n";
+  for (const VideoLabels& video : labels.videos) {
+    const Result<std::string> sequence =
+        read_text(video.path / "seqmaps" / (line_name(video.path.stem().string()) + ".txt"));
+    if (!sequence) return fail(sequence.error());
+    map += without_first_line(*sequence);
+    if (const Result<void> linked = link_folders(video.path, folder / name, "seqmaps"); !linked) return linked;
+  }
+  if (const Result<void> step = make_inner_folder(folder / "seqmaps"); !step) return step;
+  return write_text_file(folder / "seqmaps" / (name + ".txt"), map);
+}
+
+Result<void> merge_kitti(const SplitLabels& labels, const fs::path& folder) {
+  return merge_folders_and_list(labels, folder, "evaluate_tracking.seqmap.training");
+}
+
+Result<void> merge_vot(const SplitLabels& labels, const fs::path& folder) {
+  return merge_folders_and_list(labels, folder, "list.txt");
+}
+
+Result<void> merge_yolo(const std::vector<SplitLabels>& splits, const fs::path& folder, const std::string& from) {
+  const Result<std::string> first = read_text(splits.front().videos.front().path / "data.yaml");
+  if (!first) return fail(first.error());
+  const std::string classes = from_line(*first, "nc: ");
+  if (classes.empty())
+    return fail((splits.front().videos.front().path / "data.yaml").string(), "has no line \"nc: \"; make it anew");
+  std::string text;
+  const auto add = [&](const std::string& key, const SplitLabels& labels) -> Result<void> {
+    const Result<std::string> list = yolo_list(labels, from);
+    if (!list) return fail(list.error());
+    text += key + ":\n" + *list;
+    return {};
+  };
+  for (const char* const name : {"train", "val"}) {
+    const SplitLabels& labels = substitute_split(splits, name);
+    if (labels.split != name)
+      text += fmt::format("# There is no split of this name: {} stands for it.\n", yaml_text(labels.split));
+    if (const Result<void> step = add(name, labels); !step) return step;
+  }
+  for (const SplitLabels& labels : splits)
+    if (labels.split != "train" && labels.split != "val")
+      if (const Result<void> step = add(yaml_text(labels.split), labels); !step) return step;
+  return write_text_file(folder / "data.yaml", text + classes);
 }
 
 }  // namespace sigs
