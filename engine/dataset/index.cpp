@@ -256,7 +256,12 @@ Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source, c
                                 const std::vector<FinishedVideo>& videos, const std::atomic<bool>* cancel) {
   if (const Result<void> step = remove_index(dataset); !step) return fail(step.error());
   const Result<std::vector<DatasetFile>> shared = shared_files(plan, dataset, videos, cancel);
-  if (!shared) return fail(shared.error());
+  if (!shared) {
+    // All that was read lies in the dataset and was there when its videos were checked.
+    Error error = shared.error();
+    if (error.kind == ErrorKind::cannot_read) error.kind = ErrorKind::write_failed;
+    return fail(error);
+  }
   const std::string checksums = checksums_of(videos, *shared);
   Json index = index_of(plan, source, videos);
   index["shared_files"] = described(*shared, "");

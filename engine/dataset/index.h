@@ -54,7 +54,8 @@ struct DatasetIndex {
 
 // Writes FOLDER/splits/, FOLDER/labels/, FOLDER/SHA256SUMS and, when all of them are on the disk, FOLDER/index.json.
 // The same videos give the same bytes. videos: all of the plan, in its order. Errors as check_shared_files() and
-// merge_labels(); cannot_create, write_failed, interrupted.
+// merge_labels(), but write_failed where a file of the videos is gone meanwhile; cannot_create, write_failed,
+// interrupted.
 [[nodiscard]] Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source,
                                               const std::filesystem::path& dataset,
                                               const std::vector<FinishedVideo>& videos,

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/staged_outputs.h"
+#include "dataset/index.h"
 #include "dataset/merge_labels.h"
 #include "dataset/tiny_plan.h"
 #include "support/files.h"
@@ -265,4 +266,15 @@ TEST_CASE("labels that cannot be read to their end are an error, not the end of 
   REQUIRE_FALSE(merged);
   CHECK(merged.error().kind == ErrorKind::cannot_read);
   CHECK(merged.error().where == (folder / "v1.csv").string());
+}
+
+TEST_CASE("labels that are taken away while the index is made are an error of the dataset's folder, not of an input") {
+  const Labelled made({"coco"});
+  std::vector<FinishedVideo> videos;
+  for (const PlannedVideo& video : made.tiny.plan.videos) videos.push_back({&video, {}});
+  fs::remove(made.tiny.out() / "v1" / "v1.coco.json");
+  const Result<DatasetIndex> index = make_index(made.tiny.plan, synthetic_source(), made.tiny.out(), videos, nullptr);
+  REQUIRE_FALSE(index);
+  CHECK(index.error().kind == ErrorKind::write_failed);
+  CHECK(index.error().where == (made.tiny.out() / "v1/v1.coco.json").string());
 }
