@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/process.h"
+
 #include <fmt/format.h>
 
 #include <fcntl.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/tracked_clip.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

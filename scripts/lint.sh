@@ -1,31 +1,14 @@
 #!/usr/bin/env bash
 # Refuses what clang warns of, in every source, and what the checks of .clang-tidy find in the engine and the programs.
-#   scripts/lint.sh               everything
-#   scripts/lint.sh export        only targets in whose folder or name "export" is found
-#   scripts/lint.sh --includes    each source on its own, without precompiled headers: does it include what it uses?
-#                                 (ten minutes on two cores; "everything" has a sixth of them, another one at each commit)
+#   scripts/lint.sh            everything
+#   scripts/lint.sh export     only targets in whose folder or name "export" is found
 # Several sources are read at a time (SIGS_UNITY), so that the headers of OpenCV are read once for all of them. What
 # only the fuzzers need is compiled with the same warnings by scripts/fuzz.sh.
 set -euo pipefail
 pattern=${1:-.}
 source "$(dirname "$0")/setup.sh"
 
-# Each source, or every sixth of them beginning with number PART, read alone by clang.
-check_includes() {  # [PART]
-  cmake --preset lint -B build/includes -DSIGS_UNITY=OFF -DSIGS_PRECOMPILE=OFF >/dev/null
-  cmake --build build/includes --parallel "$(nproc)" --target engine/render/generated/render/shaders.h >/dev/null
-  local found
-  found=$(sed -n "s#^ *\"file\": \"$PWD/\(.*\)\",*\$#\1#p" build/includes/compile_commands.json | grep -v '^build/' | sort -u |
-    awk -v part="${1:-}" 'part == "" || NR % 6 == part' |
-    xargs -r -P "$(nproc)" -n 4 clang-check-14 --extra-arg=-Wno-everything -p build/includes 2>&1 || true)
-  [ -z "$found" ] || { echo "$found" >&2; echo "lint.sh: a source does not include what it uses" >&2; return 1; }
-}
-
 sigs_install programs tests lint
-if [ "$pattern" = --includes ]; then
-  check_includes
-  exit
-fi
 cmake --preset lint >/dev/null
 cmake --build --preset lint --parallel "$(nproc)" --target sigs_precompiled_fast sigs_precompiled_light \
   sigs_precompiled_test engine/render/generated/render/shaders.h >/dev/null
@@ -42,5 +25,4 @@ failed=no
 check 'engine|cli|editor|python' clang-tidy-14 --quiet || failed=yes
 # The checks would take three times as long as reading these.
 check 'tests|bench|assets' clang-check-14 --extra-arg=-Werror || failed=yes
-[ "$pattern" != . ] || check_includes $(($(git rev-list --count HEAD 2>/dev/null || echo 0) % 6)) || failed=yes
 [ $failed = no ] || { echo "lint.sh: see above; .clang-tidy has the list of checks" >&2; exit 1; }

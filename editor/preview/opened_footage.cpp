@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/preview/opened_footage.h"
+
 #include <fmt/format.h>
 
 #include <opencv2/imgproc.hpp>

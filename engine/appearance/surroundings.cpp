@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "appearance/surroundings.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

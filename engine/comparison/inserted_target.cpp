@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "comparison/inserted_target.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compositor/blend.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <opencv2/core.hpp>

@@ -17,7 +17,7 @@
 #include "base/threads.h"
 #include "base/xml_text.h"
 #include "dataset/footage_cache.h"
-#include "dataset/video_folder.h"
+#include "dataset/video_name.h"
 #include "plot/plot.h"
 #include "scene/scene_at.h"
 #include "scene/visibility.h"

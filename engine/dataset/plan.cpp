@@ -11,7 +11,7 @@
 #include "base/threads.h"
 #include "dataset/footage_cache.h"
 #include "dataset/sample.h"
-#include "dataset/video_folder.h"
+#include "dataset/video_name.h"
 #include "dataset/video_sample.h"
 #include "project/validate.h"
 

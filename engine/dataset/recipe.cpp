@@ -11,7 +11,7 @@
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "dataset/recipe_reading.h"
-#include "dataset/video_folder.h"
+#include "dataset/video_name.h"
 #include "project/fields.h"
 #include "project/json.h"
 #include "project/project.h"

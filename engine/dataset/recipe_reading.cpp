@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/recipe_reading.h"
+
 #include <fmt/format.h>
 
 #include <cmath>

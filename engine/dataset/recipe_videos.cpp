@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "dataset/recipe.h"
 #include "dataset/recipe_reading.h"
-#include "dataset/video_folder.h"
+#include "dataset/video_name.h"
 #include "project/fields.h"
 #include "project/json.h"
 

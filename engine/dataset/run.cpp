@@ -19,6 +19,7 @@
 #include "dataset/index.h"
 #include "dataset/merge_labels.h"
 #include "dataset/video_folder.h"
+#include "dataset/video_name.h"
 #include "project/validate.h"
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"

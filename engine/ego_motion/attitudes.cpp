@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ego_motion/attitudes.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "encounter/encounter_track.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "encounter/file_columns.h"
+
 #include <fmt/format.h>
 
 #include <array>

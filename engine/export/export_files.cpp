@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "export/export_files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "export/frame_stream.h"
+
 #include <algorithm>
 #include <optional>
 #include <utility>

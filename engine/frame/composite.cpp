@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "frame/composite.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

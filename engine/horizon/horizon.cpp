@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "horizon/horizon.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "occlusion/detect.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plot/canvas.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

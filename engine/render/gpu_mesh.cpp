@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "render/gpu_mesh.h"
+
 #include <epoxy/gl.h>
 #include <algorithm>
 #include <array>

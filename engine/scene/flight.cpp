@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/flight.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/posed_intruder.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "spline/piecewise_cubic.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "spline/trajectory.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "truth/measure.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

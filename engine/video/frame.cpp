@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "video/frame.h"
+
 #include <algorithm>
 #include <opencv2/core.hpp>
 #include <vector>

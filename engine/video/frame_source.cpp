@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "video/frame_source.h"
+
 #include <fmt/format.h>
 
 #include <optional>

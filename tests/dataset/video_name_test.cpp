@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "base/paths.h"
-#include "dataset/video_folder.h"
+#include "dataset/video_name.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/viewport/viewport_view.h"
+
 #include <algorithm>
 #include <cmath>
 

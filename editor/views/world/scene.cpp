@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/world/scene.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

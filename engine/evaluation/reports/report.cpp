@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "evaluation/reports/report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

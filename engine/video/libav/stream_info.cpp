@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/stream_info.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
