@@ -11,7 +11,8 @@
 
 namespace sigs {
 
-// Names of files and folders: which are allowed, what a folder contains, and which names mean the same file.
+// Names of files and folders: which are allowed, what a folder contains, and which names mean the same file; flushing
+// to the disk, and renaming without losing the older file.
 
 // Says why a text cannot be the name of a file or folder; empty where it can. The name must have 1 to 200 bytes
 // (extensions are appended to it, and file systems allow 255), no slash, no control character and no dot at its

@@ -12,8 +12,8 @@
 
 namespace sigs {
 
-// Texts cut into pieces, and numbers, quantities and lists as text. Nothing here depends on the locale: a point always
-// separates the decimals.
+// Texts cut into pieces, text as numbers, and numbers, quantities and lists as text. Nothing here depends on the
+// locale: a point always separates the decimals.
 
 // --- Reading. White space is blank, tab and carriage return.
 
