@@ -21,7 +21,7 @@ struct BitWriter {
   int count = 0;              // below 32
 
   // length: 1 to 32 bits, the higher ones of the code are 0
-  void put(int length, std::uint32_t code) {
+  [[gnu::always_inline]] inline void put(int length, std::uint32_t code) {
     pending = pending << length | code;
     count += length;
     if (count < 32) return;
@@ -77,7 +77,7 @@ void update(ContextState& state, int difference) {
 }
 
 // 3.8.2.1 and 3.8.2.2: the difference from the context's bias as a signed Golomb-Rice code.
-void put_difference(BitWriter& writer, ContextState& state, int difference) {
+[[gnu::always_inline]] inline void put_difference(BitWriter& writer, ContextState& state, int difference) {
   constexpr unsigned kMaxPrefix = 12;
   constexpr int kEscape_bits = 12 + 8;
   const int v = static_cast<std::int8_t>(difference - state.bias);
@@ -163,7 +163,7 @@ std::int16_t quantised(std::int16_t difference) {
 }
 
 // 3.3 (median predictor) and 3.5 (context). The compiler makes vector instructions of it.
-void Rows::compare() {
+[[gnu::always_inline]] inline void Rows::compare() {
   const std::uint8_t* const up = above;
   const std::uint8_t* const here = current;
   std::int16_t* const context_out = contexts.data();
@@ -185,7 +185,8 @@ void Rows::compare() {
   }
 }
 
-BitWriter with_row(BitWriter writer, const Rows& rows, ContextStates& states, Run& run_of_plane) {
+[[gnu::always_inline]] inline BitWriter with_row(BitWriter writer, const Rows& rows, ContextStates& states,
+                                                 Run& run_of_plane) {
   Run run = run_of_plane;
   bool is_in_run = false;
   for (int x = 0; x < rows.width; ++x) {
@@ -219,9 +220,7 @@ std::size_t max_row_bytes(int width) {
   return 6 * static_cast<std::size_t>(width) + 16;
 }
 
-}  // namespace
-
-void append_ffv1_samples(std::vector<std::uint8_t>& bytes, std::span<const cv::Mat> planes) {
+[[gnu::always_inline]] inline void append_samples(std::vector<std::uint8_t>& bytes, std::span<const cv::Mat> planes) {
   std::array<ContextStates, 2> states;  // of luma and of chroma
   BitWriter writer;
   std::size_t used = bytes.size();
@@ -245,6 +244,24 @@ void append_ffv1_samples(std::vector<std::uint8_t>& bytes, std::span<const cv::M
   }
   writer.flush();
   bytes.resize(static_cast<std::size_t>(writer.next - bytes.data()));
+}
+
+#ifdef __x86_64__
+// The same bytes, with the instructions for shifts and vectors that most processors since 2013 have.
+[[gnu::target("avx2,bmi,bmi2,lzcnt")]] void append_samples_since_2013(std::vector<std::uint8_t>& bytes,
+                                                                      std::span<const cv::Mat> planes) {
+  append_samples(bytes, planes);
+}
+#endif
+
+}  // namespace
+
+void append_ffv1_samples(std::vector<std::uint8_t>& bytes, std::span<const cv::Mat> planes) {
+#ifdef __x86_64__
+  static const bool is_since_2013 = __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi2") != 0;
+  if (is_since_2013) return append_samples_since_2013(bytes, planes);
+#endif
+  append_samples(bytes, planes);
 }
 
 }  // namespace sigs
