@@ -126,28 +126,30 @@ std::vector<Patch> engine() {
             at(5.87, 0, 1.02))};
 }
 
-// Three blades of 0.35 m that turn at 6.5 revolutions a second, over 1/120 s of exposure.
+// Clockwise from above, as the French build them.
+const TurningBlades kMainRotor{.material = "main_rotor",
+                               .count = 3,
+                               .root_m = 0.3,
+                               .tip_m = 5.35,
+                               .root_chord_m = 0.30,
+                               .tip_chord_m = 0.35,
+                               .rpm = -390,
+                               .coning_m = 0.22};
+const TurningBlades kTailRotor{.material = "tail_rotor",
+                               .count = 2,
+                               .root_m = 0.14,
+                               .tip_m = 0.93,
+                               .root_chord_m = 0.18,
+                               .tip_chord_m = 0.18,
+                               .rpm = 2080};
+
 std::vector<Patch> main_rotor() {
   const glm::dvec3 hub = at(kNose_m, 0, 1.86);
-  const TurningBlades blades{.count = 3,
-                             .root_m = 0.75,
-                             .tip_m = 5.35,
-                             .root_chord_m = 0.30,
-                             .tip_chord_m = 0.35,
-                             .sweep_rad = 20 * kPi / 180,
-                             .coning_m = 0.22,
-                             .first_blade_rad = 0.5};
-  std::vector<Patch> parts = {
-      moved(blurred_disc(blades, 8, 108), kUpright, hub),
+  return {
+      moved(blade_disc(kMainRotor, 4, 48), kUpright, hub),
       moved(revolved({{0.14, 0}, {0.13, 0.10}, {0.05, 0.20}, {-0.05, 0.20}, {-0.10, 0.09}, {-0.65, 0.09}, {-0.65, 0}},
                      16, "metal"),
             kUpright, hub)};
-  for (int i = 0; i < 3; ++i) {
-    const double angle = 0.5 + 2 * kPi * i / 3;
-    const glm::dvec3 out = kUpright * glm::dvec3(0, std::sin(angle), std::cos(angle));
-    parts.push_back(tube({hub + 0.1 * out, hub + 0.85 * out}, 0.13, "metal"));
-  }
-  return parts;
 }
 
 std::vector<Patch> tail() {
@@ -155,13 +157,12 @@ std::vector<Patch> tail() {
     return WingStation{at(s, 0, z), chord, 0.10, 0, {0, 1, 0}, 0};
   };
   const auto level = [](double y) { return WingStation{at(8.45, y, 0.63), 0.52, 0.10, -0.02, {0, 0, 1}, -0.02}; };
-  const TurningBlades blades{.count = 2, .root_m = 0.14, .tip_m = 0.93, .root_chord_m = 0.18, .tip_chord_m = 0.18};
   const glm::dvec3 hub = at(10.15, -0.32, 0.80);
   return {
       wing({upright(0.62, 9.65, 0.95), upright(1.1, 10.0, 0.80), upright(1.9, 10.55, 0.50), upright(1.97, 10.62, 0.40)},
            8, "fin"),
       wing({upright(-0.20, 10.32, 0.36), upright(-0.12, 10.22, 0.45), upright(0.66, 9.75, 0.85)}, 8, "fin"),
-      wing({level(-1.28), level(1.28)}, 8, "tailplane"), moved(blurred_disc(blades, 5, 36), kAcross, hub),
+      wing({level(-1.28), level(1.28)}, 8, "tailplane"), moved(blade_disc(kTailRotor, 2, 36), kAcross, hub),
       moved(revolved({{0.06, 0}, {0.05, 0.08}, {-0.25, 0.06}, {-0.25, 0}}, 10, "metal"), kAcross, hub)};
 }
 
@@ -198,15 +199,15 @@ std::vector<Patch> lights() {
 Livery livery() {
   const auto sides = [](const glm::dvec2& p) { return fuselage_colour(side_point(kSides, p)); };
   const auto below = [](const glm::dvec2& p) { return underside_colour(plan_point(kBelow, p)); };
-  return {.materials =
-              together({{lacquer_image("fuselage", "fuselage.png"), lacquer_image("underside", "underside.png"),
-                         lacquer("cowl", kBlue), matt("grille", grey(kOpening)), lacquer("fin", kRed),
-                         lacquer("tailplane", kWhite), lacquer("skid", grey(0.10)), lacquer("post", kWhite),
-                         metal("metal", 0.12), matt("dark", grey(kOpening)), matt("interior", {0.045, 0.04, 0.035}),
-                         matt("seats", grey(0.04)), matt("crew", {0.05, 0.06, 0.10}), glass("glass", 0.35)},
-                        rotor_materials(0.05),
-                        lamps()}),
-          .textures = {{"fuselage.png", painted({1024, 384}, sides)}, {"underside.png", painted({512, 96}, below)}}};
+  return {
+      .materials = together(
+          {{lacquer_image("fuselage", "fuselage.png"), lacquer_image("underside", "underside.png"),
+            lacquer("cowl", kBlue), matt("grille", grey(kOpening)), lacquer("fin", kRed), lacquer("tailplane", kWhite),
+            lacquer("skid", grey(0.10)), lacquer("post", kWhite), metal("metal", 0.12), matt("dark", grey(kOpening)),
+            matt("interior", {0.045, 0.04, 0.035}), matt("seats", grey(0.04)), matt("crew", {0.05, 0.06, 0.10}),
+            glass("glass", 0.35), blade_material(kMainRotor), blade_material(kTailRotor)},
+           lamps()}),
+      .textures = {{"fuselage.png", painted({1024, 384}, sides)}, {"underside.png", painted({512, 96}, below)}}};
 }
 
 }  // namespace

@@ -104,10 +104,8 @@ Patch spat(double s, double y, double z, double scale) {
   return moved(teardrop(scale * glm::dvec3(0.30, 0.125, 0.185), 1.9, 12, "white"), kStraight, at(s, y, z));
 }
 
-// Two blades that turn at 40 revolutions a second: all places on a circle are alike from 1/80 s of exposure on.
 Patch propeller() {
-  const TurningBlades blades{.count = 2, .root_m = 0.17, .tip_m = 0.96, .root_chord_m = 0.17, .tip_chord_m = 0.10};
-  return moved(blurred_disc(blades, 8, 40), kStraight, at(0.2, 0, 0.05));
+  return moved(blade_disc(kLightPropeller, 2, 40), kStraight, at(0.2, 0, 0.05));
 }
 
 std::vector<Patch> nose_parts() {

@@ -142,7 +142,7 @@ std::vector<MaterialSpec> materials(const Paint& paint) {
                     lacquer("white", paint.body), lacquer("trim", paint.trim), matt("tyre", grey(kTyre)),
                     metal("metal", 0.20), matt("dark", grey(kOpening)), matt("interior", {0.045, 0.04, 0.035}),
                     matt("seats", {0.09, 0.05, 0.03}), matt("crew", {0.05, 0.06, 0.10}), glass("glass", 0.35)},
-                   rotor_materials(0.06),
+                   {blade_material(kLightPropeller)},
                    lamps()});
 }
 

@@ -18,6 +18,7 @@ struct MaterialSpec {
   double shininess = 1;             // MTL's Ns
   double opacity = 1;               // MTL's d
   std::string texture = "";         // file, from the MTL's folder; empty: none
+  std::string rotor = "";           // statements of a rotor, a line each; empty: none
 };
 
 struct Texture {

@@ -50,6 +50,7 @@ std::string mtl_text(const Model& model, const Livery& livery) {
     out << fixed_line("Ks", {m.specular, m.specular, m.specular}, 3) << '\n' << fixed_line("Ns", {m.shininess}, 1);
     out << '\n' << fixed_line("d", {m.opacity}, 3) << '\n';
     if (!m.texture.empty()) out << "map_Kd " << m.texture << '\n';
+    out << m.rotor;
   }
   return out.str();
 }

@@ -55,18 +55,28 @@ Patch upright(const std::vector<glm::dvec2>& profile, int sides, const glm::dvec
   return moved(revolved(profile, sides, material), kUpright, place_m);
 }
 
+// 240 mm; a blade is widest at a third of its length. Neighbours turn against each other, seen from above.
+TurningBlades rotor(double forward, double left) {
+  return {.material = std::string(forward > 0 ? "rotor_front_" : "rotor_rear_") + (left > 0 ? "left" : "right"),
+          .count = 2,
+          .root_m = 0.012,
+          .tip_m = 0.119,
+          .root_chord_m = 0.026,
+          .tip_chord_m = 0.012,
+          .rpm = forward * left > 0 ? -5500.0 : 5500.0,
+          .reflectance = 0.06};
+}
+
 // Arm, motor, blades, foot and lamp of one corner.
 std::vector<Patch> corner(double forward, double left, const std::string& lamp) {
   const glm::dvec3 motor(forward * kMotor_m, left * kMotor_m, 0.012);
   const glm::dvec3 root(forward * 0.055, left * 0.035, 0.004);
-  // 240 mm; a blade is widest at a third of its length; 100 revolutions a second are a full circle in 1/200 s.
-  const TurningBlades blades{.count = 2, .root_m = 0.012, .tip_m = 0.119, .root_chord_m = 0.026, .tip_chord_m = 0.012};
   const glm::dvec3 hub = motor + glm::dvec3(0, 0, kRotorHeight_m - 0.012);
   return {strut(root, motor, 0.026, 0.016, "shell"),
           upright({{0.026, 0}, {0.026, 0.012}, {0.022, 0.0145}, {-0.006, 0.0145}, {-0.016, 0.012}, {-0.016, 0}}, 20,
                   motor, "motor"),
           upright({{0.006, 0}, {0.005, 0.006}, {-0.016, 0.006}, {-0.016, 0}}, 10, hub, "metal"),
-          moved(blurred_disc(blades, 6, 48), kUpright, hub),
+          moved(blade_disc(rotor(forward, left), 2, 48), kUpright, hub),
           strut(motor - glm::dvec3(0, 0, 0.010), motor - glm::dvec3(0.010 * forward, 0, 0.085), 0.016, 0.012, "shell"),
           moved(teardrop(glm::dvec3(0.006), 1.0, 8, lamp), kStraight, motor - glm::dvec3(0, 0, 0.018))};
 }
@@ -103,7 +113,8 @@ std::vector<MaterialSpec> materials() {
   MaterialSpec lens = glass("lens", 1);
   return together({{lacquer("shell", {0.42, 0.43, 0.44}), lacquer("battery", grey(0.12)), metal("motor", 0.08),
                     metal("metal", 0.30), matt("dark", grey(kOpening)), lens},
-                   rotor_materials(0.06),
+                   {blade_material(rotor(1, 1)), blade_material(rotor(1, -1)), blade_material(rotor(-1, 1)),
+                    blade_material(rotor(-1, -1))},
                    lamps()});
 }
 

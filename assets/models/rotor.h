@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "loft.h"
@@ -8,24 +9,24 @@
 
 namespace sigs::models {
 
-// Blades that turn while the shutter is open.
+// Blades that turn. Their disc is a material of its own, whose statements let the renderer turn them.
 struct TurningBlades {
+  std::string material;
   int count = 2;
   double root_m = 0.1;  // radius at which the blades begin
   double tip_m = 1;     // and end
   double root_chord_m = 0.1;
   double tip_chord_m = 0.1;
-  double sweep_rad = 6.3;      // by how much a blade turns; from 2 pi / count on, the disc is alike all around
-  double coning_m = 0;         // how much higher (+x) the tips lie than the roots
-  double first_blade_rad = 0;  // where the middle of the first blade's sweep lies
+  double rpm = 0;       // positive: counter-clockwise for an eye to which the disc's x axis points
+  double coning_m = 0;  // how much higher (+x) the tips lie than the roots
+  double reflectance = 0.05;
 };
 
-// The blurred disc around the x axis, one layer, seen from both sides. Its opacity is the share of the time in which a
-// blade is before a place: min(chord / radius, sweep) / sweep in the middle of the sweep, less towards its ends. Each
-// cell takes the next of the opacities that rotor_materials() has; cells below half the smallest are left out.
-[[nodiscard]] Patch blurred_disc(const TurningBlades& blades, int rings, int sides);
+// The ring around the x axis in which the blades are, one layer, facing +x. Its rims lie beyond roots and tips, so that
+// no blade is cut by the straight sides.
+[[nodiscard]] Patch blade_disc(const TurningBlades& blades, int rings, int sides);
 
-// Materials of the blurred discs: matt, so that no glass is seen in them.
-[[nodiscard]] std::vector<MaterialSpec> rotor_materials(double reflectance);
+// Matt, so that no glass is seen in it. For programs that know no rotors it is as opaque as the blades are on average.
+[[nodiscard]] MaterialSpec blade_material(const TurningBlades& blades);
 
 }  // namespace sigs::models

@@ -5,6 +5,7 @@
 
 // Compiled for each kind of surface: without an image; with IMAGE, of which only opaque texels are touched; with IMAGE
 // and LAYERED, of which only fragments whose opacity lies within [lowest, highest) belong to the pass. Each is compiled
+// With ROTOR the surface is the disc of turning blades, without an image. Each is compiled
 // for the point light and, with SUN, for sun, sky and ground. DEPTH draws depth alone, for the map of shadows.
 #ifdef IMAGE
 uniform sampler2D image;  // premultiplied; decoded from sRGB by the sampler
@@ -31,6 +32,17 @@ uniform float light_scale;
 #endif
 uniform vec3 eye_scaled;
 uniform float eye_scale;
+
+#ifdef ROTOR
+// The disc's axes: x to where phases count from, z the axis of turning. Angles in radians, counter-clockwise.
+uniform mat3 disc_from_surface;
+uniform vec3 hub_in_disc_m;
+uniform vec3 blade_radii_m;   // root, tip
+uniform vec3 blade_chords_m;  // at root and tip
+uniform float blade_apart;    // from blade to blade
+uniform float blade_sweep;    // what a blade turns by while the shutter is open
+uniform vec3 blade_phase;     // of a blade in the middle of that time: z at the window's origin; x, y more for each pixel
+#endif
 
 in vec3 surface_m;
 centroid in vec3 surface_normal;
@@ -128,6 +140,42 @@ vec4 sunlit(vec4 texel, float opacity, vec3 n, vec3 to_eye, float lit) {
 }
 #endif
 
+#ifdef ROTOR
+// Share of the exposure in which a blade of width `width`, which sweeps over `sweep`, is before a place at `angle` from
+// the middle of the sweep.
+float passing(float angle, float width, float sweep) {
+  float low = max(angle - 0.5 * width, -0.5 * sweep);
+  float high = min(angle + 0.5 * width, 0.5 * sweep);
+  return max(high - low, 0.0);
+}
+
+// Share of the exposure and of the pixel in which there is a blade. What a pixel spans along the circle counts as more
+// sweep, which keeps the sum over all places.
+float blade_share() {
+  vec2 place = (disc_from_surface * surface_m - hub_in_disc_m).xy;
+  float radius = max(length(place), 1e-6);
+  vec2 outward = place / radius;
+  vec2 around = vec2(-outward.y, outward.x);
+  vec2 right = dFdx(place);
+  vec2 down = dFdy(place);
+  float pixel_outward = max(length(vec2(dot(right, outward), dot(down, outward))), 1e-9);
+  float pixel_around = length(vec2(dot(right, around), dot(down, around)));
+  float along = clamp((radius - blade_radii_m.x) / (blade_radii_m.y - blade_radii_m.x), 0.0, 1.0);
+  float width = min(mix(blade_chords_m.x, blade_chords_m.y, along) / radius, blade_apart);
+  float sweep = max(length(vec2(blade_sweep, pixel_around / radius)), 1e-6);
+  float passes = floor(sweep / blade_apart);
+  float rest = sweep - passes * blade_apart;
+  float phase = blade_phase.z + dot(blade_phase.xy, gl_FragCoord.xy) + 0.5 * passes * blade_apart;
+  float angle = atan(place.y, place.x) - phase;
+  angle -= blade_apart * floor(angle / blade_apart + 0.5);
+  float sum = passes * width;
+  for (float k = -1.0; k <= 1.0; k += 1.0) sum += passing(angle + k * blade_apart, width, rest);
+  float ends = clamp((blade_radii_m.y - radius) / pixel_outward + 0.5, 0.0, 1.0) *
+               clamp((radius - blade_radii_m.x) / pixel_outward + 0.5, 0.0, 1.0);
+  return clamp(ends * sum / sweep, 0.0, 1.0);
+}
+#endif
+
 #ifdef DEPTH
 void main() {
 #ifdef IMAGE
@@ -144,7 +192,12 @@ void main() {
 #else
   vec4 texel = vec4(1.0);
 #endif
+#ifdef ROTOR
+  float opacity = blade_share();
+  if (opacity < 1.0 / 255.0) discard;
+#else
   float opacity = surface_color.a;
+#endif
   float alpha = texel.a * opacity;
 #ifdef LAYERED
   if (alpha < lowest_opacity || alpha >= highest_opacity) discard;

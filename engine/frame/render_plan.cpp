@@ -118,6 +118,31 @@ Box coarse_box(const Box& box_px, double step) {
   return {(box_px.x + 0.5) / step - 0.5, (box_px.y + 0.5) / step - 0.5, box_px.width / step, box_px.height / step};
 }
 
+// When the pixels of a view are exposed. Over a view, rows of the image are taken to follow each other evenly.
+Shutter shutter_of(const RenderPlan& plan, const VirtualCamera& view, const Scene& scene) {
+  Shutter shutter{.time_s = plan.time_s};
+  if (plan.exposure_s > 0) shutter.exposure_s = plan.exposure_s;
+  const double last_row = scene.footage.size_px.height - 1;
+  if (!(scene.motion.readout_s > 0) || !(last_row > 0)) return shutter;
+  const glm::dvec2 middle = 0.5 * glm::dvec2(view.size_px.width, view.size_px.height) - 0.5;
+  const glm::dvec2 step = 0.25 * glm::dvec2(view.size_px.width, view.size_px.height);
+  const Lens& lens = compositing_camera(scene).lens;
+  const auto row_at = [&](const glm::dvec2& in_view) -> std::optional<double> {
+    const glm::dvec2 at = (in_view - view.center_px) / view.focal_px;
+    const std::optional<glm::dvec2> pixel =
+        lens.pixel(glm::conjugate(view.view_from_camera.rotation) * glm::dvec3(1, at.x, at.y));
+    return pixel ? std::optional(pixel->y) : std::nullopt;
+  };
+  const std::optional<double> center = row_at(middle);
+  const std::optional<double> right = row_at(middle + glm::dvec2(step.x, 0));
+  const std::optional<double> down = row_at(middle + glm::dvec2(0, step.y));
+  if (!center || !right || !down) return shutter;
+  const double s_per_row = scene.motion.readout_s / last_row;
+  shutter.s_per_px = s_per_row * glm::dvec2(*right - *center, *down - *center) / step;
+  shutter.center_s = s_per_row * (*center - 0.5 * last_row) + glm::dot(shutter.s_per_px, view.center_px - middle);
+  return shutter;
+}
+
 void count_rendering(OpCounts& counts, const RenderCounts& before, const RenderCounts& after) {
   counts.pixels_drawn += after.pixels_drawn - before.pixels_drawn;
   counts.triangles_drawn += after.triangles_drawn - before.triangles_drawn;
@@ -184,7 +209,10 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
   const Mesh& mesh = mesh_of(scene, layers.placed);
   const double distance_m = layers.placed.distance_m();
   if (!layers.silhouette && distance_m > mesh.radius_m) return {};
-  RenderPlan plan{.corners = corners_in_camera(mesh, layers.placed.camera_from_body), .light = light_of(scene, moment)};
+  RenderPlan plan{.corners = corners_in_camera(mesh, layers.placed.camera_from_body),
+                  .light = light_of(scene, moment),
+                  .time_s = moment.time_s,
+                  .exposure_s = moment.exposure_s};
   const std::optional<Box> bounds = bounds_of(layers, mesh.radius_m);
   const int blur_px = margin_px(layers.sigma_px);
   plan.warp_rect = warp_rect_of(bounds, layers.motion.margin_px + cv::Size(blur_px, blur_px), scene.footage.size_px);
@@ -205,8 +233,8 @@ Result<std::vector<RenderedView>> rendered_views(const std::vector<VirtualCamera
   const RenderCounts before = renderer.counts();
   std::vector<RenderedView> rendered;
   for (const VirtualCamera& view : views) {
-    Result<Layer> layer =
-        renderer.draw(mesh_of(scene, layers.placed), layers.placed.camera_from_body, plan.light, view);
+    Result<Layer> layer = renderer.draw(mesh_of(scene, layers.placed), layers.placed.camera_from_body, plan.light, view,
+                                        shutter_of(plan, view, scene));
     if (!layer) return fail(layer.error());
     rendered.push_back({view, std::move(*layer)});
   }

@@ -57,6 +57,8 @@ struct RenderPlan {
   std::vector<VirtualCamera> views;   // virtual cameras; none where no part of the intruder can be in the image
   std::array<glm::dvec3, 8> corners;  // of the box around the mesh, metres, camera frame
   Light light;                        // camera frame
+  double time_s = 0;                  // of the middle row
+  double exposure_s = 0;              // 0: not known
 };
 
 [[nodiscard]] RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const Scene& scene,

@@ -99,6 +99,20 @@ struct SurfacePoint {
 };
 
 // Points spread evenly over the surface, each with its share of the area.
+// The first index of each triangle, without the discs of rotors where there is anything else: a disc tells neither nose
+// nor top.
+std::vector<std::size_t> triangles_of_the_body(const Mesh& mesh) {
+  std::vector<std::size_t> all;
+  std::vector<std::size_t> of_rotors;
+  for (const MeshPart& part : mesh.parts) {
+    const auto material = static_cast<std::size_t>(part.material);
+    const bool is_rotor = material < mesh.materials.size() && mesh.materials[material].rotor;
+    for (std::size_t i = 0; i + 2 < part.index_count; i += 3)
+      (is_rotor ? of_rotors : all).push_back(part.first_index + i);
+  }
+  return all.empty() ? of_rotors : all;
+}
+
 std::vector<SurfacePoint> surface_points(const Mesh& mesh) {
   const glm::dvec3 low(mesh.low_m);
   const glm::dvec3 size = glm::max(glm::dvec3(mesh.high_m) - low, glm::dvec3(1e-30));
@@ -106,10 +120,11 @@ std::vector<SurfacePoint> surface_points(const Mesh& mesh) {
   const auto area_of = [&](std::size_t i) {
     return glm::length(glm::cross(corner(i + 1) - corner(i), corner(i + 2) - corner(i))) / 2;
   };
+  const std::vector<std::size_t> triangles = triangles_of_the_body(mesh);
   double total = 0;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) total += area_of(i);
+  for (const std::size_t i : triangles) total += area_of(i);
   std::vector<SurfacePoint> points;
-  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+  for (const std::size_t i : triangles) {
     const double area = area_of(i);
     const double wanted = total > 0 ? std::sqrt(area / total * kPoints) : 1;
     const int n = std::clamp(static_cast<int>(std::ceil(wanted)), 1, kMaxSplits);

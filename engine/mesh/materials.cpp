@@ -78,15 +78,16 @@ cv::Mat read_image(const fs::path& path) {
 }
 
 // What tinyobj does not report of a material.
-struct OpacityHints {
+struct MaterialHints {
   bool has_diffuse = false;
   bool has_dissolve = false;
   std::optional<float> fourth_of_diffuse;
+  RotorStatements rotor;
 };
 
 struct MtlMaterial {
   tinyobj::material_t material;
-  OpacityHints hints;
+  MaterialHints hints;
   fs::path folder;  // paths of textures start here
 };
 
@@ -97,15 +98,16 @@ std::optional<float> fourth_number(std::string_view numbers) {
   return parsed_number<float>(next_token(numbers));
 }
 
-std::map<std::string, OpacityHints> opacity_hints_of(std::string_view text) {
-  std::map<std::string, OpacityHints> hints_of_name;
-  OpacityHints* current = nullptr;
+std::map<std::string, MaterialHints> hints_of(std::string_view text) {
+  std::map<std::string, MaterialHints> hints_of_name;
+  MaterialHints* current = nullptr;
   while (!text.empty()) {
     std::string_view line = next_line(text);
     const std::string_view key = next_token(line);
     if (key == "newmtl") current = &hints_of_name[std::string(trimmed(line))];
     if (current == nullptr) continue;
     if (key == "d" || key == "Tr") current->has_dissolve = true;
+    if (key.starts_with("rotor_")) current->rotor.emplace(key, trimmed(line));
     if (key != "Kd") continue;
     current->has_diffuse = true;
     current->fourth_of_diffuse = fourth_number(line);
@@ -128,7 +130,7 @@ Result<void> read_library(const fs::path& path, MtlMaterials& found) {
     if (is_out_of_memory()) throw;  // a model without its materials would be wrong
     return {};
   }
-  std::map<std::string, OpacityHints> hints_of_name = opacity_hints_of(*text);
+  std::map<std::string, MaterialHints> hints_of_name = hints_of(*text);
   for (const tinyobj::material_t& material : materials) {
     const std::string name(trimmed(material.name));
     found.emplace(name, MtlMaterial{material, hints_of_name[name], path.parent_path()});
@@ -184,10 +186,20 @@ class MaterialReader {
         result.texture.empty() && (!source.hints.has_diffuse || !source.material.diffuse_texname.empty());
     if (!is_grey) result.diffuse = source.hints.has_diffuse ? color_of(source.material.diffuse) : glm::vec3(1.0F);
     apply_opacity_map(result, source);
+    if (!source.hints.rotor.empty()) add_rotor(result, source.hints.rotor);
     return result;
   }
 
  private:
+  void add_rotor(Material& material, const RotorStatements& statements) {
+    const Result<Rotor> rotor = read_rotor(statements);
+    if (rotor)
+      material.rotor = *rotor;
+    else
+      warnings_.push_back({obj_name_, fmt::format("material {}: {} {}; its blades do not turn", material.name,
+                                                  rotor.error().where, rotor.error().what)});
+  }
+
   cv::Mat texture_of(const MtlMaterial& source, const std::string& written) {
     if (written.empty()) return {};
     const fs::path path = found_file(source.folder, std::string(trimmed(written)));

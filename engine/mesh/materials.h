@@ -52,7 +52,7 @@ struct TexturePlacement {
 };
 
 struct MaterialSet {
-  std::vector<Material> materials;           // one for each name asked for, in that order
+  std::vector<Material> materials;           // one for each name asked for, in that order; rotors in the file's units
   std::vector<TexturePlacement> placements;  // likewise
   std::vector<Warning> warnings;
 };

@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "mesh/rotor.h"
 
 namespace sigs {
 
@@ -19,8 +21,9 @@ struct Material {
   glm::vec3 diffuse{0.5F, 0.5F, 0.5F};  // display code values 0..1 (sRGB), as modelling programs write them
   glm::vec3 specular{0, 0, 0};
   float shininess = 1;
-  float opacity = 1;  // 1: solid
-  cv::Mat texture{};  // CV_8UC4, RGBA, first row is the top of the image (v = 1); empty: none
+  float opacity = 1;             // 1: solid
+  std::optional<Rotor> rotor{};  // its triangles are the disc of turning blades, whose opacity is not `opacity`
+  cv::Mat texture{};             // CV_8UC4, RGBA, first row is the top of the image (v = 1); empty: none
 };
 
 // One corner of the triangles that share it; float is enough for a body of some 100 m (0.01 mm).
@@ -59,7 +62,8 @@ struct ModelAxes {
   bool anchor_at_bounds = false;  // false: the file's origin is the reference point; true: the centre of its bounds
 };
 
-// Reads a Wavefront OBJ file with its MTL files and textures.
+// Reads a Wavefront OBJ file with its MTL files and textures. A material with the statements rotor_blades and rotor_rpm
+// is a rotor (docs/rotors.md); its hub and axis are those of its triangles, which form one disc.
 // Normals that the file lacks, or that have no length, are computed (averaged_normals() in geometry.h). Forward and up
 // define a right-handed rotation, so the model is never mirrored. Materials and textures that are missing are rendered
 // grey, with a warning. Faces without area are left out; so are faces of a wholly transparent material, with a warning

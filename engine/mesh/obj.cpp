@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -69,8 +70,8 @@ Bounds bounds_of(const std::vector<Triangle>& triangles) {
   return bounds;
 }
 
-// Brings the model to metres and its reference point to the origin.
-Result<void> place(std::vector<Triangle>& triangles, const ModelAxes& axes, const std::string& name) {
+// Brings the model to metres and its reference point to the origin. Returns the metres of the file's unit.
+Result<double> place(std::vector<Triangle>& triangles, const ModelAxes& axes, const std::string& name) {
   const Bounds bounds = bounds_of(triangles);
   const double extent = bounds.high.x - bounds.low.x;
   if (axes.length_m > 0 && !(extent > 0)) return fail(name, "has no extent along forward, which length_m would set");
@@ -82,7 +83,7 @@ Result<void> place(std::vector<Triangle>& triangles, const ModelAxes& axes, cons
   constexpr double kTooLarge = 1e18;  // squares still fit a float
   if (glm::length(placed.low) > kTooLarge || glm::length(placed.high) > kTooLarge)
     return fail(name, "is larger than numbers can hold; its scale is wrong");
-  return {};
+  return scale;
 }
 
 std::array<glm::dvec3, 3> written_normals(const ObjTriangle& triangle, const ObjFile& file,
@@ -197,6 +198,23 @@ void measure(Mesh& mesh) {
   }
 }
 
+// Brings rotors to body axes and metres. Those whose faces form no disc become ordinary materials.
+void place_rotors(Mesh& mesh, double scale, const std::string& name) {
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    std::optional<Rotor>& rotor = mesh.materials[i].rotor;
+    if (!rotor) continue;
+    std::vector<Triangle> disc;
+    for (const MeshPart& part : mesh.parts)
+      for (std::uint32_t k = 0; part.material == static_cast<int>(i) && k + 2 < part.index_count; k += 3)
+        for (Triangle& triangle = disc.emplace_back(); const std::size_t corner : {0, 1, 2})
+          triangle[corner] = mesh.vertices[mesh.indices[part.first_index + k + corner]].position_m;
+    rotor = placed(*rotor, disc, scale);
+    if (!rotor && !disc.empty())
+      mesh.warnings.push_back(
+          {name, fmt::format("material {}: its faces form no disc; its blades do not turn", mesh.materials[i].name)});
+  }
+}
+
 }  // namespace
 
 Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes) {
@@ -216,7 +234,8 @@ Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes) 
   leave_out_invisible(*file, set, name);
   if (file->triangles.empty()) return fail(name, "has no faces with an area");
   std::vector<Triangle> triangles = triangles_in_body(*file, *rotation);
-  if (const auto placed = place(triangles, axes, name); !placed) return fail(placed.error());
+  const Result<double> scale = place(triangles, axes, name);
+  if (!scale) return fail(scale.error());
   turn_outside_out(*file, triangles, *rotation);
   const std::vector<glm::dvec3> normals = normals_of(*file, triangles, *rotation);
 
@@ -226,6 +245,7 @@ Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes) 
   mesh.materials = std::move(set.materials);
   mesh.warnings = std::move(set.warnings);
   measure(mesh);
+  place_rotors(mesh, *scale, name);
   return mesh;
 }
 

@@ -172,7 +172,7 @@ class TransparentTexels {
 using Opacities = std::map<const unsigned char*, TransparentTexels>;
 
 Surface surface_of(const Mesh& mesh, const Material& material, std::uint32_t first, Opacities& opacities) {
-  if (!(material.opacity >= kSolidOpacity)) return Surface::glass;
+  if (!(material.opacity >= kSolidOpacity) || material.rotor) return Surface::glass;
   if (material.texture.empty()) return Surface::solid;
   const TransparentTexels& texels = opacities.try_emplace(material.texture.data, material.texture).first->second;
   const auto uv = [&](std::uint32_t corner) { return mesh.vertices[mesh.indices[first + corner]].uv; };
@@ -194,8 +194,8 @@ std::vector<Surface> surfaces_of(const Mesh& mesh) {
 namespace {
 
 void append(DrawList& list, int texture, Surface surface, const std::uint32_t* corners,
-            CullFace hidden = CullFace::none) {
-  const Run run{texture, surface, static_cast<std::uint32_t>(list.indices.size()), 0, hidden};
+            CullFace hidden = CullFace::none, int rotor = kNoRotor) {
+  const Run run{texture, surface, static_cast<std::uint32_t>(list.indices.size()), 0, hidden, rotor};
   if (list.runs.empty() || !is_drawn_alike(list.runs.back(), run)) list.runs.push_back(run);
   list.indices.insert(list.indices.end(), corners, corners + 3);
   list.runs.back().count += 3;
@@ -262,10 +262,11 @@ DrawList solid_list(const Mesh& mesh, const std::vector<Surface>& surfaces, cons
 std::vector<TransparentTriangle> transparent_triangles(const Mesh& mesh, const std::vector<Surface>& surfaces) {
   std::vector<TransparentTriangle> triangles;
   for_each_triangle(mesh, surfaces, [&](int material, Surface surface, const std::uint32_t* corners) {
-    if (surface == Surface::solid || !(mesh.materials[material].opacity >= kVisibleOpacity)) return;
+    const bool is_of_rotor = mesh.materials[material].rotor.has_value();
+    if (surface == Surface::solid || !(is_of_rotor || mesh.materials[material].opacity >= kVisibleOpacity)) return;
     const glm::vec3 sum = mesh.vertices[corners[0]].position_m + mesh.vertices[corners[1]].position_m +
                           mesh.vertices[corners[2]].position_m;
-    triangles.push_back({{corners[0], corners[1], corners[2]}, material, surface, sum / 3.0F});
+    triangles.push_back({{corners[0], corners[1], corners[2]}, material, surface, sum / 3.0F, is_of_rotor});
   });
   return triangles;
 }
@@ -281,8 +282,13 @@ DrawList sorted_list(const std::vector<TransparentTriangle>& triangles, const st
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return distances_m[a] > distances_m[b]; });
   DrawList list;
-  for (const std::size_t i : order)
-    append(list, textures[triangles[i].material], triangles[i].surface, triangles[i].indices);
+  for (const std::size_t i : order) {
+    const TransparentTriangle& triangle = triangles[i];
+    if (triangle.is_of_rotor)
+      append(list, kNoTexture, triangle.surface, triangle.indices, CullFace::none, triangle.material);
+    else
+      append(list, textures[triangle.material], triangle.surface, triangle.indices);
+  }
   return list;
 }
 

@@ -35,6 +35,7 @@ enum class CullFace { none, back, front };
 [[nodiscard]] std::vector<CullFace> cull_faces_of(const Mesh& mesh, const std::vector<Surface>& surfaces);
 
 inline constexpr int kNoTexture = -1;
+inline constexpr int kNoRotor = -1;
 
 // Triangles that one call draws: indices [first, first + count).
 struct Run {
@@ -43,11 +44,12 @@ struct Run {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   CullFace hidden = CullFace::none;  // where the eye is outside the body
+  int rotor = kNoRotor;              // the material whose blades turn here
 };
 
 // Whether two runs can be drawn by one call.
 [[nodiscard]] inline bool is_drawn_alike(const Run& a, const Run& b) {
-  return a.texture == b.texture && a.surface == b.surface && a.hidden == b.hidden;
+  return a.texture == b.texture && a.surface == b.surface && a.hidden == b.hidden && a.rotor == b.rotor;
 }
 
 struct DrawList {
@@ -61,6 +63,7 @@ struct TransparentTriangle {
   int material = 0;
   Surface surface = Surface::glass;
   glm::vec3 centroid_m{0, 0, 0};  // body axes
+  bool is_of_rotor = false;
 };
 
 // The texture number of each material. Textures are counted from 0; materials that share pixels share the number.

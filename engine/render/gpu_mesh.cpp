@@ -289,6 +289,7 @@ std::uint64_t fingerprint_of(const Mesh& mesh) {
     print.add(material.specular);
     print.add(material.shininess);
     print.add(material.opacity);
+    print.add(std::uint64_t{material.rotor.has_value()});
     add_texture(print, material.texture);
   }
   return print.value();

@@ -31,9 +31,9 @@ namespace sigs {
 
 // The shaders for each kind of surface and one kind of light, so that none does what it does not need.
 struct Programs {
-  enum Kind { kPlain, kTextured, kLayered };  // assets/shaders/intruder.frag
+  enum Kind { kPlain, kTextured, kLayered, kRotor };  // assets/shaders/intruder.frag
 
-  std::array<Program, 3> all;
+  std::vector<Program> all;  // kRotor from the first model with rotors on
 };
 
 // What only frames in the sun need.
@@ -93,12 +93,15 @@ constexpr float kOpaque = 254.5F / 255.0F;  // a cutout's texel at or above is s
 constexpr float kAnyOpacity = 1e9F;
 
 Programs::Kind kind_of(const Run& run) {
+  if (run.rotor != kNoRotor) return Programs::kRotor;
   if (run.texture == kNoTexture) return Programs::kPlain;
   return run.surface == Surface::solid ? Programs::kTextured : Programs::kLayered;
 }
 
+//   set_rotor  gives the program in use what it needs of the rotor of a material
+template <class SetRotor>
 PassCounts draw_runs(const Programs& programs, const GpuMesh& gpu, const std::vector<Run>& runs, bool is_solid_pass,
-                     bool from_outside) {
+                     bool from_outside, const SetRotor& set_rotor) {
   PassCounts counts;
   for (const Run& run : runs) {
     const Programs::Kind kind = kind_of(run);
@@ -109,6 +112,7 @@ PassCounts draw_runs(const Programs& programs, const GpuMesh& gpu, const std::ve
       program.set("lowest_opacity", is_cutout && is_solid_pass ? kOpaque : kVisibleOpacity);
       program.set("highest_opacity", is_cutout && !is_solid_pass ? kOpaque : kAnyOpacity);
     }
+    if (kind == Programs::kRotor) set_rotor(program, run.rotor);
     gpu.bind_texture(run.texture);
     leave_out(from_outside ? run.hidden : CullFace::none);
     gpu.draw(run);
@@ -127,7 +131,20 @@ Result<Programs> compiled_programs(const std::string& light) {
   if (!textured) return fail(textured.error());
   Result<Program> layered = Program::create(light + "#define IMAGE\n#define LAYERED\n");
   if (!layered) return fail(layered.error());
-  return Programs{{std::move(*plain), std::move(*textured), std::move(*layered)}};
+  Programs programs;
+  for (Result<Program>* each : {&plain, &textured, &layered}) programs.all.push_back(std::move(**each));
+  return programs;
+}
+
+// Adds the program for rotors where the mesh has some. Error unavailable as that of Program::create().
+Result<void> add_rotor_program(Programs& programs, const Mesh& mesh, const std::string& light) {
+  const auto has_rotor = [](const Material& material) { return material.rotor.has_value(); };
+  if (programs.all.size() > Programs::kRotor || std::none_of(mesh.materials.begin(), mesh.materials.end(), has_rotor))
+    return {};
+  Result<Program> rotor = Program::create(light + "#define ROTOR\n");
+  if (!rotor) return fail(rotor.error());
+  programs.all.push_back(std::move(*rotor));
+  return {};
 }
 
 // Puts the depth of solid parts into the depth buffer, so that draw_solid() shades nothing that is behind them. The
@@ -150,11 +167,13 @@ PassCounts draw_solid(const Programs& programs, GpuMesh& gpu, bool from_outside)
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
   const std::vector<Run>& runs = gpu.bind_solid();
-  return draw_runs(programs, gpu, runs, true, from_outside);
+  return draw_runs(programs, gpu, runs, true, from_outside, [](const Program&, int) {});
 }
 
 // Draws glass and the other texels of cutouts, blended in the order of the list.
-PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted) {
+template <class SetRotor>
+PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted,
+                            const SetRotor& set_rotor) {
   if (sorted.runs.empty()) return {};
   glEnablei(GL_BLEND, 0);
   glDisablei(GL_BLEND, 1);  // coverage is replaced, not blended: glass counts as covering
@@ -162,7 +181,7 @@ PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const 
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   gpu.bind_sorted(sorted);
-  return draw_runs(programs, gpu, sorted.runs, false, false);
+  return draw_runs(programs, gpu, sorted.runs, false, false, set_rotor);
 }
 
 Result<SunTools> sun_tools() {
@@ -290,6 +309,7 @@ Result<const Programs*> Renderer::State::lit_programs(const Mesh& mesh, const Gp
                                                       const Light& light, const VirtualCamera& view) {
   const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
   if (light.kind == Light::Kind::point) {
+    if (const auto added = add_rotor_program(programs, mesh, ""); !added) return fail(added.error());
     for (const Program& program : programs.all) set_point_light(program, light, view_from_body, view.view_from_camera);
     return &programs;
   }
@@ -298,6 +318,7 @@ Result<const Programs*> Renderer::State::lit_programs(const Mesh& mesh, const Gp
     if (!made) return fail(made.error());
     sun.emplace(std::move(*made));
   }
+  if (const auto added = add_rotor_program(sun->programs, mesh, "#define SUN\n"); !added) return fail(added.error());
   const SunView from_sun =
       sun_view_of(mesh, to_sun_in_body(light, camera_from_body), shadow_map_side(mesh, view_from_body, view));
   const Result<PassCounts> drawn = sun->shadow.draw(gpu, from_sun);
@@ -322,8 +343,9 @@ Result<void> Renderer::State::draw_depth_first(const GpuMesh& gpu, const glm::ma
 }
 
 Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
-                             const Light& light, const VirtualCamera& view) {
+                             const Light& light, const VirtualCamera& view, const Shutter& shutter) {
   const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
+  ENSURE(std::isfinite(shutter.time_s) && shutter.exposure_s >= 0 && std::isfinite(shutter.center_s));
   ensure_sane(view_from_body, light, view);
   if (view.size_px.empty()) return Layer{};
   if (std::max(view.size_px.width, view.size_px.height) > kLargestView_px)
@@ -352,7 +374,11 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
     if (piece.area() >= kMinPixelsForDepth)
       if (const auto drawn = state_->draw_depth_first(gpu, *clip, from_outside); !drawn) return fail(drawn.error());
     count(draw_solid(**programs, gpu, from_outside), state_->counts);
-    count(draw_transparent(**programs, gpu, sorted), state_->counts);
+    const auto set_rotor = [&](const Program& program, int material) {
+      set_rotor_uniforms(program, *mesh.materials[static_cast<std::size_t>(material)].rotor, view_from_body, view,
+                         piece, shutter);
+    };
+    count(draw_transparent(**programs, gpu, sorted, set_rotor), state_->counts);
     state_->target.read(layer.color(piece), layer.coverage(piece));
     state_->counts.pixels_drawn += piece.area();
   }

@@ -13,6 +13,7 @@
 #include "camera/virtual_camera.h"
 #include "mesh/mesh.h"
 #include "render/light.h"
+#include "render/rotor_view.h"
 
 namespace sigs {
 
@@ -56,8 +57,9 @@ class Renderer {
   //   camera_from_body  pose of the mesh's body axes in the camera frame, metres
   //   light             in the camera frame
   //   view              the virtual camera: its rotation in the camera frame, focal length, centre and size in pixels
+  //   shutter           for models with rotors
   [[nodiscard]] Result<Layer> draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
-                                   const Light& light, const VirtualCamera& view);
+                                   const Light& light, const VirtualCamera& view, const Shutter& shutter = {});
 
   // Frees what was uploaded of a mesh. Does nothing where the mesh was never drawn.
   void forget(const Mesh& mesh);

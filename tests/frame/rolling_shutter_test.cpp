@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -120,6 +121,60 @@ TEST_CASE("a readout of 0 changes no byte, and a camera that does not move sees 
   cv::minMaxIdx(difference, nullptr, &largest);
   CHECK(largest <= 1);  // rays of unit length round otherwise
   CHECK(at_once.truth.intruders[0].visible_box == rolled.truth.intruders[0].visible_box);
+}
+
+TEST_CASE("a rolling shutter bends turning blades: each row sees them at its own time") {
+  Mesh disc;
+  disc.materials.push_back({.name = "disc", .rotor = Rotor{.blade_count = 2, .tip_m = 6, .rpm = 400}});
+  disc.materials[0].rotor->axis = {-1, 0, 0};
+  disc.materials[0].rotor->across = {0, 1, 0};
+  for (const glm::vec3 corner : {glm::vec3(0, -6, 6), glm::vec3(0, 6, 6), glm::vec3(0, 6, -6), glm::vec3(0, -6, -6)})
+    disc.vertices.push_back({corner, {-1, 0, 0}, {0, 0}});
+  disc.indices = {0, 1, 2, 0, 2, 3};
+  disc.parts = {{0, 0, 6}};
+  disc.low_m = {0, -6, -6};
+  disc.high_m = {0, 6, 6};
+  disc.radius_m = 8.5F;
+  const auto model = std::make_shared<const Model>(model_of(std::move(disc)));
+  Model turned = *model;
+  Scenario scenario;
+  add_aircraft(scenario, {60, 6, -152});
+  Scene scene = scenario.opened();
+  scene.models = {model};
+  scene.intruders[0].model = model.get();
+  scene.motion.readout_s = kReadout_s;
+  ComposeContext context;
+  const auto opacity_in = [&](const Scene& it) {
+    const SceneMoment moment = scene_at(it, 1);
+    const Result<IntruderLayers> layers = intruder_layers(it, moment, moment.intruders[0], context, stated_color());
+    REQUIRE(layers.has_value());
+    cv::Mat opacity;
+    cv::extractChannel(layers->warped.color, opacity, 3);
+    cv::Mat image = cv::Mat::zeros(it.footage.size_px, CV_32FC1);
+    const cv::Rect inside = layers->warped.rect & cv::Rect({0, 0}, it.footage.size_px);
+    REQUIRE(!inside.empty());
+    opacity(inside - layers->warped.rect.tl()).copyTo(image(inside));
+    return image;
+  };
+  const cv::Mat rolled = opacity_in(scene);
+  // The same rows of a shutter that opens all at once, with blades turned on by the row's time.
+  cv::Mat by_rows = cv::Mat::zeros(rolled.size(), CV_32FC1);
+  const int rows = rolled.rows;
+  for (int y = 0; y < rows; ++y) {
+    if (cv::countNonZero(rolled.row(y)) == 0) continue;
+    turned.mesh.materials[0].rotor->phase_rad =
+        2 * 3.14159265358979 * 400 / 60 * kReadout_s * (double(y) / (rows - 1) - 0.5);
+    Scene at_once = scene;
+    at_once.motion.readout_s = 0;
+    at_once.intruders[0].model = &turned;
+    opacity_in(at_once).row(y).copyTo(by_rows.row(y));
+  }
+  const double area_px = cv::sum(by_rows)[0];
+  REQUIRE(area_px > 20);
+  CHECK(cv::norm(rolled, by_rows, cv::NORM_L1) < 0.05 * area_px);
+  Scene at_once = scene;
+  at_once.motion.readout_s = 0;
+  CHECK(cv::norm(opacity_in(at_once), by_rows, cv::NORM_L1) > 0.2 * area_px);
 }
 
 TEST_CASE(
