@@ -122,9 +122,13 @@ void print_mesh(const Mesh& mesh) {
   std::printf("model: %zu triangles, %zu vertices, %zu materials\n", mesh.indices.size() / 3, mesh.vertices.size(),
               mesh.materials.size());
   std::printf("extent along x y z of the file, in its units: %.4g %.4g %.4g\n", size.x, size.y, size.z);
-  for (const Material& material : mesh.materials)
+  for (const Material& material : mesh.materials) {
     std::printf("material %s: color %.3g %.3g %.3g, opacity %.3g%s\n", material.name.c_str(), material.diffuse.x,
                 material.diffuse.y, material.diffuse.z, material.opacity, material.texture.empty() ? "" : ", textured");
+    if (const std::optional<Rotor>& rotor = material.rotor)
+      std::printf("  rotor: %d blades, %.4g rpm, radii %.4g to %.4g, chords %.3g to %.3g\n", rotor->blade_count,
+                  rotor->rpm, rotor->root_m, rotor->tip_m, rotor->root_chord_m, rotor->tip_chord_m);
+  }
   for (const Warning& warning : mesh.warnings) print_warning(warning);
 }
 

@@ -62,11 +62,13 @@ void add(Digest& digest, const FileStamp& stamp) {
 // so that one that is added to the settings is not forgotten here.
 void add(Digest& digest, const std::vector<WaypointSettings>& waypoints) {
   digest.add(std::uint64_t(waypoints.size()));
-  for (const auto& [frame, position_m, place, unknown_json] : waypoints) {
+  for (const auto& [frame, position_m, heading_deg, place, unknown_json] : waypoints) {
     static_cast<void>(place);  // position_m follows it
     static_cast<void>(unknown_json);
     digest.add(std::uint64_t(frame ? 1 : 0));
     digest.add(frame.value_or(0));
+    digest.add(std::uint64_t(heading_deg ? 1 : 0));
+    digest.add(heading_deg.value_or(0));
     for (int axis = 0; axis < 3; ++axis) digest.add(position_m[axis]);
   }
 }

@@ -178,6 +178,8 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& reci
     intruder.trajectory.spline = SplineKind::interpolating;
     intruder.trajectory.timing = Timing::frames;
   }
+  if (intruder.trajectory.attitude == AttitudeKind::path)
+    intruder.trajectory.attitude = attitude_of_category(intruder.category);
   intruder.trajectory.waypoints = std::move(planned->waypoints);
   video.project.intruders.push_back(std::move(intruder));
   return frame ? check_is_seen(video.project, *frame, estimator) : tl::expected<void, std::string>{};

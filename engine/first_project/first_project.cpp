@@ -282,6 +282,7 @@ class Planning {
     FirstFlight flight = first_flight(scene(), model->model);
     first_.visibility = flight.visibility;
     IntruderSettings intruder{.name = "intruder", .category = model->category, .model = model->settings};
+    intruder.trajectory.attitude = attitude_of_category(intruder.category);
     intruder.trajectory.waypoints = std::move(flight.waypoints);
     project().intruders = {std::move(intruder)};
     project().camera.position_m.z -= flight.raise_m;

@@ -171,6 +171,9 @@ void add_trajectory(FieldList list, TrajectoryPlan& plan) {
            "through the waypoints, or the paper's uniform B-spline that takes them as control points");
   list.add("timing", choice_of(plan.timing, {"frames", "constant_speed"}), "",
            "at each waypoint in its frame, or along the same curve at one speed");
+  list.add(
+      "attitude", choice_of(plan.attitude, {"path", "helicopter", "multirotor", "balloon"}), "",
+      "path: nose along the path, as airplanes fly; the others: heading apart from it, tilted by the thrust; level");
   list.add("bank", choice_of(plan.bank, {"coordinated", "level"}), "", "bank as in a coordinated turn, or wings level");
   list.number("bank_limit_deg", &plan.bank_limit_deg, "deg", 0, 90, "steepest bank");
 }
@@ -276,6 +279,9 @@ std::vector<Field> fields_of(Project& project) {
       WaypointSettings& waypoint = intruder.trajectory.waypoints[j];
       FieldList list(fields, fmt::format("{}trajectory.waypoints[{}].", prefix, j));
       list.number("frame", &waypoint.frame, "frame", -1e9, 1e9, "frame at which it is passed; none: spread evenly");
+      list.number(
+          "heading_deg", &waypoint.heading_deg, "deg", -360, 360,
+          "of the nose, from world X to the right; null: between those of others, else the path's; not of path");
       list.number("position_m", &waypoint.position_m, "m", -kFarthest_m, kFarthest_m, "where, in the world");
       if (waypoint.place) add_place(list, *waypoint.place);
     }

@@ -16,6 +16,12 @@ std::vector<std::string> categories_of(const Project& project) {
   return categories;
 }
 
+AttitudeKind attitude_of_category(const std::string& category) {
+  if (category == "helicopter") return AttitudeKind::helicopter;
+  if (category == "drone") return AttitudeKind::multirotor;
+  return category == "balloon" ? AttitudeKind::balloon : AttitudeKind::path;
+}
+
 Attitude mount_attitude(const CameraSettings& camera) {
   return {rad_of_deg(camera.roll_deg.value_or(0)), rad_of_deg(camera.pitch_deg.value_or(0)),
           rad_of_deg(camera.yaw_deg)};

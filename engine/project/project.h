@@ -182,6 +182,7 @@ struct PlaceSettings {
 struct WaypointSettings {
   std::optional<double> frame;  // none: spread evenly between its neighbours
   glm::dvec3 position_m{0, 0, 0};
+  std::optional<double> heading_deg = {};   // of the nose, for what does not fly along its nose; none: by the others
   std::optional<PlaceSettings> place = {};  // where the file gives it so; position_m follows it (project/places.h)
   std::string unknown_json;                 // unknown keys of the file, as JSON; kept on save
 
@@ -192,6 +193,7 @@ struct WaypointSettings {
 struct TrajectoryPlan {
   SplineKind spline = SplineKind::interpolating;
   Timing timing = Timing::frames;
+  AttitudeKind attitude = AttitudeKind::path;
   Bank bank = Bank::coordinated;
   double bank_limit_deg = 60;
   std::vector<WaypointSettings> waypoints;
@@ -214,6 +216,9 @@ struct IntruderSettings {
 
   [[nodiscard]] bool operator==(const IntruderSettings&) const = default;
 };
+
+// How things of a category fly: "helicopter", "drone" as a multirotor, "balloon"; all others along their path.
+[[nodiscard]] AttitudeKind attitude_of_category(const std::string& category);
 
 // How the intruder gets into the image: directly through the lens, by section 3.2 of the paper, or by a keyed paste;
 // and whether light is mixed, which adds as in the lens, or code values, as the paper does.

@@ -82,7 +82,8 @@ bool can_be_flown(const Project& written, std::size_t intruder) {
 
 Trajectory hovering(const Project& clean, std::size_t intruder) {
   const TrajectoryPlan& plan = clean.intruders[intruder].trajectory;
-  return *Trajectory::make({{0, plan.waypoints.front().position_m}}, trajectory_settings(plan));
+  const std::vector<TimedWaypoint> there = {{0, plan.waypoints.front().position_m}};
+  return *Trajectory::make(there, trajectory_settings(plan, there));
 }
 
 Trajectory drafted_trajectory(const Project& written, const Project& clean, std::size_t intruder, DraftScene& draft) {

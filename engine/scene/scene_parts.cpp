@@ -182,11 +182,17 @@ Result<std::shared_ptr<const Model>, Problem> scene_model(const Project& project
   return in_field(key + "file", model.error());
 }
 
-TrajectorySettings trajectory_settings(const TrajectoryPlan& plan) {
-  return {.spline = plan.spline,
-          .timing = plan.timing,
-          .bank = plan.bank,
-          .bank_limit_rad = rad_of_deg(plan.bank_limit_deg)};
+// timed: the plan's waypoints.
+TrajectorySettings trajectory_settings(const TrajectoryPlan& plan, const std::vector<TimedWaypoint>& timed) {
+  TrajectorySettings settings{.spline = plan.spline,
+                              .timing = plan.timing,
+                              .attitude = plan.attitude,
+                              .bank = plan.bank,
+                              .bank_limit_rad = rad_of_deg(plan.bank_limit_deg)};
+  for (std::size_t i = 0; i < timed.size(); ++i)
+    if (const std::optional<double>& heading_deg = plan.waypoints[i].heading_deg)
+      settings.headings.push_back({timed[i].time_s, rad_of_deg(*heading_deg)});
+  return settings;
 }
 
 Result<Trajectory, Problem> scene_trajectory(const Project& project, std::size_t intruder, const Scene& scene) {
@@ -199,8 +205,9 @@ Result<Trajectory, Problem> scene_trajectory(const Project& project, std::size_t
           fmt::format("{}waypoints[{}].frame", key, i),
           fmt::format("is {}, not after waypoints[{}], which has {}", waypoint_frame_text(plan.waypoints[i], frames[i]),
                       i - 1, waypoint_frame_text(plan.waypoints[i - 1], frames[i - 1])));
-  Result<Trajectory> trajectory = Trajectory::make(
-      timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame), trajectory_settings(plan));
+  const std::vector<TimedWaypoint> timed =
+      timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame);
+  Result<Trajectory> trajectory = Trajectory::make(timed, trajectory_settings(plan, timed));
   if (!trajectory) return problem(key + trajectory.error().where, trajectory.error().what);
   return *std::move(trajectory);
 }

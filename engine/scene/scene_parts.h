@@ -61,7 +61,9 @@ namespace sigs {
                                                            const Scene& scene);
 
 // A project's trajectory settings in the form of spline/trajectory.h.
-[[nodiscard]] TrajectorySettings trajectory_settings(const TrajectoryPlan& plan);
+//   timed  the plan's waypoints
+[[nodiscard]] TrajectorySettings trajectory_settings(const TrajectoryPlan& plan,
+                                                     const std::vector<TimedWaypoint>& timed);
 
 // The frame of each waypoint: its own; where it has none, spread evenly between the nearest waypoints that have one.
 // The first and the last waypoint without a frame get the first and the last frame of the range.

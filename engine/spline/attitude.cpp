@@ -120,7 +120,6 @@ std::vector<UpTarget> up_targets(std::span<const FlightSample> samples, Bank ban
   return targets;
 }
 
-constexpr double kFollow_s = 0.15;  // tau
 constexpr double kWorthless =
     0.01;  // a desired roll of less weight is rounding error, and its number of whole turns arbitrary
 
@@ -141,11 +140,11 @@ std::vector<DesiredRoll> unwrapped(std::span<const DesiredRoll> desired_rolls) {
 }
 
 // The gradient of the sum, set to zero. A desired roll represents half the time to either neighbour.
-std::vector<TridiagonalRow<double>> rows_of(std::span<const DesiredRoll> desired_rolls) {
+std::vector<TridiagonalRow<double>> rows_of(std::span<const DesiredRoll> desired_rolls, double tau_s) {
   std::vector<TridiagonalRow<double>> rows(desired_rolls.size(), {.self = 0});
   for (std::size_t i = 0; i + 1 < desired_rolls.size(); ++i) {
     const double gap_s = desired_rolls[i + 1].time_s - desired_rolls[i].time_s;
-    const double rate_weight = kFollow_s * kFollow_s / gap_s;
+    const double rate_weight = tau_s * tau_s / gap_s;
     rows[i].after = rows[i + 1].before = -rate_weight;
     rows[i].self += rate_weight + desired_rolls[i].weight * gap_s / 2;
     rows[i + 1].self += rate_weight + desired_rolls[i + 1].weight * gap_s / 2;
@@ -157,12 +156,12 @@ std::vector<TridiagonalRow<double>> rows_of(std::span<const DesiredRoll> desired
 
 }  // namespace
 
-std::vector<double> smoothed_roll_rad(std::span<const DesiredRoll> desired_rolls) {
+std::vector<double> smoothed_roll_rad(std::span<const DesiredRoll> desired_rolls, double tau_s) {
   ENSURE(desired_rolls.size() >= 2);
   const std::vector<DesiredRoll> clear = unwrapped(desired_rolls);
   if (std::ranges::all_of(clear, [](const DesiredRoll& desired) { return desired.weight == 0; }))
     return std::vector<double>(desired_rolls.size(), 0.0);
-  return solved<double>(rows_of(clear));
+  return solved<double>(rows_of(clear, tau_s));
 }
 
 namespace {

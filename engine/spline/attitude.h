@@ -59,10 +59,10 @@ struct DesiredRoll {
 
 // The roll at each desired roll's time: the function that departs least from the desired rolls and turns least, which
 // is the minimum of
-//   sum weight (roll - desired roll)^2 dt + tau^2 (d roll / dt)^2 dt,  tau = 0.15 s.
-// It follows a constant or linearly growing desired roll exactly, spreads a sudden change over about 0.15 s, and is
+//   sum weight (roll - desired roll)^2 dt + tau^2 (d roll / dt)^2 dt.
+// It follows a constant or linearly growing desired roll exactly, spreads a sudden change over about tau, and is
 // linear where the weight is zero. Whole turns are chosen so that each desired roll is as near as possible to the last
 // one before it that has a weight. Without any weight the roll is 0 throughout. Times strictly increasing. O(n).
-[[nodiscard]] std::vector<double> smoothed_roll_rad(std::span<const DesiredRoll> desired_rolls);
+[[nodiscard]] std::vector<double> smoothed_roll_rad(std::span<const DesiredRoll> desired_rolls, double tau_s = 0.15);
 
 }  // namespace sigs

@@ -16,6 +16,7 @@
 #include "spline/attitude.h"
 #include "spline/constant_speed.h"
 #include "spline/piecewise_cubic.h"
+#include "spline/rotorcraft.h"
 
 namespace sigs {
 
@@ -44,6 +45,12 @@ Result<void> checked(const std::vector<TimedWaypoint>& waypoints, const Trajecto
   for (std::size_t i = 0; i < waypoints.size(); ++i)
     if (const auto mistake = mistake_in(waypoints[i], i > 0 ? &waypoints[i - 1] : nullptr))
       return fail(fmt::format("waypoints[{}]", i), *mistake, ErrorKind::bad_project);
+  for (std::size_t i = 0; i < settings.headings.size(); ++i) {
+    const TimedHeading& heading = settings.headings[i];
+    const bool is_later = i == 0 || heading.time_s > settings.headings[i - 1].time_s;
+    if (!std::isfinite(heading.time_s) || !std::isfinite(heading.heading_rad) || !is_later)
+      return fail("headings", "must be numbers at times that increase", ErrorKind::bad_project);
+  }
   if (!(settings.bank_limit_rad >= 0 && settings.bank_limit_rad <= std::numbers::pi))
     return fail("bank_limit", "must lie between 0 and 180 degrees", ErrorKind::bad_project);
   return {};
@@ -60,10 +67,15 @@ TimedCurve timed_curve_of(const std::vector<TimedWaypoint>& waypoints, const Tra
 
 struct Trajectory::Path {
   TimedCurve timed_curve;
-  std::variant<AttitudeTable, glm::dquat> attitude;  // the latter: the same at all times
+  std::variant<AttitudeTable, RotorcraftAttitude, glm::dquat> attitude;  // the last: the same at all times
 
   Path(TimedCurve timed, const TrajectorySettings& settings)
-      : timed_curve(std::move(timed)), attitude(AttitudeTable(timed_curve, settings.bank, settings.bank_limit_rad)) {}
+      : timed_curve(std::move(timed)), attitude(glm::dquat(1, 0, 0, 0)) {
+    if (settings.attitude == AttitudeKind::path)
+      attitude = AttitudeTable(timed_curve, settings.bank, settings.bank_limit_rad);
+    else
+      attitude = RotorcraftAttitude(timed_curve, settings);
+  }
   Path(TimedCurve timed, const glm::dquat& world_from_body)
       : timed_curve(std::move(timed)), attitude(world_from_body) {}
 };
@@ -100,6 +112,8 @@ Pose<frame::World, frame::Body> Trajectory::world_from_body(double time_s) const
   ENSURE(std::isfinite(time_s));
   const Motion motion = motion_at(path_->timed_curve, time_s);
   if (const auto* const always = std::get_if<glm::dquat>(&path_->attitude)) return {*always, motion.position_m};
+  if (const auto* const carried = std::get_if<RotorcraftAttitude>(&path_->attitude))
+    return {carried->world_from_body(time_s), motion.position_m};
   return {std::get<AttitudeTable>(path_->attitude).world_from_body(time_s, motion.velocity_mps), motion.position_m};
 }
 

@@ -27,6 +27,18 @@ enum class Bank {
   level,        // wings level
 };
 
+enum class AttitudeKind {
+  path,        // the nose along the velocity, banked as Bank says: airplanes, gliders, birds
+  helicopter,  // the others: rotorcraft.h
+  multirotor,
+  balloon,  // level
+};
+
+struct TimedHeading {
+  double time_s = 0;
+  double heading_rad = 0;  // of the nose, from world X to the right
+};
+
 struct TimedWaypoint {
   double time_s = 0;
   glm::dvec3 position_m{0, 0, 0};  // in the world
@@ -35,8 +47,10 @@ struct TimedWaypoint {
 struct TrajectorySettings {
   SplineKind spline = SplineKind::interpolating;
   Timing timing = Timing::frames;
-  Bank bank = Bank::coordinated;
+  AttitudeKind attitude = AttitudeKind::path;
+  Bank bank = Bank::coordinated;               // of AttitudeKind::path
   double bank_limit_rad = 1.0471975511965976;  // 60 degrees; 0..pi. Applies at moderate pitch: attitude.h
+  std::vector<TimedHeading> headings = {};  // of the other kinds; finite, times strictly increasing; none: the path's
 };
 
 // Position and attitude of an intruder at any time, computed from waypoints. It depends on the time alone: calls in any
@@ -61,9 +75,9 @@ class Trajectory {
   [[nodiscard]] glm::dvec3 velocity_mps(double time_s) const;
   [[nodiscard]] glm::dvec3 acceleration_mps2(double time_s) const;
 
-  // Position and attitude: the nose along the velocity, the bank of a coordinated turn. Continuous everywhere. Where
-  // the path stands still (below 0.02 m/s), reverses or has a corner, the nose leaves the velocity and turns over, in
-  // at least 0.2 s for 180 degrees. A sudden change of bank is spread over about 0.15 s.
+  // Position and attitude. Of AttitudeKind::path the nose along the velocity, the bank of a coordinated turn.
+  // Continuous everywhere. Where the path stands still (below 0.02 m/s), reverses or has a corner, the nose leaves the
+  // velocity and turns over, in at least 0.2 s for 180 degrees. A sudden change of bank is spread over about 0.15 s.
   [[nodiscard]] Pose<frame::World, frame::Body> world_from_body(double time_s) const;
 
  private:

@@ -65,7 +65,8 @@ Scene scene_of(const Sight& sight, Scenario& scenario) {
   return scene;
 }
 
-truth::Setup setup_of(const Scene& scene, const Sight& sight, double since_s = 0) {
+// Of the exposure, if it is known, the part of `moments` around since_s.
+truth::Setup setup_of(const Scene& scene, const Sight& sight, double since_s = 0, int moments = 1) {
   const SceneMoment moment = scene_at(scene, 1);
   return {.mesh = &scene.models.front()->mesh,
           .camera_from_body = camera_from_body_at(scene, 0, moment.time_s + since_s),
@@ -78,6 +79,8 @@ truth::Setup setup_of(const Scene& scene, const Sight& sight, double since_s = 0
           .sky_color = scene.light.sky_color,
           .ground_color = scene.light.ground_color,
           .exposure = scene.light.exposure,
+          .time_s = moment.time_s + since_s,
+          .blades_seen_s = sight.exposure_s > 0 ? sight.exposure_s / moments : 0.002,
           .lens = sight.lens,
           .size_px = sight.size_px,
           .sigma_px = std::hypot(sight.sigma_px, sight.look.psf_sigma_px),
@@ -92,7 +95,7 @@ truth::ReferenceImage exposed(const Scene& scene, const Sight& sight, const trut
   cv::Rect rect;
   for (int i = 0; i < kMoments; ++i) {
     const double since_s = sight.exposure_s * ((i + 0.5) / kMoments - 0.5);
-    const truth::ReferenceImage one = truth::reference_image(setup_of(scene, sight, since_s), settings);
+    const truth::ReferenceImage one = truth::reference_image(setup_of(scene, sight, since_s, kMoments), settings);
     sum(one.rect) += one.color / kMoments;
     rect = rect.empty() ? one.rect : rect | one.rect;
   }

@@ -12,7 +12,9 @@ Lighting lighting_of(const Setup& setup) {
   Lighting lighting{.lamp_m = body_from_camera * setup.light_in_camera,
                     .eye_m = body_from_camera.translation_m,
                     .color = setup.light_color,
-                    .ambient = std::clamp(setup.ambient, 0.0, 1.0)};
+                    .ambient = std::clamp(setup.ambient, 0.0, 1.0),
+                    .time_s = setup.time_s,
+                    .blades_seen_s = setup.blades_seen_s};
   if (!setup.in_sun) return lighting;
   lighting.is_sun = true;
   lighting.color *= setup.exposure;

@@ -27,6 +27,8 @@ struct Setup {
   glm::dvec3 sky_color{0, 0, 0};
   glm::dvec3 ground_color{0, 0, 0};
   double exposure = 1;
+  double time_s = 0;             // of the middle of the time in which turning blades are seen
+  double blades_seen_s = 0.002;  // that time
   LensParameters lens;
   cv::Size size_px;     // of the image
   double sigma_px = 0;  // of the lens' blur

@@ -66,7 +66,7 @@ glm::dvec3 light_of(const glm::vec3& code) {
 }  // namespace
 
 bool lets_no_light_through(const Material& material) {
-  if (!(material.opacity >= kSolid)) return false;
+  if (!(material.opacity >= kSolid) || material.rotor) return false;
   if (material.texture.empty()) return true;
   cv::Mat opacity;
   cv::extractChannel(material.texture, opacity, 3);
@@ -79,13 +79,13 @@ Shader::Shader(const Mesh& mesh, const Lighting& lighting) : lighting_(lighting)
     cv::Mat& texture = textures[m.texture.data];
     if (texture.empty() && !m.texture.empty()) texture = premultiplied_light(m.texture);
     materials_.push_back({light_of(m.diffuse), m.specular, std::clamp(double{m.shininess}, 1.0, 200.0),
-                          m.opacity >= kSolid ? 1.0 : std::max(double{m.opacity}, 0.0), texture});
+                          m.opacity >= kSolid ? 1.0 : std::max(double{m.opacity}, 0.0), texture, m.rotor});
   }
 }
 
 bool Shader::stops_sun(int material, const glm::dvec2& uv) const {
   const ShadedMaterial& paint = materials_[static_cast<std::size_t>(material)];
-  if (paint.opacity < 1) return false;
+  if (paint.opacity < 1 || paint.rotor) return false;
   return paint.texture.empty() || texture_at(paint.texture, uv).a >= 0.5;
 }
 
@@ -137,8 +137,42 @@ glm::dvec4 Shader::in_sun(const SurfacePoint& point, const ShadedMaterial& paint
           texture.a * (1 - (1 - mirror) * (1 - paint.opacity))};
 }
 
+namespace {
+
+// Whether a blade is at a place of the body.
+bool is_blade_there(const Rotor& rotor, const glm::dvec3& p_m, double time_s) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const glm::dvec3 from_hub = p_m - rotor.hub_m;
+  const double x = glm::dot(from_hub, rotor.across);
+  const double y = glm::dot(from_hub, glm::cross(rotor.axis, rotor.across));
+  const double radius = std::hypot(x, y);
+  if (radius < rotor.root_m || radius > rotor.tip_m) return false;
+  const double along = (radius - rotor.root_m) / (rotor.tip_m - rotor.root_m);
+  const double chord_m = rotor.root_chord_m + along * (rotor.tip_chord_m - rotor.root_chord_m);
+  const double turned = std::atan2(y, x) - rotor.phase_rad - kTurn * rotor.rpm / 60 * time_s;
+  return 2 * radius * std::abs(std::remainder(turned, kTurn / rotor.blade_count)) < chord_m;
+}
+
+double share_of_instants(const Rotor& rotor, const glm::dvec3& p_m, const Lighting& lighting) {
+  constexpr int kInstants = 64;
+  int hits = 0;
+  for (int i = 0; i < kInstants; ++i)
+    hits +=
+        is_blade_there(rotor, p_m, lighting.time_s + lighting.blades_seen_s * ((i + 0.5) / kInstants - 0.5)) ? 1 : 0;
+  return double(hits) / kInstants;
+}
+
+}  // namespace
+
 glm::dvec4 Shader::shade(const SurfacePoint& point) const {
   const ShadedMaterial& paint = materials_[static_cast<std::size_t>(point.material)];
+  if (!paint.rotor) return shade(point, paint);
+  ShadedMaterial blades = paint;
+  blades.opacity = share_of_instants(*paint.rotor, point.p_m, lighting_);
+  return shade(point, blades);
+}
+
+glm::dvec4 Shader::shade(const SurfacePoint& point, const ShadedMaterial& paint) const {
   const glm::dvec4 texture = paint.texture.empty() ? glm::dvec4(1) : texture_at(paint.texture, point.uv);
   const double opacity = texture.a * paint.opacity;
   if (opacity < kSeen) return glm::dvec4(0);

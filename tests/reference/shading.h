@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -24,6 +25,8 @@ struct Lighting {
   glm::dvec3 up{0, 0, -1};      // unit vector, to the zenith
   glm::dvec3 sky{0, 0, 0};
   glm::dvec3 ground{0, 0, 0};
+  double time_s = 0;         // of the middle of the time in which turning blades are seen
+  double blades_seen_s = 0;  // that time
 };
 
 // A place on the body's surface.
@@ -57,8 +60,10 @@ class Shader {
     double shininess;
     double opacity;
     cv::Mat texture;  // CV_32FC4, premultiplied, linear; empty: white
+    std::optional<Rotor> rotor;
   };
 
+  [[nodiscard]] glm::dvec4 shade(const SurfacePoint& point, const ShadedMaterial& paint) const;
   [[nodiscard]] glm::dvec4 in_sun(const SurfacePoint& point, const ShadedMaterial& paint,
                                   const glm::dvec4& texture) const;
 

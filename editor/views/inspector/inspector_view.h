@@ -114,6 +114,7 @@ class WaypointTable {
   void draw_row(const ViewContext& context, int intruder, int waypoint, bool is_wrong);
   void draw_frame(const ViewContext& context, int intruder, int waypoint);
   void draw_position(const ViewContext& context, int intruder, int waypoint);
+  void draw_heading(const ViewContext& context, int intruder, int waypoint);
   // Add, insert, duplicate and delete, below the table.
   void draw_buttons(const ViewContext& context, int intruder) const;
   // A waypoint between this one and the next.
@@ -126,6 +127,7 @@ class WaypointTable {
   std::vector<Field> example_fields_;
   const Field* frame_field_ = nullptr;
   const Field* position_field_ = nullptr;
+  const Field* heading_field_ = nullptr;
 
   // What frames_ was made for: the revision, the intruder, and the document's range.
   std::uint64_t revision_ = 0;

@@ -36,13 +36,22 @@ bool has_problem(const ProblemsByField& problems, const std::string& key) {
   return found != problems.end() && found->first.starts_with(key);
 }
 
+// What flies along its nose has no heading of its own.
+bool has_headings(const ViewContext& context, int intruder) {
+  const TrajectoryPlan& plan = context.project().intruders[static_cast<std::size_t>(intruder)].trajectory;
+  return plan.attitude != AttitudeKind::path;
+}
+
+constexpr int kHeadingColumn = 5;
+
 // Column titles in the colours of the axes.
-void draw_titles() {
-  constexpr std::array<const char*, 5> kTitles{"#", "Frame", "X (m)", "Y (m)", "Z (m)"};
+void draw_titles(int columns) {
+  constexpr std::array<const char*, 6> kTitles{"#", "Frame", "X (m)", "Y (m)", "Z (m)", "Nose (\u00b0)"};
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-  for (int column = 0; column < 5; ++column) {
+  for (int column = 0; column < columns; ++column) {
     ImGui::TableSetColumnIndex(column);
-    const ImU32 shade = column < 2 ? color::kQuiet : color::kAxes[static_cast<std::size_t>(column - 2)];
+    const bool is_axis = column >= 2 && column < kHeadingColumn;
+    const ImU32 shade = !is_axis ? color::kQuiet : color::kAxes[static_cast<std::size_t>(column - 2)];
     draw_text(kTitles[static_cast<std::size_t>(column)], shade);
   }
 }
@@ -95,8 +104,9 @@ WaypointTable::WaypointTable() : example_(std::make_unique<Project>()) {
   for (const Field& field : example_fields_) {
     if (field.key.ends_with("waypoints[0].frame")) frame_field_ = &field;
     if (field.key.ends_with("waypoints[0].position_m")) position_field_ = &field;
+    if (field.key.ends_with("waypoints[0].heading_deg")) heading_field_ = &field;
   }
-  ENSURE(frame_field_ != nullptr && position_field_ != nullptr);
+  ENSURE(frame_field_ != nullptr && position_field_ != nullptr && heading_field_ != nullptr);
 }
 
 void WaypointTable::refresh(const ViewContext& context, int intruder) {
@@ -147,6 +157,33 @@ void WaypointTable::draw_position(const ViewContext& context, int intruder, int 
   }
 }
 
+void WaypointTable::draw_heading(const ViewContext& context, int intruder, int waypoint) {
+  const std::optional<double> given = waypoints_of(context, intruder)[static_cast<std::size_t>(waypoint)].heading_deg;
+  const auto turn = [&](std::optional<double> heading_deg) {
+    context.edits.change(
+        "turn waypoint",
+        [=](Project& project) {
+          TrajectoryPlan& plan = project.intruders[static_cast<std::size_t>(intruder)].trajectory;
+          plan.waypoints[static_cast<std::size_t>(waypoint)].heading_deg = heading_deg;
+        },
+        "inspector heading " + waypoint_key(intruder, waypoint));
+  };
+  ImGui::TableSetColumnIndex(kHeadingColumn);
+  Field field = *heading_field_;
+  field.unit = "";  // in the title
+  double heading_deg = given.value_or(0);
+  if (!given) ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
+  if (number_input("##heading", heading_deg, field, ImGui::GetContentRegionAvail().x)) turn(heading_deg);
+  if (!given) ImGui::PopStyleColor();
+  tooltip_for_item(given ? "Where the nose points, from world X to the right; a right click leaves it to the others"
+                         : "By the other waypoints' headings, else the path's; give it one by dragging or typing");
+  if (ImGui::IsItemActivated()) context.edits.select({Selected::waypoint, intruder, waypoint});
+  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  if (!given || !ImGui::IsItemClicked(ImGuiMouseButton_Right)) return;
+  turn(std::nullopt);
+  context.edits.end_gesture();
+}
+
 void WaypointTable::draw_row(const ViewContext& context, int intruder, int waypoint, bool is_wrong) {
   const bool is_selected = selected_waypoint(context, intruder) == waypoint;
   ImGui::TableNextRow();
@@ -167,6 +204,9 @@ void WaypointTable::draw_row(const ViewContext& context, int intruder, int waypo
   draw_frame(context, intruder, waypoint);
   context.ui_probe.note_item(fmt::format("inspector/waypoint {}/frame", number));
   draw_position(context, intruder, waypoint);
+  if (!has_headings(context, intruder)) return;
+  draw_heading(context, intruder, waypoint);
+  context.ui_probe.note_item(fmt::format("inspector/waypoint {}/heading", number));
 }
 
 // What was selected elsewhere comes into sight.
@@ -186,7 +226,8 @@ void WaypointTable::draw_rows(const ViewContext& context, const ProblemsByField&
   const auto count = static_cast<int>(waypoints_of(context, intruder).size());
   const float row_height = ImGui::GetFrameHeight() + 2 * scaled(1);
   const float room = ImGui::GetContentRegionAvail().x;
-  const float minimum = scaled(34) + 4 * scaled(58);
+  const int columns = has_headings(context, intruder) ? 6 : 5;
+  const float minimum = scaled(34) + static_cast<float>(columns - 1) * scaled(58);
   const int rows = std::min(count, kMaxRows);
   const float height = row_height * static_cast<float>(rows) + ImGui::GetTextLineHeight() + scaled(8) +
                        (room < minimum ? ImGui::GetStyle().ScrollbarSize : 0);
@@ -194,15 +235,17 @@ void WaypointTable::draw_rows(const ViewContext& context, const ProblemsByField&
                                      ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoSavedSettings;
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {scaled(2), scaled(1)});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {scaled(4), ImGui::GetStyle().FramePadding.y});
-  if (ImGui::BeginTable("waypoints", 5, kFlags, {0, height})) {
+  if (ImGui::BeginTable("waypoints", columns, kFlags, {0, height})) {
     const bool scrolls = count > kMaxRows;
-    const float usable = room - scaled(34) - 5 * scaled(4) - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
-    const float each = std::max(scaled(54), std::floor(usable / 4));
+    const float usable =
+        room - scaled(34) - static_cast<float>(columns) * scaled(4) - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+    const float each = std::max(scaled(54), std::floor(usable / static_cast<float>(columns - 1)));
     ImGui::TableSetupScrollFreeze(1, 1);
     ImGui::TableSetupColumn("#", ImGuiTableColumnFlags_WidthFixed, scaled(30));
     for (const char* const title : {"frame", "x", "y", "z"})
       ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, each);
-    draw_titles();
+    if (columns == 6) ImGui::TableSetupColumn("nose", ImGuiTableColumnFlags_WidthFixed, each);
+    draw_titles(columns);
     ImGuiListClipper clipper;
     clipper.Begin(count);
     while (clipper.Step())
@@ -257,10 +300,14 @@ void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   const std::optional<int> intruder = current_intruder(context);
   if (!intruder) return note("No intruder yet. Add one above.");
   const std::string key = fmt::format("intruders[{}].trajectory.", *intruder);
-  const bool is_level = context.project().intruders[static_cast<std::size_t>(*intruder)].trajectory.bank == Bank::level;
+  const TrajectoryPlan& plan = context.project().intruders[static_cast<std::size_t>(*intruder)].trajectory;
   rows.rows(key, [&](const Field& field) {
     RowOptions look;
-    if (is_level && field.key.ends_with("bank_limit_deg")) look.off_because = "The wings stay level.";
+    const bool is_of_limit = field.key.ends_with("bank_limit_deg");
+    if (plan.attitude == AttitudeKind::balloon && is_of_limit) look.off_because = "A balloon stays level.";
+    if (plan.attitude != AttitudeKind::path && field.key.ends_with(".bank")) look.off_because = "Its thrust tilts it.";
+    if (plan.attitude == AttitudeKind::path && plan.bank == Bank::level && is_of_limit)
+      look.off_because = "The wings stay level.";
     return look;
   });
   ImGui::Spacing();

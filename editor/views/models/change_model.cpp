@@ -128,6 +128,8 @@ void use_model(Project& project, int intruder, const ChosenModel& chosen) {
   IntruderSettings& changed = project.intruders.at(static_cast<std::size_t>(intruder));
   const bool is_by_model =
       changed.category == category_of_model(changed.model.file) || changed.category == IntruderSettings().category;
+  const bool is_as_category = changed.trajectory.attitude == attitude_of_category(changed.category);
+  if (is_by_model && is_as_category) changed.trajectory.attitude = attitude_of_category(chosen.category);
   if (is_by_model) changed.category = chosen.category;
   changed.model = chosen.settings;
   changed.model.file = path_in_project(project, chosen.file);

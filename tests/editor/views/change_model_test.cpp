@@ -36,7 +36,7 @@ TEST_CASE(
     "a sample that is chosen lies beside the project, and the intruder has its axes, its kind and its own flight") {
   const TemporaryFolder folder;
   Project project = project_in(folder.path());
-  const auto flight = project.intruders[0].trajectory;
+  TrajectoryPlan flight = project.intruders[0].trajectory;
   const Result<ChosenModel> chosen =
       chosen_model({.project = project, .intruder = 0, .model = sample("helicopter")}, kQuiet);
   REQUIRE_MESSAGE(chosen, chosen.error().text());
@@ -48,6 +48,7 @@ TEST_CASE(
   CHECK(intruder.model.forward == "+x");
   CHECK(intruder.model.scale == 1);
   CHECK(intruder.category == "helicopter");
+  flight.attitude = AttitudeKind::helicopter;  // it flies as its kind does, on its own path
   CHECK(intruder.trajectory == flight);
   CHECK(chosen->guesses.empty());
 }
