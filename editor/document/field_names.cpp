@@ -113,7 +113,7 @@ std::string advice_on_guess(std::string_view key) {
 }
 
 bool is_common(std::string_view key) {
-  constexpr std::array<std::string_view, 33> kCommon{
+  constexpr std::array<std::string_view, 34> kCommon{
       "name",
       "footage.video",
       "footage.first_frame",
@@ -142,6 +142,7 @@ bool is_common(std::string_view key) {
       "model.up",
       "model.length_m",
       "trajectory.timing",
+      "trajectory.attitude",
       "compositing.method",
       "appearance.psf_sigma_px",
       "appearance.haze.visibility_m",

@@ -46,7 +46,7 @@ constexpr int kHeadingColumn = 5;
 
 // Column titles in the colours of the axes.
 void draw_titles(int columns) {
-  constexpr std::array<const char*, 6> kTitles{"#", "Frame", "X (m)", "Y (m)", "Z (m)", "Nose (\u00b0)"};
+  constexpr std::array<const char*, 6> kTitles{"#", "Frame", "X (m)", "Y (m)", "Z (m)", "Nose"};
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int column = 0; column < columns; ++column) {
     ImGui::TableSetColumnIndex(column);
@@ -227,7 +227,11 @@ void WaypointTable::draw_rows(const ViewContext& context, const ProblemsByField&
   const float row_height = ImGui::GetFrameHeight() + 2 * scaled(1);
   const float room = ImGui::GetContentRegionAvail().x;
   const int columns = has_headings(context, intruder) ? 6 : 5;
-  const float minimum = scaled(34) + static_cast<float>(columns - 1) * scaled(58);
+  const float number_width = scaled(columns == 6 ? 18 : 30);
+  // Headings take three digits: the column of frames gives them room.
+  const float short_width = scaled(42);
+  const float minimum =
+      columns == 6 ? number_width + 2 * short_width + 3 * scaled(54) + 6 * scaled(4) : scaled(34) + 4 * scaled(58);
   const int rows = std::min(count, kMaxRows);
   const float height = row_height * static_cast<float>(rows) + ImGui::GetTextLineHeight() + scaled(8) +
                        (room < minimum ? ImGui::GetStyle().ScrollbarSize : 0);
@@ -237,14 +241,16 @@ void WaypointTable::draw_rows(const ViewContext& context, const ProblemsByField&
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {scaled(4), ImGui::GetStyle().FramePadding.y});
   if (ImGui::BeginTable("waypoints", columns, kFlags, {0, height})) {
     const bool scrolls = count > kMaxRows;
-    const float usable =
-        room - scaled(34) - static_cast<float>(columns) * scaled(4) - (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
-    const float each = std::max(scaled(54), std::floor(usable / static_cast<float>(columns - 1)));
+    const float usable = room - number_width - scaled(4) - static_cast<float>(columns) * scaled(4) -
+                         (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+    const float each = columns == 6 ? std::max(scaled(54), std::floor((usable - 2 * short_width) / 3))
+                                    : std::max(scaled(54), std::floor(usable / 4));
     ImGui::TableSetupScrollFreeze(1, 1);
-    ImGui::TableSetupColumn("#", ImGuiTableColumnFlags_WidthFixed, scaled(30));
-    for (const char* const title : {"frame", "x", "y", "z"})
+    ImGui::TableSetupColumn("#", ImGuiTableColumnFlags_WidthFixed, number_width);
+    ImGui::TableSetupColumn("frame", ImGuiTableColumnFlags_WidthFixed, columns == 6 ? short_width : each);
+    for (const char* const title : {"x", "y", "z"})
       ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, each);
-    if (columns == 6) ImGui::TableSetupColumn("nose", ImGuiTableColumnFlags_WidthFixed, each);
+    if (columns == 6) ImGui::TableSetupColumn("nose", ImGuiTableColumnFlags_WidthFixed, short_width);
     draw_titles(columns);
     ImGuiListClipper clipper;
     clipper.Begin(count);
