@@ -130,8 +130,24 @@ TEST_CASE("a project that the command line made lists its guesses, and its model
   const Json changed = ui_test.saved(project);
   CHECK(changed["intruders"][0]["model"]["file"] == "helicopter/helicopter.obj");
   CHECK(changed["intruders"][0]["category"] == "helicopter");
+  CHECK(changed["intruders"][0]["trajectory"]["attitude"] == "helicopter");
   CHECK(fs::exists(ui_test.folder() / "flights/helicopter/helicopter.obj"));
-  ui_test.edit([&] { editor.key("ctrl+z"); });
+  // It has a heading of its own, which is typed, and left to the path again.
+  editor.click("inspector/Intruders");
+  editor.settle();
+  ui_test.edit([&] {
+    ui_test.fill_in("inspector/waypoint 1/heading", "-75");
+    editor.key("Return");
+  });
+  const auto heading = [&] {
+    return ui_test.saved(project)["intruders"][0]["trajectory"]["waypoints"][0]["heading_deg"];
+  };
+  CHECK(heading() == -75);
+  ui_test.image("heading");
+  ui_test.edit([&] { editor.click("inspector/waypoint 1/heading", 3); });
+  CHECK(heading().is_null());
+  for (int i = 0; i < 3; ++i) ui_test.edit([&] { editor.key("ctrl+z"); });
+  CHECK(ui_test.saved(project)["intruders"][0]["trajectory"]["attitude"] == "path");
   CHECK(ui_test.saved(project)["intruders"][0]["model"]["file"] == "light-aircraft/light-aircraft.obj");
   editor.key("ctrl+q");
   CHECK(editor.exit_status() == 0);
