@@ -35,28 +35,41 @@ constexpr FlightQuantity distance(std::string_view name, double standard, std::s
   return {name, 0.02, kMaxDistance_m, standard, false, help};
 }
 
+constexpr FlightQuantity kNose{
+    "nose_deg",   -180,  180,
+    std::nullopt, false, "of a helicopter, drone or balloon: its nose to the right of where it flies; none: along it"};
 constexpr std::string_view kClosestHelp = "distance where it crosses the middle of its way";
 
-constexpr std::array kLeftRight{distance("distance_m", 150, kClosestHelp), kSpeed,
-                                place("from_x_percent", 5, kFromX),        place("to_x_percent", 95, kToX),
-                                place("from_y_percent", 40, kFromY),       place("to_y_percent", 40, kToY)};
-constexpr std::array kRightLeft{distance("distance_m", 150, kClosestHelp), kSpeed,
-                                place("from_x_percent", 95, kFromX),       place("to_x_percent", 5, kToX),
-                                place("from_y_percent", 40, kFromY),       place("to_y_percent", 40, kToY)};
+constexpr std::array kLeftRight{distance("distance_m", 150, kClosestHelp),
+                                kSpeed,
+                                place("from_x_percent", 5, kFromX),
+                                place("to_x_percent", 95, kToX),
+                                place("from_y_percent", 40, kFromY),
+                                place("to_y_percent", 40, kToY),
+                                kNose};
+constexpr std::array kRightLeft{distance("distance_m", 150, kClosestHelp),
+                                kSpeed,
+                                place("from_x_percent", 95, kFromX),
+                                place("to_x_percent", 5, kToX),
+                                place("from_y_percent", 40, kFromY),
+                                place("to_y_percent", 40, kToY),
+                                kNose};
 constexpr std::array kApproaching{distance("from_distance_m", 400, "distance in the first frame"),
                                   distance("to_distance_m", 60, "distance in the last frame"),
                                   kSpeed,
                                   place("from_x_percent", 50, kFromX),
                                   place("to_x_percent", 50, kToX),
                                   place("from_y_percent", 40, kFromY),
-                                  place("to_y_percent", 40, kToY)};
+                                  place("to_y_percent", 40, kToY),
+                                  kNose};
 constexpr std::array kMovingAway{distance("from_distance_m", 60, "distance in the first frame"),
                                  distance("to_distance_m", 400, "distance in the last frame"),
                                  kSpeed,
                                  place("from_x_percent", 50, kFromX),
                                  place("to_x_percent", 50, kToX),
                                  place("from_y_percent", 40, kFromY),
-                                 place("to_y_percent", 40, kToY)};
+                                 place("to_y_percent", 40, kToY),
+                                 kNose};
 constexpr std::array kEncounter{
     FlightQuantity{"miss_distance_m", 0, kMaxDistance_m, std::nullopt, true,
                    "distance at the closest point of approach"},
@@ -69,7 +82,8 @@ constexpr std::array kEncounter{
                    "speed of the relative motion: the rate at which the distance falls far out"},
     FlightQuantity{"time_of_closest_approach_s", -kMaxTime_s, kMaxTime_s, std::nullopt, false,
                    "after the video's first frame; none: the last frame's, where range_m does not say it"},
-    FlightQuantity{"range_m", 0, kMaxDistance_m, std::nullopt, false, "distance in the first frame"}};
+    FlightQuantity{"range_m", 0, kMaxDistance_m, std::nullopt, false, "distance in the first frame"},
+    kNose};
 
 constexpr FlightQuantity kHmd{
     "hmd_m",
@@ -114,7 +128,8 @@ constexpr std::array kImagePosition{
                    "where it moves in the image at that time: 0 right, 90 up, 180 left, -90 down"},
     FlightQuantity{"approach_angle_deg", -90, 90, 0.0, false,
                    "of the relative motion: 0 it is nearest at that time, 90 it comes straight to the camera, -90 it "
-                   "leaves straight"}};
+                   "leaves straight"},
+    kNose};
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/pose.h"
 #include "dataset/flight_plan.h"
 #include "project/fields.h"
 
@@ -148,6 +149,15 @@ tl::expected<void, std::string> check_is_seen(const Project& project, int frame,
                                         : "x_percent, y_percent: the intruder is beside the image then"));
 }
 
+// By nose_deg, where it was drawn: one heading for the whole flight, since that quantity is of straight flights.
+void turn_nose(TrajectoryPlan& trajectory, const std::map<std::string, double>& values) {
+  const auto nose_deg = values.find("nose_deg");
+  if (nose_deg == values.end() || trajectory.attitude == AttitudeKind::path || trajectory.waypoints.empty()) return;
+  const glm::dvec3 way_m = trajectory.waypoints.back().position_m - trajectory.waypoints.front().position_m;
+  const double course_deg = deg_of_rad(std::atan2(way_m.y, way_m.x));
+  trajectory.waypoints.front().heading_deg = std::remainder(course_deg + nose_deg->second, 360);
+}
+
 // Adds a body to the project, or says why it cannot fly so.
 tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& recipe, FlightContext context,
                                           const Sampler& sampler, VideoVisibility& estimator, PlannedVideo& video) {
@@ -158,6 +168,8 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& reci
   intruder.role = flyer.aircraft.is_distractor ? RoleChoice::distractor : RoleChoice::intruder;
   intruder.model = flyer.aircraft.model;
   sample_model(flyer, sampler, video, intruder.model);
+  if (intruder.trajectory.attitude == AttitudeKind::path)
+    intruder.trajectory.attitude = attitude_of_category(intruder.category);
   context.speed_limits_mps = flyer.aircraft.speed_limits_mps;
   context.source = &flyer.flight.source;
   context.random_bits = sampler.bits(flyer.prefix + "flight_source");
@@ -165,6 +177,7 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& reci
     Project alone = video.project;
     alone.intruders = {intruder};
     alone.intruders.front().trajectory.waypoints = waypoints;
+    turn_nose(alone.intruders.front().trajectory, values);
     const std::optional<VisibilityEstimate> seen = estimator.last_intruder_at(alone, frame);
     return seen ? std::optional(seen->size_px) : std::nullopt;
   };
@@ -178,9 +191,8 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& reci
     intruder.trajectory.spline = SplineKind::interpolating;
     intruder.trajectory.timing = Timing::frames;
   }
-  if (intruder.trajectory.attitude == AttitudeKind::path)
-    intruder.trajectory.attitude = attitude_of_category(intruder.category);
   intruder.trajectory.waypoints = std::move(planned->waypoints);
+  turn_nose(intruder.trajectory, values);
   video.project.intruders.push_back(std::move(intruder));
   return frame ? check_is_seen(video.project, *frame, estimator) : tl::expected<void, std::string>{};
 }

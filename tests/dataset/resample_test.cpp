@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "dataset/footage_cache.h"
@@ -77,6 +78,36 @@ TEST_CASE("thirty random encounters are all possible and visible") {
   }
   for (const char* const name : {"day", "dusk", "jet", "slow"}) CHECK_MESSAGE(made_of[name] > 0, name);
   CHECK(resamples_of(videos).contains("speed_mps"));
+}
+
+TEST_CASE(
+    "helicopters fly as they do, at headings of their own where the recipe draws them; airplanes along their nose") {
+  nlohmann::ordered_json json = two_and_two(
+      {{{"name", "v{number}"},
+        {"videos", 12},
+        {"frames", 50},
+        {"flights", {{{"kind", "image_position"}, {"size_px", 40}, {"nose_deg", {{"uniform", {-180, 180}}}}}}}}});
+  for (auto& aircraft : json["aircraft"]) aircraft.erase("speed_limits_mps");
+  json["aircraft"][1]["category"] = "helicopter";
+  const Plan plan = RecipeFolder().plan(json);
+  REQUIRE(plan.videos.size() == 12);
+  std::set<double> headings;
+  for (const PlannedVideo& video : plan.videos) {
+    const TrajectoryPlan& trajectory = video.project.intruders.at(0).trajectory;
+    const std::optional<double> heading_deg = trajectory.waypoints.at(0).heading_deg;
+    if (video.tags.at("aircraft") == "slow") {
+      CHECK(trajectory.attitude == AttitudeKind::helicopter);
+      REQUIRE(heading_deg);
+      headings.insert(*heading_deg);
+      const glm::dvec3 way_m = trajectory.waypoints.back().position_m - trajectory.waypoints.front().position_m;
+      const double off_deg = *heading_deg - std::atan2(way_m.y, way_m.x) * 180 / 3.14159265358979;
+      CHECK(std::abs(std::remainder(off_deg - video.sampled.at("nose_deg"), 360)) < 1e-6);
+    } else {
+      CHECK(trajectory.attitude == AttitudeKind::path);
+      CHECK_FALSE(heading_deg);
+    }
+  }
+  CHECK(headings.size() > 3);
 }
 
 TEST_CASE("a sampled group that grows keeps the videos it had") {
