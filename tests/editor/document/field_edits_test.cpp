@@ -137,7 +137,7 @@ TEST_CASE("a sheet holds every field but the waypoints'") {
     if (is_waypoint) ++of_waypoints;
     CHECK((sheet.find(field.key) == nullptr) == is_waypoint);
   }
-  CHECK(of_waypoints == 2 * 3 * 2);
+  CHECK(of_waypoints == 2 * 3 * 3);  // frame, position and heading of each
   CHECK(sheet.fields().size() + of_waypoints == all.size());
 }
 
