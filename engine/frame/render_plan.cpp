@@ -118,7 +118,8 @@ Box coarse_box(const Box& box_px, double step) {
   return {(box_px.x + 0.5) / step - 0.5, (box_px.y + 0.5) / step - 0.5, box_px.width / step, box_px.height / step};
 }
 
-// When the pixels of a view are exposed. Over a view, rows of the image are taken to follow each other evenly.
+// When the pixels of a view are exposed, which only a model with rotors asks for. Over a view, rows of the image are
+// taken to follow each other evenly.
 Shutter shutter_of(const RenderPlan& plan, const VirtualCamera& view, const Scene& scene) {
   Shutter shutter{.time_s = plan.time_s};
   if (plan.exposure_s > 0) shutter.exposure_s = plan.exposure_s;
@@ -233,8 +234,9 @@ Result<std::vector<RenderedView>> rendered_views(const std::vector<VirtualCamera
   const RenderCounts before = renderer.counts();
   std::vector<RenderedView> rendered;
   for (const VirtualCamera& view : views) {
-    Result<Layer> layer = renderer.draw(mesh_of(scene, layers.placed), layers.placed.camera_from_body, plan.light, view,
-                                        shutter_of(plan, view, scene));
+    const Mesh& mesh = mesh_of(scene, layers.placed);
+    const Shutter shutter = has_rotors(mesh) ? shutter_of(plan, view, scene) : Shutter();
+    Result<Layer> layer = renderer.draw(mesh, layers.placed.camera_from_body, plan.light, view, shutter);
     if (!layer) return fail(layer.error());
     rendered.push_back({view, std::move(*layer)});
   }

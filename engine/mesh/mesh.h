@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -52,6 +53,11 @@ struct Mesh {
   glm::vec3 high_m{0, 0, 0};
   float radius_m = 0;  // of the smallest sphere around the origin that contains every vertex
 };
+
+[[nodiscard]] inline bool has_rotors(const Mesh& mesh) {
+  return std::any_of(mesh.materials.begin(), mesh.materials.end(),
+                     [](const Material& material) { return material.rotor.has_value(); });
+}
 
 // Axes and unit of a model file: which of its axes point out of the nose and up, and how large it is.
 struct ModelAxes {

@@ -138,9 +138,7 @@ Result<Programs> compiled_programs(const std::string& light) {
 
 // Adds the program for rotors where the mesh has some. Error unavailable as that of Program::create().
 Result<void> add_rotor_program(Programs& programs, const Mesh& mesh, const std::string& light) {
-  const auto has_rotor = [](const Material& material) { return material.rotor.has_value(); };
-  if (programs.all.size() > Programs::kRotor || std::none_of(mesh.materials.begin(), mesh.materials.end(), has_rotor))
-    return {};
+  if (programs.all.size() > Programs::kRotor || !has_rotors(mesh)) return {};
   Result<Program> rotor = Program::create(light + "#define ROTOR\n");
   if (!rotor) return fail(rotor.error());
   programs.all.push_back(std::move(*rotor));

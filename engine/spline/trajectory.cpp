@@ -16,7 +16,6 @@
 #include "spline/attitude.h"
 #include "spline/constant_speed.h"
 #include "spline/piecewise_cubic.h"
-#include "spline/rotorcraft.h"
 
 namespace sigs {
 

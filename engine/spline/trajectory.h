@@ -29,7 +29,7 @@ enum class Bank {
 
 enum class AttitudeKind {
   path,        // the nose along the velocity, banked as Bank says: airplanes, gliders, birds
-  helicopter,  // the others: rotorcraft.h
+  helicopter,  // the others: attitude.h
   multirotor,
   balloon,  // level
 };

@@ -171,6 +171,7 @@ TEST_CASE("a rolling shutter bends turning blades: each row sees them at its own
   }
   const double area_px = cv::sum(by_rows)[0];
   REQUIRE(area_px > 20);
+  // What is left is that blades' edges are sampled in two renderings.
   CHECK(cv::norm(rolled, by_rows, cv::NORM_L1) < 0.05 * area_px);
   Scene at_once = scene;
   at_once.motion.readout_s = 0;
