@@ -223,7 +223,7 @@ Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
   for (const PlannedVideo* const video : videos) {
     const Result<VideoInfo> footage = footages.info_of(video->project);
     if (!footage) return fail(video->name, footage.error().text(), footage.error().kind);
-    const Result<int> count = frames_of(video->project, *footage);
+    const Result<int> count = frames_of(video->project, shape_of(*footage));
     if (!count) return fail(video->name, count.error().text(), count.error().kind);
     all.frames.push_back(*count);
     frames += *count;

@@ -81,6 +81,7 @@ void for_each_input(ProjectOrConst& project, const Call& call) {
   call(project.footage.calibration);
   call(project.footage.own_body_mask);
   call(project.footage.occluder_mask);
+  call(project.footage.real_aircraft);
   call(project.camera.attitude_file);
   call(project.camera.track.file);
   for (auto& intruder : project.intruders) call(intruder.model.file);

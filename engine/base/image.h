@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <vector>
 
 namespace sigs {
 
@@ -20,6 +22,9 @@ struct Box {
 
   [[nodiscard]] bool operator==(const Box&) const = default;
 };
+
+// Boxes in the frames of a video that have any.
+using BoxesByFrame = std::map<int, std::vector<Box>>;
 
 // As bounds: a rectangle larger than anything that is measured in pixels.
 inline const cv::Rect kUnboundedRect{-1'000'000, -1'000'000, 2'000'000, 2'000'000};

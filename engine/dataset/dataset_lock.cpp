@@ -22,6 +22,7 @@
 
 #include "base/file_lock.h"
 #include "base/paths.h"
+#include "dataset/index.h"
 
 namespace sigs {
 
@@ -174,6 +175,47 @@ DatasetLock::~DatasetLock() {
   if (!lock_.is_open() || is_needed(file_)) return;
   unlink(file_.c_str());
   rmdir(file_.parent_path().c_str());  // refused where it is not empty
+}
+
+namespace {
+
+bool has_index(const fs::path& dataset) {
+  std::error_code code;
+  return fs::exists(dataset / kIndexName, code);
+}
+
+// The first of the requested videos whose folder exists already.
+std::optional<std::string> video_there(const Plan& plan, const std::optional<Shard>& shard, const fs::path& dataset) {
+  for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i) {
+    std::error_code code;
+    if ((!shard || shard->has(i)) && fs::exists(dataset / plan.videos[i].name, code)) return plan.videos[i].name;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<void> check_folder_is_free(const Plan& plan, const std::filesystem::path& dataset,
+                                  const std::optional<Shard>& shard, bool goes_on) {
+  const std::optional<std::string> video = video_there(plan, shard, dataset);
+  if (!goes_on && has_index(dataset))
+    return fail(dataset.string(), "holds a dataset; resuming goes on with it, or choose another folder for the dataset",
+                ErrorKind::cannot_create);
+  if (!goes_on && video)
+    return fail(
+        dataset.string(),
+        fmt::format("holds {} already; resuming goes on with it, or choose another folder for the dataset", *video),
+        ErrorKind::cannot_create);
+  if (!has_index(dataset) && !video && !shard) {
+    for (const char* const name : kSharedFolders) {
+      std::error_code code;
+      if (fs::is_empty(dataset / name, code))
+        return fail(dataset.string(),
+                    fmt::format("holds {}, but no dataset; choose another folder for the dataset", name),
+                    ErrorKind::cannot_create);
+    }
+  }
+  return check_shared_files(dataset);
 }
 
 }  // namespace sigs

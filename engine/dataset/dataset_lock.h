@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "base/file_lock.h"
 #include "base/result.h"
+#include "dataset/plan.h"
 
 namespace sigs {
 
@@ -27,6 +29,11 @@ struct Shard {
 
 // Makes a folder in the staging folder and removes what is in it. Error cannot_create.
 [[nodiscard]] Result<void> make_empty(const std::filesystem::path& folder);
+
+// Whether the folder has either a dataset that may be continued (goes_on), or nothing that prevents a new one: error
+// cannot_create. shard: of whose videos the folders must not be there; none: of all.
+[[nodiscard]] Result<void> check_folder_is_free(const Plan& plan, const std::filesystem::path& dataset,
+                                                const std::optional<Shard>& shard, bool goes_on);
 
 // The right to make a shard of a dataset, held until the object's life or the process ends, in whatever way. It is a
 // locked file (base/file_lock.h) in the staging folder, so it holds between machines that share the folder where their

@@ -128,6 +128,19 @@ Possible<ImageAxes> axes_at(const Values& values, const FlightContext& context) 
   return ImageAxes{world_from_camera * *ray, world_from_camera * right, world_from_camera * glm::cross(right, *ray)};
 }
 
+// Velocity of the relative motion over ground, by course_deg and climb_deg.
+glm::dvec3 velocity_over_ground(const Values& values, double course_deg, const FlightContext& context) {
+  const glm::dvec3 looks = rotation_of(mount_attitude(context.camera)) * glm::dvec3(1, 0, 0);
+  const double level = std::hypot(looks.x, looks.y);
+  constexpr double kVertical = 1e-6;
+  const glm::dvec3 forward = level > kVertical ? glm::dvec3(looks.x, looks.y, 0) / level : glm::dvec3(1, 0, 0);
+  const glm::dvec3 right(-forward.y, forward.x, 0);
+  const CosSin course = cos_sin_of_deg(course_deg);
+  const CosSin climb = cos_sin_of_deg(values.at("climb_deg"));
+  return values.at("relative_speed_mps") *
+         (climb.cos * (course.cos * forward + course.sin * right) + climb.sin * glm::dvec3(0, 0, -1));
+}
+
 // The motion that is distance_m away on the place's ray at that time.
 Possible<RelativeMotion> motion_at_distance(const Values& values, const FlightContext& context, double since_first_s,
                                             double distance_m) {
@@ -136,7 +149,10 @@ Possible<RelativeMotion> motion_at_distance(const Values& values, const FlightCo
   const CosSin direction = cos_sin_of_deg(values.at("direction_deg"));
   const CosSin approach = cos_sin_of_deg(values.at("approach_angle_deg"));
   const glm::dvec3 across = direction.cos * axes->right + direction.sin * axes->up;
-  const glm::dvec3 velocity_mps = values.at("relative_speed_mps") * (approach.cos * across - approach.sin * axes->ray);
+  const std::optional<double> course_deg = value_of(values, "course_deg");
+  const glm::dvec3 velocity_mps =
+      course_deg ? velocity_over_ground(values, *course_deg, context)
+                 : values.at("relative_speed_mps") * (approach.cos * across - approach.sin * axes->ray);
   const glm::dvec3 there_m = distance_m * axes->ray;
   const double length_s = ends_of(context).length_s;
   return motion_over_time(
@@ -165,6 +181,8 @@ Possible<RelativeMotion> positioned_motion(const Values& values, const FlightCon
                                       short_number_text(values.at("time_s")),
                                       short_number_text(ends_of(context).length_s)));
   const double since_first_s = time_of_frame_s(context.footage, *frame) - ends_of(context).first_s;
+  if (const std::optional<double> given_m = value_of(values, "distance_m"))
+    return motion_at_distance(values, context, since_first_s, std::round(*given_m * 1024) / 1024);
   double distance_m = 100;
   double error = 1;
   Possible<RelativeMotion> motion = tl::unexpected(std::string());
@@ -190,7 +208,9 @@ Possible<RelativeMotion> positioned_motion(const Values& values, const FlightCon
 
 // What determines the intruder's speed.
 std::string ways_out(FlightKind kind, const Values& values) {
-  if (kind == FlightKind::image_position) return "relative_speed_mps, direction_deg or approach_angle_deg";
+  if (kind == FlightKind::image_position)
+    return values.contains("course_deg") ? "relative_speed_mps, course_deg or climb_deg"
+                                         : "relative_speed_mps, direction_deg or approach_angle_deg";
   if (kind == FlightKind::encounter)
     return values.contains("closing_speed_mps") ? "closing_speed_mps or bearing_deg"
                                                 : "range_m, time_of_closest_approach_s or bearing_deg";
@@ -199,8 +219,9 @@ std::string ways_out(FlightKind kind, const Values& values) {
 }
 
 // The quantities on which the height depends.
-const char* heights_of(FlightKind kind) {
-  if (kind == FlightKind::image_position) return "y_percent, size_px";
+const char* heights_of(FlightKind kind, const Values& values) {
+  if (kind == FlightKind::image_position)
+    return values.contains("distance_m") ? "y_percent, distance_m" : "y_percent, size_px";
   return kind == FlightKind::encounter ? "elevation_deg, miss_angle_deg" : "from_y_percent, to_y_percent";
 }
 
@@ -273,7 +294,7 @@ Possible<PlannedFlight> planned_flight(FlightKind kind, const Values& values, co
     return tl::unexpected(checked.error());
   flight.waypoints = waypoints_of(*motion, context);
   for (const WaypointSettings& waypoint : flight.waypoints)
-    if (const Possible<void> checked = check_waypoint(waypoint, heights_of(kind)); !checked)
+    if (const Possible<void> checked = check_waypoint(waypoint, heights_of(kind, values)); !checked)
       return tl::unexpected(checked.error());
   flight.derived["speed_mps"] = speed_mps;
   flight.derived["nearest_m"] = min_range_m(*motion, ends.length_s);

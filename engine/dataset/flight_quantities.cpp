@@ -119,7 +119,8 @@ constexpr std::array kImagePosition{
     FlightQuantity{"x_percent", 0, 100, 50.0, false,
                    "where its reference point is at the time, from the image's left edge (0) to the right (100)"},
     FlightQuantity{"y_percent", 0, 100, 50.0, false, "the same from the upper edge (0) to the lower (100)"},
-    FlightQuantity{"size_px", 1, 1e5, std::nullopt, true, "longer side of its whole silhouette's box at that time"},
+    FlightQuantity{"size_px", 1, 1e5, std::nullopt, false, "longer side of its whole silhouette's box at that time"},
+    FlightQuantity{"distance_m", 0.02, kMaxDistance_m, std::nullopt, false, "in place of size_px: how far it is then"},
     FlightQuantity{"time_s", 0, kMaxTime_s, std::nullopt, false,
                    "the time, after the video's first frame, taken at the nearest frame; none: the middle frame's"},
     FlightQuantity{"relative_speed_mps", 0, kMaxSpeed_mps, 30.0, false,
@@ -129,6 +130,11 @@ constexpr std::array kImagePosition{
     FlightQuantity{"approach_angle_deg", -90, 90, 0.0, false,
                    "of the relative motion: 0 it is nearest at that time, 90 it comes straight to the camera, -90 it "
                    "leaves straight"},
+    FlightQuantity{
+        "course_deg", -360, 360, std::nullopt, false,
+        "in place of these two angles: where it moves over ground, to the right of where the camera looks: 0 "
+        "away, 90 to the right, 180 towards"},
+    FlightQuantity{"climb_deg", -90, 90, 0.0, false, "with course_deg: how steeply it climbs"},
     kNose};
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "base/threads.h"
 #include "export/export_project.h"
+#include "horizon/horizon.h"
 #include "scene/model.h"
 #include "scene/opened_project.h"
 #include "scene/scene_files.h"
@@ -30,10 +31,10 @@ std::string footage_key(const FootageSettings& footage) {
   return fmt::format("{}\n{}\n{}", footage.video, footage.frame_rate_hz.value_or(0), footage.timestamps);
 }
 
-Result<FootageShape> opened_shape(const FootageSettings& footage) {
+Result<FootageShape> opened_shape(const FootageSettings& footage, const std::atomic<bool>* cancel = nullptr) {
   Project project;
   project.footage = footage;
-  const Result<FrameSource> source = open_footage(project);
+  const Result<FrameSource> source = open_footage(project, cancel);
   if (!source) return fail(source.error());
   return shape_of(source->info());
 }
@@ -76,6 +77,12 @@ class BackgroundOpener {
     if (const std::string& mask = settings.occluder_mask; !mask.empty())
       if (const Result<cv::Mat> read = read_own_body_mask(mask, shape.size_px); !read)
         return fail_at(where + "occluder_mask", read.error());
+    BoxesByFrame real_aircraft;
+    if (!settings.real_aircraft.empty()) {
+      Result<BoxesByFrame> boxes = read_boxes_by_frame(settings.real_aircraft);
+      if (!boxes) return fail_at(where + "real_aircraft", boxes.error());
+      real_aircraft = *std::move(boxes);
+    }
     if (const std::string& attitude = background.camera.attitude_file; !attitude.empty())
       if (const auto read = read_attitude_file(attitude); !read)
         return fail_at(key_of(i) + "camera.attitude_file", read.error());
@@ -93,7 +100,7 @@ class BackgroundOpener {
     if (frames.last > last || frames.first > frames.last)
       return fail(where + (frames.last > last ? "last_frame" : "first_frame"),
                   fmt::format("the footage has frames 0 to {}", last));
-    return OpenedBackground{shape, *std::move(lens), frames};
+    return OpenedBackground{shape, *std::move(lens), frames, std::move(real_aircraft)};
   }
 
  private:
@@ -150,7 +157,7 @@ std::optional<Scene> VideoVisibility::scene_of(const Project& project) {
     intruder.model.length_m = 0;
   }
   Result<Scene> scene = open_scene(unit, *footage, files_);
-  if (!scene || scene->intruders.empty()) return std::nullopt;
+  if (!scene) return std::nullopt;
   for (std::size_t i = 0; i < scene->intruders.size(); ++i) {
     std::shared_ptr<const Model> model = model_of_size(*scene->intruders[i].model, project.intruders[i].model);
     if (!model) return std::nullopt;
@@ -162,14 +169,63 @@ std::optional<Scene> VideoVisibility::scene_of(const Project& project) {
 
 std::optional<Visibility> VideoVisibility::visibility_of(const Project& project, int frames) {
   const std::optional<Scene> scene = scene_of(project);
-  if (!scene) return std::nullopt;
+  if (!scene || scene->intruders.empty()) return std::nullopt;
   return estimated_visibilities(*scene, frames).front();
 }
 
 std::optional<VisibilityEstimate> VideoVisibility::last_intruder_at(const Project& project, int frame) {
   const std::optional<Scene> scene = scene_of(project);
-  if (!scene) return std::nullopt;
+  if (!scene || scene->intruders.empty()) return std::nullopt;
   return VisibilityEstimator(*scene).at(static_cast<int>(scene->intruders.size()) - 1, frame);
+}
+
+Result<void> VideoVisibility::look_for_sky(const FootageSettings& footage, const std::set<int>& frames,
+                                           const std::atomic<bool>* cancel) {
+  Project project;
+  project.footage = footage;
+  Result<FrameSource> source = open_footage(project, cancel);
+  if (!source) return fail(source.error());
+  for (const int number : frames) {
+    if (const Result<void> on = check_interrupt(cancel); !on) return on;
+    const Result<Frame> frame = source->read(number);
+    if (!frame) return fail(frame.error());
+    const ReducedLuma reduced = reduced_luma(luma_of(*frame));
+    skies_[{footage_key(footage), number}] = {sky_map_of(reduced.luma), reduced.scale};
+  }
+  return {};
+}
+
+namespace {
+
+// The row of cells below all sky within a quarter of the image's width.
+int land_from(const SkyMap& map, int column) {
+  int row = 0;
+  const int reach = map.sky.cols / 4;
+  for (int x = std::max(0, column - reach); x <= std::min(map.sky.cols - 1, column + reach); ++x)
+    row = std::max(row, map.end_of(x));
+  return row;
+}
+
+}  // namespace
+
+std::optional<VideoVisibility::Behind> VideoVisibility::behind(const FootageSettings& footage, int frame,
+                                                               const Box& box) const {
+  const auto there = skies_.find({footage_key(footage), frame});
+  if (there == skies_.end() || there->second.map.empty()) return std::nullopt;
+  const auto& [map, scale] = there->second;
+  constexpr int kPlaces = 8;  // along each side
+  constexpr double kShare = 1.0 / (kPlaces * kPlaces);
+  Behind behind;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double x_px = std::max(0.0, (box.x + box.width * (i + 0.5) / kPlaces + 0.5) / scale);
+    const int from = land_from(map, std::min(static_cast<int>(x_px) / SkyMap::kCell_px, map.sky.cols - 1));
+    for (int j = 0; j < kPlaces; ++j) {
+      const double y_px = std::max(0.0, (box.y + box.height * (j + 0.5) / kPlaces + 0.5) / scale);
+      if (map.is_sky(x_px, y_px)) behind.sky += kShare;
+      if (y_px >= from * SkyMap::kCell_px) behind.land += kShare;
+    }
+  }
+  return behind;
 }
 
 std::optional<FootageShape> VideoVisibility::shape_of_footage(const FootageSettings& footage) {
@@ -177,6 +233,29 @@ std::optional<FootageShape> VideoVisibility::shape_of_footage(const FootageSetti
   if (const auto known = shapes_.find(key); known != shapes_.end()) return known->second;
   const Result<FootageShape> shape = opened_shape(footage);
   return shapes_[key] = shape ? std::optional(*shape) : std::nullopt;
+}
+
+Result<int> frames_of(const Project& project, const FootageShape& footage) {
+  const Result<FrameRange, Problem> range = scene_range(project.footage, footage);
+  if (!range) return fail(error_of(project, range.error()));
+  return range->last - range->first + 1;
+}
+
+Result<int> ExportLengths::frames_of(const Project& project) {
+  FootageSettings settings = project.footage;
+  settings.video = resolved(project, settings.video).string();
+  if (!settings.timestamps.empty()) settings.timestamps = resolved(project, settings.timestamps).string();
+  const std::string key = footage_key(settings);
+  std::unique_lock lock(mutex_);
+  auto known = shapes_.find(key);
+  if (known == shapes_.end()) {
+    lock.unlock();
+    Result<FootageShape> shape = opened_shape(settings, cancel_);
+    lock.lock();
+    known = shapes_.emplace(key, std::move(shape)).first;
+  }
+  if (!known->second) return fail(known->second.error());
+  return sigs::frames_of(project, *known->second);
 }
 
 std::vector<std::optional<Visibility>> visibilities_of(const std::vector<const PlannedVideo*>& videos, int frames,

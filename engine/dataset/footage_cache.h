@@ -3,14 +3,18 @@
 
 #include <atomic>
 #include <map>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
 #include "camera/camera.h"
 #include "dataset/plan.h"
 #include "dataset/recipe.h"
+#include "horizon/sky_map.h"
 #include "project/project.h"
 #include "scene/scene.h"
 #include "scene/scene_files.h"
@@ -25,6 +29,7 @@ struct OpenedBackground {
   FootageShape footage;
   Camera lens;
   FrameRange frames;
+  BoxesByFrame real_aircraft = {};  // that the footage itself shows
 };
 
 // Opens the files that each background names. Result: one entry for each background, in order; an entry is an error
@@ -32,7 +37,8 @@ struct OpenedBackground {
 // background (calibration, mask, attitudes) is wrong. Errors name the recipe and the key.
 [[nodiscard]] Result<std::vector<Result<OpenedBackground>>> opened_backgrounds(const Recipe& recipe);
 
-// Estimates of how the intruder of a planned video will be visible. Keeps what it has opened. For one thread at a time.
+// Estimates of how the intruder of a planned video will be visible, and before what. Keeps what it has opened. For one
+// thread at a time.
 class VideoVisibility {
  public:
   // Makes it unnecessary to open a clip. Paths are absolute.
@@ -46,6 +52,19 @@ class VideoVisibility {
   // What is known of the project's last intruder in a frame of the footage. None as above.
   [[nodiscard]] std::optional<VisibilityEstimate> last_intruder_at(const Project& project, int frame);
 
+  // Finds the sky in frames of footage (horizon/sky_map.h), which are decoded. Errors as FrameSource::read();
+  // interrupted.
+  [[nodiscard]] Result<void> look_for_sky(const FootageSettings& footage, const std::set<int>& frames,
+                                          const std::atomic<bool>* cancel);
+
+  // What is behind a box of the image; beside the image its nearest place counts. Neither sky nor land is, among others,
+  // what lies below clouds, at which the sky that is found ends. None: the frame was not looked at.
+  struct Behind {
+    double sky = 0;   // share of the box, 0..1
+    double land = 0;  // likewise: lower than all sky within a quarter of the image's width
+  };
+  [[nodiscard]] std::optional<Behind> behind(const FootageSettings& footage, int frame, const Box& box) const;
+
   // The opened project, with models that have bounds and outermost points alone (scene/model.h): enough for estimates.
   // None where the files that it names cannot be opened.
   [[nodiscard]] std::optional<Scene> scene_of(const Project& project);
@@ -55,6 +74,29 @@ class VideoVisibility {
 
   SceneFiles files_;
   std::map<std::string, std::optional<FootageShape>> shapes_;  // by video and its times; none: it cannot be opened
+  struct Sky {
+    SkyMap map;
+    double scale = 1;  // of the reduced image in which it was found
+  };
+  std::map<std::pair<std::string, int>, Sky> skies_;  // by footage and frame
+};
+
+// Number of frames of an export of the project from this footage. Error bad_project: the footage has not the frames
+// that the project names.
+[[nodiscard]] Result<int> frames_of(const Project& project, const FootageShape& footage);
+
+// How many frames exports have. Each clip is opened once. May be called from any thread.
+class ExportLengths {
+ public:
+  explicit ExportLengths(const std::atomic<bool>* cancel = nullptr) : cancel_(cancel) {}
+
+  // Errors: those of opening the clip; bad_project: it has not the frames that the project names.
+  [[nodiscard]] Result<int> frames_of(const Project& project);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, Result<FootageShape>> shapes_;  // by video and its times
+  const std::atomic<bool>* cancel_;
 };
 
 // Number of frames that are evaluated of each video when a dataset is planned or listed.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/text.h"
@@ -100,6 +101,9 @@ class Planner {
 
   void add(const VideoSpec& spec, Plan& plan);
 
+  // Decodes the frames of images that are to show their aircraft before sky or before land.
+  [[nodiscard]] Result<void> look_for_sky(const std::vector<VideoSpec>& specs, const std::atomic<bool>* cancel);
+
  private:
   // A sample, or why it is impossible; where a video may be sampled again it must be visible, too.
   [[nodiscard]] tl::expected<PlannedVideo, std::string> one_sample(const VideoSpec& spec,
@@ -109,6 +113,24 @@ class Planner {
   const std::vector<Result<OpenedBackground>>& backgrounds_;
   VideoVisibility estimator_;
 };
+
+Result<void> Planner::look_for_sky(const std::vector<VideoSpec>& specs, const std::atomic<bool>* cancel) {
+  std::map<std::size_t, std::set<int>> frames;  // by background
+  for (const VideoSpec& spec : specs) {
+    const VideoGroup& group = recipe_.groups[spec.group];
+    if (!group.is_images || group.placement == Placement::anywhere) continue;
+    const VideoSpec sampled = sampled_spec(recipe_, spec, 0);
+    const Result<OpenedBackground>& background = backgrounds_.at(sampled.background);
+    if (!background) continue;
+    if (const auto frame = frame_of_image(recipe_, sampled, background->frames))
+      frames[sampled.background].insert(*frame);
+  }
+  for (const auto& [background, numbers] : frames)
+    if (const Result<void> step = estimator_.look_for_sky(recipe_.backgrounds[background].footage, numbers, cancel);
+        !step)
+      return step;
+  return {};
+}
 
 tl::expected<PlannedVideo, std::string> Planner::one_sample(const VideoSpec& spec, const OpenedBackground& background,
                                                             int again) {
@@ -157,6 +179,7 @@ Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
   if (!backgrounds) return fail(backgrounds.error());
   Plan plan{.name = recipe.name};
   Planner planner(recipe, *backgrounds);
+  if (const Result<void> looked = planner.look_for_sky(*specs, cancel); !looked) return fail(looked.error());
   for (const VideoSpec& spec : *specs) {
     if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
     planner.add(spec, plan);

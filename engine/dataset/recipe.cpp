@@ -254,11 +254,27 @@ Project project_without_settings(const std::filesystem::path& file) {
   return base;
 }
 
+// Whether all that a recipe makes is images.
+bool makes_images_alone(RecipeNode& node) {
+  if (node.value("images") != nullptr) return true;
+  const Json* const groups = node.value("videos");
+  return groups != nullptr && groups->is_array() && !groups->empty() &&
+         std::all_of(groups->begin(), groups->end(), [](const Json& group) { return group.contains("images"); });
+}
+
+// What detectors are trained on, unless the settings say otherwise.
+void set_defaults_of_images(ExportSettings& output) {
+  output.codec = VideoCodec::png;
+  output.masks = MasksChoice::none;
+  output.labels = {"xml", "coco", "yolo"};
+}
+
 void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>& settings) {
   static_cast<void>(node.value("sigs_dataset"));
   recipe.name = node.needed_text("name");
   if (const std::string wrong = file_name_error(recipe.name); !wrong.empty()) node.log().wrong("name", wrong);
   recipe.seed = read_seed(node);
+  if (makes_images_alone(node)) set_defaults_of_images(recipe.base.output);
   recipe.settings = read_settings(node, recipe.base);
   add_settings(settings, recipe.settings, recipe.base, node.log());
   for (const RecipeNode& background : node.nodes("backgrounds"))

@@ -63,6 +63,9 @@ struct OthersPlan {
 };
 inline constexpr int kMaxOthers = 100;
 
+// What is behind an aircraft that is placed in an image, by what the image shows there (horizon/sky_map.h).
+enum class Placement { anywhere, sky, land };
+
 // A group of videos: every combination of its backgrounds, aircraft and flights, `count` times each; or, where
 // is_sampled, `count` videos whose background, aircraft and flight are sampled.
 struct VideoGroup {
@@ -72,15 +75,19 @@ struct VideoGroup {
   std::vector<FlightPlan> flights;
   bool is_sampled = false;
   int count = 1;
+  bool is_images = false;  // sampled videos of one frame each, any of the background's; flights are image_position
+  Quantity per_image{.value = 1};             // of images: how many aircraft each shows, 0 to kMaxOthers; rounded down
+  Placement placement = Placement::anywhere;  // of images
   // How often at most a video that cannot be flown, or whose intruder is never in the image, is sampled again; none: it
   // is sampled once, visible or not.
   std::optional<int> resamples;
-  std::vector<LightPlan> lights;               // one of them is sampled; empty: the background's light
-  std::map<std::string, Quantity> appearance;  // numbers of the project, by key: "appearance.haze.visibility_m"
+  std::vector<LightPlan> lights;            // one of them is sampled; empty: the background's light
+  std::map<std::string, Quantity> numbers;  // of the project, by key: "appearance.haze.visibility_m"
   std::vector<OthersPlan> others;
   std::optional<int> frames;  // length in frames; none: to the last frame of the background
-  Quantity first_frame;       // counted from the background's first frame; rounded down
-  std::string split;          // fixed; empty: sampled
+  std::optional<Quantity>
+      first_frame;    // counted from the background's first one; rounded down. None: 0; of an image any
+  std::string split;  // fixed; empty: sampled
   std::map<std::string, std::string> tags;
 };
 

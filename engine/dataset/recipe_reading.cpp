@@ -234,6 +234,17 @@ void check_timing(const FlightPlan& flight, RecipeNode& node) {
                      "follows from closing_speed_mps and time_of_closest_approach_s; give two of the three");
 }
 
+// One way to say how large it is, and one where it moves.
+void check_position(const FlightPlan& flight, RecipeNode& node) {
+  const auto has = [&](const char* quantity) { return flight.quantities.contains(quantity); };
+  if (has("size_px") == has("distance_m"))
+    node.log().wrong(node.key_of("size_px"), has("size_px") ? "stands beside distance_m; give one of the two"
+                                                            : "is missing; give it or distance_m");
+  if (has("course_deg") && (has("direction_deg") || has("approach_angle_deg")))
+    node.log().wrong(node.key_of("course_deg"), "stands beside direction_deg or approach_angle_deg; give one way");
+  if (has("climb_deg") && !has("course_deg")) node.log().wrong(node.key_of("climb_deg"), "needs course_deg");
+}
+
 // A file named by a flight, from the recipe's folder. None: not given.
 std::optional<std::filesystem::path> file_of(RecipeNode& node, const char* key) {
   const std::optional<std::string> name = node.text(key);
@@ -308,6 +319,7 @@ FlightPlan read_flight(RecipeNode node) {
       node.log().wrong(node.key_of(quantity.name), "is missing: " + std::string(quantity.help));
   }
   if (*kind == FlightKind::encounter) check_timing(flight, node);
+  if (*kind == FlightKind::image_position) check_position(flight, node);
   read_source(node, flight);
   node.done();
   return flight;

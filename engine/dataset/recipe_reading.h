@@ -78,11 +78,11 @@ void read_splits(RecipeNode& recipe_node, Recipe& recipe);
 //   key   of the list
 [[nodiscard]] std::vector<FlightPlan> read_flights(const Json* list, const std::string& key, RecipeLog& log);
 
-// A group's "appearance": { "haze.visibility_m": QUANTITY, ... }: numbers of the project below `appearance`, within
-// their limits, by their keys in the project. Those that `settings` (KEY=VALUE given beside the recipe) set are left
-// out.
-[[nodiscard]] std::map<std::string, Quantity> read_appearance(RecipeNode& group,
-                                                              const std::vector<std::string>& settings);
+// A group's "appearance": { "haze.visibility_m": QUANTITY, ... } or "camera": numbers of the project below that
+// section, within their limits, by their keys in the project. Those that `settings` (KEY=VALUE given beside the recipe)
+// set are left out.
+[[nodiscard]] std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
+                                                           const std::vector<std::string>& settings);
 
 // A group's "others": a list of OthersPlan; without the key none.
 [[nodiscard]] std::vector<OthersPlan> read_others(RecipeNode& group, const Recipe& recipe);

@@ -21,8 +21,6 @@ namespace sigs {
 
 namespace {
 
-constexpr const char* kAppearancePrefix = "appearance.";
-
 bool is_one_number(const Field& field) {
   return std::holds_alternative<double*>(field.value) || std::holds_alternative<int*>(field.value) ||
          std::holds_alternative<std::optional<double>*>(field.value);
@@ -34,14 +32,14 @@ bool is_given_beside(const std::vector<std::string>& settings, const std::string
   });
 }
 
-// The numbers of "appearance" under the names that settings have today.
-Json with_current_keys(const Json& json, RecipeNode& group) {
+// The numbers of a section under the names that settings have today.
+Json with_current_keys(const Json& json, const std::string& section, RecipeNode& group) {
   if (!json.is_object()) return json;
   Json renamed = Json::object();
   for (const auto& [key, value] : json.items()) {
-    const std::string today = current_key(kAppearancePrefix + key).substr(std::string_view(kAppearancePrefix).size());
+    const std::string today = current_key(section + "." + key).substr(section.size() + 1);
     if (today != key)
-      group.log().warn(group.key_of("appearance") + "." + key, "is called " + today + " today; read as that");
+      group.log().warn(group.key_of(section) + "." + key, "is called " + today + " today; read as that");
     renamed[today] = value;
   }
   return renamed;
@@ -84,16 +82,17 @@ OthersPlan read_other(RecipeNode node, const Recipe& recipe) {
 
 }  // namespace
 
-std::map<std::string, Quantity> read_appearance(RecipeNode& group, const std::vector<std::string>& settings) {
+std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
+                                             const std::vector<std::string>& settings) {
   std::map<std::string, Quantity> numbers;
-  const Json* const json = group.value("appearance");
+  const Json* const json = group.value(section);
   if (json == nullptr) return numbers;
-  const Json renamed = with_current_keys(*json, group);
-  RecipeNode node(renamed, group.key_of("appearance"), group.log());
+  const Json renamed = with_current_keys(*json, section, group);
+  RecipeNode node(renamed, group.key_of(section), group.log());
   Project project;
   for (const Field& field : fields_of(project)) {
-    if (!field.key.starts_with(kAppearancePrefix) || !is_one_number(field)) continue;
-    const std::string name = field.key.substr(std::string_view(kAppearancePrefix).size());
+    if (!field.key.starts_with(section + ".") || !is_one_number(field)) continue;
+    const std::string name = field.key.substr(section.size() + 1);
     const Json* const value = node.value(name);
     if (value == nullptr || is_given_beside(settings, field.key)) continue;
     if (const auto quantity = limited_quantity(*value, node.key_of(name), field, group.log()))
@@ -197,6 +196,13 @@ constexpr const char* kRandomEncounter = R"([{"kind": "encounter",
   "bearing_deg": {"uniform": [-45, 45]}, "elevation_deg": {"uniform": [-10, 10]},
   "closing_speed_mps": {"uniform": [40, 160]}}])";
 
+// The flights of a group of images without any.
+constexpr const char* kRandomPosition = R"([{"kind": "image_position",
+  "x_percent": {"uniform": [0, 100]}, "y_percent": {"uniform": [0, 100]}, "size_px": {"log_uniform": [8, 128]},
+  "relative_speed_mps": {"uniform": [10, 120]}, "course_deg": {"uniform": [-180, 180]},
+  "climb_deg": {"normal": {"mean": 0, "deviation": 4, "low": -15, "high": 15}},
+  "nose_deg": {"normal": {"mean": 0, "deviation": 20, "low": -180, "high": 180}}}])";
+
 bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -209,12 +215,18 @@ std::vector<std::string> intruders_of(const Recipe& recipe) {
   return names.empty() ? names_of(recipe.aircraft) : names;
 }
 
-// The flights of a group; of a sampled one without any the standard encounter.
-std::vector<FlightPlan> flights_in(RecipeNode& group, bool is_sampled) {
+// The flights of a group; of a sampled one without any the standard encounter, of images the standard place and size.
+std::vector<FlightPlan> flights_in(RecipeNode& node, const VideoGroup& group) {
   static const Json random_encounter = Json::parse(kRandomEncounter);
-  const Json* list = group.value("flights");
-  if (list == nullptr && is_sampled) list = &random_encounter;
-  return read_flights(list, group.key_of("flights"), group.log());
+  static const Json random_position = Json::parse(kRandomPosition);
+  const Json* list = node.value("flights");
+  if (list == nullptr && group.is_sampled) list = group.is_images ? &random_position : &random_encounter;
+  std::vector<FlightPlan> flights = read_flights(list, node.key_of("flights"), node.log());
+  for (std::size_t i = 0; i < flights.size() && group.is_images; ++i)
+    if (flights[i].kind != FlightKind::image_position)
+      node.log().wrong(fmt::format("{}[{}].kind", node.key_of("flights"), i),
+                       "must be image_position: an image has one moment");
+  return flights;
 }
 
 void check_split(const std::string& split, RecipeNode& group, const Recipe& recipe) {
@@ -227,18 +239,43 @@ void check_split(const std::string& split, RecipeNode& group, const Recipe& reci
 
 // How many videos, of each combination or in all.
 void read_count(RecipeNode& node, VideoGroup& group) {
+  const std::optional<int> images = node.whole("images", 1, kMaxVideos);
   const std::optional<int> videos = node.whole("videos", 1, kMaxVideos);
   const std::optional<int> count = node.whole("count", 1, kMaxVideos);
-  group.is_sampled = node.value("videos") != nullptr;
+  group.is_images = node.value("images") != nullptr;
+  group.is_sampled = group.is_images || node.value("videos") != nullptr;
+  if (group.is_images && node.value("videos") != nullptr)
+    node.log().wrong(node.key_of("images"), "stands beside videos; give one of the two");
   if (group.is_sampled && node.value("count") != nullptr)
     node.log().wrong(node.key_of("count"),
-                     "counts each combination, videos samples so many in all; give one of the two");
-  group.count = videos.value_or(count.value_or(1));
+                     "counts each combination, videos and images are so many in all; give one of them");
+  group.count = images.value_or(videos.value_or(count.value_or(1)));
   group.resamples = node.whole("redraws", 0, kMaxResamples);
   if (group.is_sampled && !group.resamples) group.resamples = kResamples;
 }
 
+// What a group of images has in place of a length.
+void read_image_keys(RecipeNode& node, VideoGroup& group) {
+  for (const char* const key : {"frames", "others"})
+    if (group.is_images && node.value(key) != nullptr)
+      node.log().wrong(node.key_of(key), "is of videos; an image has one frame, and per_image aircraft");
+  for (const char* const key : {"per_image", "placement"})
+    if (!group.is_images && node.value(key) != nullptr)
+      node.log().wrong(node.key_of(key), "is of images; say \"images\": N in place of videos or count");
+  group.per_image = read_quantity(node, "per_image").value_or(group.per_image);
+  const Span span = span_of(group.per_image);
+  if (span.low < 0 || span.high > kMaxOthers)
+    node.log().wrong(node.key_of("per_image"), fmt::format("must lie between 0 and {}", kMaxOthers));
+  const std::string placement = node.text("placement").value_or("anywhere");
+  if (placement == "sky") group.placement = Placement::sky;
+  if (placement == "land") group.placement = Placement::land;
+  if (placement != "sky" && placement != "land" && placement != "anywhere")
+    node.log().wrong(node.key_of("placement"), fmt::format("is \"{}\"; there are sky, land, anywhere", placement));
+  if (group.is_images) group.frames = 1;
+}
+
 std::string standard_name(const VideoGroup& group) {
+  if (group.is_images) return "image-{number}";
   if (group.is_sampled) return "video-{number}";
   return group.count > 1 ? "{background}-{aircraft}-{flight}-{number}" : "{background}-{aircraft}-{flight}";
 }
@@ -259,14 +296,17 @@ VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<s
   const std::vector<std::string> backgrounds = names_of(recipe.backgrounds);
   group.backgrounds = selected_names(node, "backgrounds", backgrounds, backgrounds);
   group.aircraft = selected_names(node, "aircraft", names_of(recipe.aircraft), intruders_of(recipe));
-  group.flights = flights_in(node, group.is_sampled);
+  group.flights = flights_in(node, group);
   group.lights = read_lights(node, settings);
-  group.appearance = read_appearance(node, settings);
+  group.numbers = read_numbers(node, "appearance", settings);
+  group.numbers.merge(read_numbers(node, "camera", settings));
   group.others = read_others(node, recipe);
   group.name = node.text("name").value_or(standard_name(group));
   group.frames = node.whole("frames", 1, kMaxFrames);
-  group.first_frame = read_quantity(node, "first_frame").value_or(Quantity{});
-  if (span_of(group.first_frame).low < 0) node.log().wrong(node.key_of("first_frame"), "must not be less than 0");
+  read_image_keys(node, group);
+  group.first_frame = read_quantity(node, "first_frame");
+  if (group.first_frame && span_of(*group.first_frame).low < 0)
+    node.log().wrong(node.key_of("first_frame"), "must not be less than 0");
   group.split = node.text("split").value_or("");
   group.tags = node.text_map("tags");
   if (const std::string wrong = wrong_with_pattern(group.name); !wrong.empty())
@@ -287,9 +327,10 @@ void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node
 
 std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recipe,
                                     const std::vector<std::string>& settings) {
-  const Json* const number = recipe_node.value("videos");
-  if (number != nullptr && number->is_number()) {  // one group without other keys
-    const Json group{{"videos", *number}};
+  for (const char* const key : {"videos", "images"}) {
+    const Json* const number = recipe_node.value(key);
+    if (number == nullptr || !number->is_number()) continue;
+    const Json group{{key, *number}};  // one group without other keys
     return {read_group(RecipeNode(group, "", recipe_node.log()), recipe, settings)};
   }
   std::vector<VideoGroup> groups;

@@ -16,6 +16,7 @@
 #include "base/stopwatch.h"
 #include "base/threads.h"
 #include "dataset/entry.h"
+#include "dataset/footage_cache.h"
 #include "dataset/index.h"
 #include "dataset/merge_labels.h"
 #include "dataset/video_folder.h"
@@ -36,12 +37,6 @@ constexpr std::size_t kMaxListBytes = 2000;  // bytes
 
 int cores() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
-// One export keeps some four cores busy: decoding, composing, two encoders.
-int videos_at_a_time(const DatasetRequest& request, int videos) {
-  const int wanted = request.jobs > 0 ? request.jobs : std::max(1, cores() / 4);
-  return std::clamp(wanted, 1, std::max(1, videos));
 }
 
 // The error with final paths in place of those in the staging folder, which the user does not know.
@@ -72,10 +67,44 @@ struct Task {
   }
 };
 
+// What one thread makes one after another: a video, or images of one clip, whose decoder then goes forwards.
+using Batch = std::vector<Task*>;
+
+constexpr std::size_t kImagesOfABatch = 50;
+
+std::vector<Batch> batches_of(const std::vector<Task*>& tasks) {
+  std::vector<Batch> batches;
+  std::map<std::string, Batch> images;  // by clip
+  for (Task* const task : tasks) {
+    if (task->frames == 1)
+      images[task->folder.video->project.footage.video].push_back(task);
+    else
+      batches.push_back({task});
+  }
+  for (auto& [clip, all] : images) {
+    std::ranges::stable_sort(all, {}, [](const Task* task) { return task->folder.video->project.footage.first_frame; });
+    for (std::size_t i = 0; i < all.size(); i += kImagesOfABatch)
+      batches.emplace_back(all.begin() + i, all.begin() + std::min(i + kImagesOfABatch, all.size()));
+  }
+  return batches;
+}
+
+// An export of a video keeps some four cores busy, with decoding, composing and two encoders; that of an image one.
+int batches_at_a_time(const DatasetRequest& request, const std::vector<Batch>& batches) {
+  const bool has_videos = std::ranges::any_of(batches, [](const Batch& batch) { return batch.front()->frames > 1; });
+  const int wanted = request.jobs > 0 ? request.jobs : std::max(1, has_videos ? cores() / 4 : cores());
+  return std::clamp(wanted, 1, static_cast<int>(batches.size()));
+}
+
 class DatasetRun {
  public:
   DatasetRun(const Plan& plan, const DatasetRequest& request, const DatasetControl& control, const fs::path& dataset)
-      : plan_(plan), request_(request), control_(control), dataset_(dataset), inputs_(control.cancel) {
+      : plan_(plan),
+        request_(request),
+        control_(control),
+        dataset_(dataset),
+        inputs_(control.cancel),
+        lengths_(control.cancel) {
     for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i)
       if (!request.shard || request.shard->has(i)) tasks_.push_back({.folder = {dataset, &plan.videos[i]}});
   }
@@ -90,7 +119,7 @@ class DatasetRun {
   [[nodiscard]] std::string outdated(const Task& task, const VideoEntry& entry);
   [[nodiscard]] Result<void> check_all_there() const;
   [[nodiscard]] Result<void> export_missing(DatasetReport& report);
-  void make(Task& task, int jobs);
+  void make(Task& task, int jobs, FrameRenderer* renderer);
   void advance(Task& task, int done);
   [[nodiscard]] Result<void> write_index(DatasetReport& report);
   void warn_of_unplanned_videos();
@@ -101,6 +130,7 @@ class DatasetRun {
   const DatasetControl& control_;
   fs::path dataset_;
   InputChecksums inputs_;
+  ExportLengths lengths_;
   std::vector<Task> tasks_;
   std::mutex mutex_;  // of the callbacks and the counts
   int frames_to_do_ = 0;
@@ -143,8 +173,7 @@ void DatasetRun::inspect(Task& task) {
     if (entry && !why.empty() && !is_cancelled() && !request_.merge_only) warn({video.name, "is made anew: " + why});
   }
   if (!task.is_pending() || request_.merge_only) return;
-  const Result<FrameSource> footage = open_footage(video.project, control_.cancel);
-  const Result<int> frames = footage ? frames_of(video.project, footage->info()) : Result<int>(fail(footage.error()));
+  const Result<int> frames = lengths_.frames_of(video.project);
   if (frames)
     task.frames = *frames;
   else
@@ -180,9 +209,10 @@ void DatasetRun::advance(Task& task, int done) {
   if (control_.progress && frames_to_do_ > 0) control_.progress(frames_done_, frames_to_do_);
 }
 
-void DatasetRun::make(Task& task, int jobs) {
+void DatasetRun::make(Task& task, int jobs, FrameRenderer* renderer) {
   const VideoExport wanted{.planned = task.planned,
                            .jobs = jobs,
+                           .renderer = renderer,
                            .progress = [&](int done, int) { advance(task, done); },
                            .warn = [&](const Warning& warning) { warn(warning); },
                            .cancel = control_.cancel};
@@ -204,11 +234,13 @@ Result<void> DatasetRun::export_missing(DatasetReport& report) {
   if (pending.empty()) return {};
   if (const Result<void> step = remove_index(dataset_); !step) return step;
   for (const Task* const task : pending) frames_to_do_ += task->frames;
-  const int count = static_cast<int>(pending.size());
-  const int at_a_time = videos_at_a_time(request_, count);
+  const std::vector<Batch> batches = batches_of(pending);
+  const int at_a_time = batches_at_a_time(request_, batches);
   const int jobs_of_each = std::max(1, cores() / at_a_time - 1);
-  parallel_for(count, at_a_time, [&](int i) {
-    if (!is_cancelled()) make(*pending[i], jobs_of_each);
+  parallel_for(static_cast<int>(batches.size()), at_a_time, [&](int i) {
+    FrameRenderer renderer;
+    for (Task* const task : batches[i])
+      if (!is_cancelled()) make(*task, jobs_of_each, task->frames == 1 ? &renderer : nullptr);
   });
   for (const Task* const task : pending) {
     if (!task->entry) continue;
@@ -308,60 +340,18 @@ Result<fs::path> made_folder(const fs::path& folder) {
   return there;
 }
 
-bool has_index(const fs::path& dataset) {
-  std::error_code code;
-  return fs::exists(dataset / kIndexName, code);
-}
-
-// The first of the requested videos whose folder exists already.
-std::optional<std::string> video_there(const Plan& plan, const DatasetRequest& request, const fs::path& dataset) {
-  for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i) {
-    std::error_code code;
-    if ((!request.shard || request.shard->has(i)) && fs::exists(dataset / plan.videos[i].name, code))
-      return plan.videos[i].name;
-  }
-  return std::nullopt;
-}
-
-// The folder contains either a dataset that may be continued, or nothing that prevents a new one.
-Result<void> check_free(const Plan& plan, const DatasetRequest& request, const fs::path& dataset) {
-  const std::optional<std::string> video = video_there(plan, request, dataset);
-  const bool goes_on = request.resume || request.merge_only;
-  if (!goes_on && has_index(dataset))
-    return fail(dataset.string(), "holds a dataset; resuming goes on with it, or choose another folder for the dataset",
-                ErrorKind::cannot_create);
-  if (!goes_on && video)
-    return fail(
-        dataset.string(),
-        fmt::format("holds {} already; resuming goes on with it, or choose another folder for the dataset", *video),
-        ErrorKind::cannot_create);
-  if (!has_index(dataset) && !video && !request.shard) {
-    for (const char* const name : kSharedFolders) {
-      std::error_code code;
-      if (fs::is_empty(dataset / name, code))
-        return fail(dataset.string(),
-                    fmt::format("holds {}, but no dataset; choose another folder for the dataset", name),
-                    ErrorKind::cannot_create);
-    }
-  }
-  return check_shared_files(dataset);
-}
-
 Result<DatasetReport> made_in(const fs::path& dataset, const Plan& plan, const DatasetRequest& request,
                               const DatasetControl& control) {
-  if (const Result<void> free = check_free(plan, request, dataset); !free) return fail(free.error());
+  if (const Result<void> free =
+          check_folder_is_free(plan, dataset, request.shard, request.resume || request.merge_only);
+      !free)
+    return fail(free.error());
   const Result<DatasetLock> dataset_lock = DatasetLock::acquire(dataset, request.shard.value_or(Shard{}));
   if (!dataset_lock) return fail(dataset_lock.error());
   return DatasetRun(plan, request, control, dataset).all();
 }
 
 }  // namespace
-
-Result<int> frames_of(const Project& project, const VideoInfo& footage) {
-  const Result<FrameRange, Problem> range = scene_range(project.footage, shape_of(footage));
-  if (!range) return fail(error_of(project, range.error()));
-  return range->last - range->first + 1;
-}
 
 Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& request, const DatasetControl& control) {
   if (const Result<void> names = check_names(plan); !names) return fail(names.error());

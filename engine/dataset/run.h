@@ -57,8 +57,4 @@ struct DatasetControl {
 [[nodiscard]] Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& request,
                                                  const DatasetControl& control);
 
-// Number of frames of an export of the project from this footage. Error bad_project: the footage has not the frames
-// that the project names.
-[[nodiscard]] Result<int> frames_of(const Project& project, const VideoInfo& footage);
-
 }  // namespace sigs

@@ -57,13 +57,14 @@ Project with_absolute_paths(const VideoFolder& folder) {
 
 Result<VideoEntry> export_into(const fs::path& staged, const VideoFolder& folder, const VideoExport& request) {
   const ExportRequest wanted{.project = with_absolute_paths(folder), .folder = staged, .jobs = request.jobs};
-  const Result<ExportReport> report =
-      export_project(wanted, {.progress = request.progress,
+  const ExportControl control{.progress = request.progress,
                               .warn =
                                   [&](const Warning& warning) {
                                     if (request.warn) request.warn({folder.video->name, warning.text()});
                                   },
-                              .cancel = request.cancel});
+                              .cancel = request.cancel};
+  const Result<ExportReport> report =
+      request.renderer != nullptr ? export_frame(wanted, *request.renderer, control) : export_project(wanted, control);
   if (!report) return fail(report.error());
   ChecksumCache known;
   Result<std::vector<DatasetFile>> files = files_in(staged, {}, known, request.cancel);

@@ -22,8 +22,9 @@ struct VideoFolder {
 };
 
 struct VideoExport {
-  std::string planned;  // its fingerprint
-  int jobs = 1;         // frames composed in parallel
+  std::string planned;                // its fingerprint
+  int jobs = 1;                       // frames composed in parallel
+  FrameRenderer* renderer = nullptr;  // of a video of one frame: makes it, and keeps what it has opened; null: not used
   std::function<void(int done, int total)> progress;
   std::function<void(const Warning&)> warn;
   const std::atomic<bool>* cancel = nullptr;

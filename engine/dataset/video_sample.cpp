@@ -42,6 +42,12 @@ class Sampler {
   std::string ending_;
 };
 
+// An image keeps its background, its frame and the number of its aircraft when it is sampled again, so that they are
+// distributed as they were sampled first.
+Sampler first_sampler(const Recipe& recipe, const VideoSpec& spec, int again) {
+  return {recipe.seed, spec.name, recipe.groups[spec.group].is_images ? 0 : again};
+}
+
 std::map<std::string, std::string> tags_of(const Recipe& recipe, const VideoSpec& spec) {
   const Background& background = recipe.backgrounds[spec.background];
   const Aircraft& aircraft = recipe.aircraft[spec.aircraft];
@@ -69,12 +75,15 @@ std::map<std::string, double> values_of(const FlightPlan& flight, const Sampler&
 // The frames of a video, or why the background does not have them.
 tl::expected<FrameRange, std::string> frames_of(const VideoGroup& group, const Sampler& sampler,
                                                 const FrameRange& there) {
-  const double skipped = std::floor(sampler.number(group.first_frame, "first_frame"));
+  const int count = there.last - there.first + 1;
+  const Quantity any{.kind = Quantity::Kind::uniform, .high = double(count)};
+  const Quantity from = group.first_frame.value_or(group.is_images ? any : Quantity{});
+  const double skipped = std::floor(sampler.number(from, "first_frame"));
   const double first = there.first + skipped;
   const double last = group.frames ? first + *group.frames - 1 : there.last;
   if (first <= last && last <= there.last) return FrameRange{static_cast<int>(first), static_cast<int>(last)};
   return tl::unexpected(fmt::format("{}: the background has {} frames, too few for {}from its frame {} on",
-                                    group.frames ? "frames" : "first_frame", there.last - there.first + 1,
+                                    group.frames ? "frames" : "first_frame", count,
                                     group.frames ? fmt::format("{} ", *group.frames) : "any ", std::llround(skipped)));
 }
 
@@ -138,15 +147,37 @@ std::string unused_name(const Project& project, const std::string& name) {
   return same == 0 ? name : fmt::format("{} {}", name, same + 1);
 }
 
-// Where the intruder that was placed in the image is hidden there: the reason.
-tl::expected<void, std::string> check_is_seen(const Project& project, int frame, VideoVisibility& estimator) {
+// What is asked of the place of an intruder in a frame, beside that it can be seen there.
+struct PlaceRules {
+  const OpenedBackground& background;
+  Placement placement = Placement::anywhere;
+};
+
+bool have_common_area(const Box& a, const Box& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+// Where the intruder that was placed in the image may not be there: the reason.
+tl::expected<void, std::string> check_place(const Project& project, int frame, const PlaceRules& rules,
+                                            VideoVisibility& estimator) {
   const std::optional<VisibilityEstimate> seen = estimator.last_intruder_at(project, frame);
-  if (!seen || seen->visibility_state == VisibilityState::in_view ||
-      seen->visibility_state == VisibilityState::partly_occluded)
-    return {};
-  return tl::unexpected(std::string(seen->visibility_state == VisibilityState::occluded
-                                        ? "x_percent, y_percent: the own body hides all of the intruder there"
-                                        : "x_percent, y_percent: the intruder is beside the image then"));
+  if (!seen) return {};
+  if (seen->visibility_state == VisibilityState::occluded)
+    return tl::unexpected(std::string("x_percent, y_percent: the own body hides all of the intruder there"));
+  if (seen->visibility_state == VisibilityState::out_of_view || !seen->silhouette)
+    return tl::unexpected(std::string("x_percent, y_percent: the intruder is beside the image then"));
+  const auto real = rules.background.real_aircraft.find(frame);
+  if (real != rules.background.real_aircraft.end())
+    for (const Box& box : real->second)
+      if (have_common_area(box, *seen->silhouette))
+        return tl::unexpected(std::string("real_aircraft: the intruder would be over a real aircraft"));
+  constexpr double kNearlyAll = 0.98;
+  const auto behind = estimator.behind(project.footage, frame, *seen->silhouette);
+  if (behind && rules.placement == Placement::sky && behind->sky < kNearlyAll)
+    return tl::unexpected(std::string("placement: the image does not show sky there"));
+  if (behind && rules.placement == Placement::land && behind->land < kNearlyAll)
+    return tl::unexpected(std::string("placement: the image does not show land there"));
+  return {};
 }
 
 // By nose_deg, where it was drawn: one heading for the whole flight, since that quantity is of straight flights.
@@ -160,7 +191,8 @@ void turn_nose(TrajectoryPlan& trajectory, const std::map<std::string, double>& 
 
 // Adds a body to the project, or says why it cannot fly so.
 tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& recipe, FlightContext context,
-                                          const Sampler& sampler, VideoVisibility& estimator, PlannedVideo& video) {
+                                          const PlaceRules& rules, const Sampler& sampler, VideoVisibility& estimator,
+                                          PlannedVideo& video) {
   std::map<std::string, double> values = values_of(flyer.flight, sampler, flyer.prefix);
   IntruderSettings intruder = recipe.base.intruders.front();
   intruder.name = unused_name(video.project, flyer.aircraft.name);
@@ -194,12 +226,13 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& reci
   intruder.trajectory.waypoints = std::move(planned->waypoints);
   turn_nose(intruder.trajectory, values);
   video.project.intruders.push_back(std::move(intruder));
-  return frame ? check_is_seen(video.project, *frame, estimator) : tl::expected<void, std::string>{};
+  return frame ? check_place(video.project, *frame, rules, estimator) : tl::expected<void, std::string>{};
 }
 
 // What else flies. Keys of random numbers are those of the names in `drawn`, "other3.bearing_deg".
 tl::expected<void, std::string> add_others(const Recipe& recipe, const VideoGroup& group, const FlightContext& context,
-                                           const Sampler& sampler, VideoVisibility& estimator, PlannedVideo& video) {
+                                           const PlaceRules& rules, const Sampler& sampler, VideoVisibility& estimator,
+                                           PlannedVideo& video) {
   int number = 0;
   for (std::size_t i = 0; i < group.others.size(); ++i) {
     const OthersPlan& others = group.others[i];
@@ -211,19 +244,37 @@ tl::expected<void, std::string> add_others(const Recipe& recipe, const VideoGrou
       const Flyer flyer{.aircraft = recipe.aircraft[index_of(recipe.aircraft, name)],
                         .flight = others.flights[sampler.pick(others.flights.size(), prefix + "flight")],
                         .prefix = prefix};
-      if (const auto added = add_flyer(flyer, recipe, context, sampler, estimator, video); !added)
+      if (const auto added = add_flyer(flyer, recipe, context, rules, sampler, estimator, video); !added)
         return tl::unexpected(fmt::format("others[{}].{}", i, added.error()));
     }
   }
   return {};
 }
 
-// Samples the numbers of the image's appearance.
-void sample_appearance(const VideoGroup& group, const Sampler& sampler, PlannedVideo& video) {
-  if (group.appearance.empty()) return;
+// The aircraft of the group's own: one of a video, of an image as many as its number says.
+tl::expected<void, std::string> add_flyers(const Recipe& recipe, const VideoSpec& spec, const FlightContext& context,
+                                           const PlaceRules& rules, int count, const Sampler& sampler,
+                                           VideoVisibility& estimator, PlannedVideo& video) {
+  const VideoGroup& group = recipe.groups[spec.group];
+  for (int n = 0; n < count; ++n) {
+    const std::string prefix = n == 0 ? "" : fmt::format("other{}.", n);
+    const std::string& name = n == 0 ? recipe.aircraft[spec.aircraft].name
+                                     : group.aircraft[sampler.pick(group.aircraft.size(), prefix + "aircraft")];
+    const std::size_t flight = n == 0 ? spec.flight : sampler.pick(group.flights.size(), prefix + "flight");
+    const Flyer flyer{.aircraft = recipe.aircraft[index_of(recipe.aircraft, name)],
+                      .flight = group.flights[flight],
+                      .prefix = prefix};
+    if (auto added = add_flyer(flyer, recipe, context, rules, sampler, estimator, video); !added) return added;
+  }
+  return {};
+}
+
+// Samples numbers of the project.
+void sample_numbers(const VideoGroup& group, const Sampler& sampler, PlannedVideo& video) {
+  if (group.numbers.empty()) return;
   for (const Field& field : fields_of(video.project)) {
-    const auto quantity = group.appearance.find(field.key);
-    if (quantity == group.appearance.end()) continue;
+    const auto quantity = group.numbers.find(field.key);
+    if (quantity == group.numbers.end()) continue;
     const double number = sampler.number(quantity->second, field.key);
     video.sampled[field.key] = number;
     if (auto* const* const real = std::get_if<double*>(&field.value)) **real = number;
@@ -238,11 +289,16 @@ VideoSpec sampled_spec(const Recipe& recipe, VideoSpec spec, int again) {
   const VideoGroup& group = recipe.groups[spec.group];
   if (!group.is_sampled) return spec;
   const Sampler sampler(recipe.seed, spec.name, again);
-  spec.background =
-      index_of(recipe.backgrounds, group.backgrounds[sampler.pick(group.backgrounds.size(), "background")]);
+  const std::size_t background = first_sampler(recipe, spec, again).pick(group.backgrounds.size(), "background");
+  spec.background = index_of(recipe.backgrounds, group.backgrounds[background]);
   spec.aircraft = index_of(recipe.aircraft, group.aircraft[sampler.pick(group.aircraft.size(), "aircraft")]);
   spec.flight = sampler.pick(group.flights.size(), "flight");
   return spec;
+}
+
+std::optional<int> frame_of_image(const Recipe& recipe, const VideoSpec& spec, const FrameRange& frames) {
+  const auto range = frames_of(recipe.groups[spec.group], first_sampler(recipe, spec, 0), frames);
+  return range ? std::optional(range->first) : std::nullopt;
 }
 
 tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, const VideoSpec& spec,
@@ -250,23 +306,25 @@ tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, cons
                                                       VideoVisibility& estimator) {
   const VideoGroup& group = recipe.groups[spec.group];
   const Sampler sampler(recipe.seed, spec.name, again);
-  const tl::expected<FrameRange, std::string> frames = frames_of(group, sampler, background.frames);
+  const Sampler first = first_sampler(recipe, spec, again);
+  const tl::expected<FrameRange, std::string> frames = frames_of(group, first, background.frames);
   if (!frames) return tl::unexpected(frames.error());
   const std::map<std::string, double> light = light_of(group, sampler);
   PlannedVideo video{.name = spec.name, .split = group.split, .tags = tags_of(recipe, spec)};
   video.project = project_of(recipe, spec, *frames, light);
-  const FlightContext context{.camera = recipe.backgrounds[spec.background].camera,
-                              .lens = background.lens,
-                              .footage = background.footage,
-                              .frames = *frames};
-  const Flyer first{.aircraft = recipe.aircraft[spec.aircraft], .flight = group.flights[spec.flight]};
-  tl::expected<void, std::string> step = add_flyer(first, recipe, context, sampler, estimator, video);
-  if (step) step = add_others(recipe, group, context, sampler, estimator, video);
+  sample_numbers(group, sampler, video);
+  const FlightContext context{
+      .camera = video.project.camera, .lens = background.lens, .footage = background.footage, .frames = *frames};
+  const PlaceRules rules{.background = background, .placement = group.placement};
+  const auto count = static_cast<int>(first.number(group.per_image, "per_image"));
+  tl::expected<void, std::string> step = add_flyers(recipe, spec, context, rules, count, sampler, estimator, video);
+  if (step) step = add_others(recipe, group, context, rules, sampler, estimator, video);
   if (!step) return tl::unexpected(step.error());
-  if (group.first_frame.kind != Quantity::Kind::fixed)
+  if (count == 0) video.tags["aircraft"] = video.tags["flight"] = "none";
+  if (group.is_images || (group.first_frame && group.first_frame->kind != Quantity::Kind::fixed))
     video.sampled["first_frame"] = frames->first - background.frames.first;
+  if (group.is_images) video.sampled["per_image"] = count;
   video.sampled.insert(light.begin(), light.end());
-  sample_appearance(group, sampler, video);
   return video;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <tl/expected.hpp>
 
@@ -33,6 +34,9 @@ struct VideoSpec {
 // 0 for the first sample, increased by one each time the video is sampled again. Every sample depends on the seed, the
 // video's name, the quantity and `again` alone.
 [[nodiscard]] VideoSpec sampled_spec(const Recipe& recipe, VideoSpec spec, int again);
+
+// The frame that an image of a group of images shows, of those of its background; none: it has not so many.
+[[nodiscard]] std::optional<int> frame_of_image(const Recipe& recipe, const VideoSpec& spec, const FrameRange& frames);
 
 // The video with all its quantities sampled, or the reason why there is no such video: one line that begins with the
 // name of the quantity. estimator: measures the silhouettes of intruders that are placed by their size.

@@ -172,6 +172,7 @@ LabelSequence label_sequence(const Project& project, const VideoInfo& footage, c
                          .camera = scene.camera,
                          .thresholds = {.min_pixels = project.output.label_min_pixels,
                                         .min_visible_fraction = project.output.label_min_visible_fraction},
+                         .has_real_aircraft = !scene.real_aircraft.empty(),
                          .volumes = project.output.encounter};
   for (std::size_t i = 0; i < scene.intruders.size(); ++i)
     sequence.intruders.push_back({.id = static_cast<int>(i),

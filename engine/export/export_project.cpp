@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/ensure.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "base/threads.h"
@@ -49,13 +50,13 @@ std::string damaged_text(const ExportReport& report, int total) {
 }
 
 // As soon as there are too many: the remaining frames cannot change that.
-Result<void> check_substituted(const ExportReport& report, int total, const OpenedProject& opened,
+Result<void> check_substituted(const ExportReport& report, int total, const VideoInfo& footage,
                                const ExportRequest& request) {
   const double max_percent = request.project.footage.max_substituted_percent;
   if (report.damaged_frames * 100.0 <= max_percent * total) return {};
   std::ostringstream limit;
   limit << max_percent;
-  return fail(opened.source.info().path.string(),
+  return fail(footage.path.string(),
               fmt::format("at least {}, more than footage.max_substituted_percent, {}, allows; {}. "
                           "Repair or cut the footage, or raise the limit: footage.max_substituted_percent=100",
                           damaged_text(report, total), limit.str(),
@@ -87,7 +88,8 @@ Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, cons
       return fail(before ? frame.error() : before.error());
     }
     count(*frame, report);
-    if (const Result<void> valid = check_substituted(report, total, opened, request); !valid) return valid;
+    if (const Result<void> valid = check_substituted(report, total, opened.source.info(), request); !valid)
+      return valid;
     if (!first) first.emplace(Stopwatch(), frame->image.time_s);
     if (request.in_real_time)
       if (const Result<void> due = wait_for_time_of(*frame, first->second, first->first, control); !due) return due;
@@ -117,6 +119,32 @@ void warn_of_other_container(const Project& project, const VideoInfo& footage, c
          "mkv is written, not avi, which has no times: the footage's frames are not evenly spaced"});
 }
 
+// What is known of an export before its first frame.
+ExportReport begun_report(const Scene& scene, const FrameRange& range, const std::vector<Warning>& warnings,
+                          const ExportControl& control) {
+  ExportReport report;
+  report.visibilities.assign(scene.intruders.size(), {.frames = range.last - range.first + 1});
+  for (const Warning& warning : warnings) say(control, report, warning);
+  return report;
+}
+
+// Gives the files their names, once all frames are written.
+Result<void> finish(const ExportRequest& request, const VideoInfo& footage, ExportFiles& files, const Stopwatch& watch,
+                    const ExportControl& control, ExportReport& report) {
+  Result<std::vector<std::filesystem::path>> written = files.commit();
+  if (!written) return fail(written.error());
+  report.times.encode_s = files.spent_s();
+  report.written = std::move(*written);
+  report.times.wall_s = watch.elapsed_s();
+  if (request.video_descriptor < 0) warn_of_missing_images(request.project.output, control, report);
+  if (report.damaged_frames > 0)
+    say(control, report,
+        {footage.path.string(),
+         damaged_text(report, report.frames) +
+             ": the last intact one before each is used instead; labels mark them as substituted"});
+  return {};
+}
+
 Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
   const Stopwatch watch;
   const Project& project = request.project;
@@ -127,10 +155,7 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
   if (const Result<void> output = check_output(project, video); !output) return fail(output.error());
   const Result<FrameRange> range = range_in(scene, request.frames);
   if (!range) return fail(range.error());
-
-  ExportReport report;
-  report.visibilities.assign(scene.intruders.size(), {.frames = range->last - range->first + 1});
-  for (const Warning& warning : opened->warnings) say(control, report, warning);
+  ExportReport report = begun_report(scene, *range, opened->warnings, control);
   warn_of_other_container(project, video, control, report);
   Result<ExportFiles> files = ExportFiles::open(request, video, scene, *range, control.cancel);
   if (!files) return fail(files.error());
@@ -139,17 +164,34 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
     if (const Result<void> step = write_frames(pipeline, *range, *opened, request, *files, control, report); !step)
       return fail(step.error());
   }
-  Result<std::vector<std::filesystem::path>> written = files->commit();
-  if (!written) return fail(written.error());
-  report.times.encode_s = files->spent_s();
-  report.written = std::move(*written);
-  report.times.wall_s = watch.elapsed_s();
-  if (request.video_descriptor < 0) warn_of_missing_images(project.output, control, report);
-  if (report.damaged_frames > 0)
-    say(control, report,
-        {video.path.string(),
-         damaged_text(report, report.frames) +
-             ": the last intact one before each is used instead; labels mark them as substituted"});
+  if (const Result<void> step = finish(request, video, *files, watch, control, report); !step)
+    return fail(step.error());
+  return report;
+}
+
+Result<ExportReport> exported_frame(const ExportRequest& request, FrameRenderer& renderer,
+                                    const ExportControl& control) {
+  const Stopwatch watch;
+  const Project& project = request.project;
+  const Result<FrameRenderer::Opened> opened = renderer.open(project, control.cancel);
+  if (!opened) return fail(opened.error());
+  const VideoInfo& video = *opened->footage;
+  if (const Result<void> output = check_output(project, video); !output) return fail(output.error());
+  const Result<FrameRange> range = range_in(*opened->scene, request.frames);
+  if (!range) return fail(range.error());
+  ENSURE(range->first == range->last);
+  ExportReport report = begun_report(*opened->scene, *range, opened->warnings, control);
+  warn_of_other_container(project, video, control, report);
+  Result<ExportFiles> files = ExportFiles::open(request, video, *opened->scene, *range, control.cancel);
+  if (!files) return fail(files.error());
+  Result<ComposedFrame> frame = renderer.render(project, range->first, {}, control.cancel);
+  if (!frame) return fail(frame.error());
+  count(*frame, report);
+  if (const Result<void> valid = check_substituted(report, 1, video, request); !valid) return fail(valid.error());
+  if (const Result<void> step = files->write(std::move(*frame)); !step) return fail(step.error());
+  if (control.progress) control.progress(1, 1);
+  if (const Result<void> step = finish(request, video, *files, watch, control, report); !step)
+    return fail(step.error());
   return report;
 }
 
@@ -160,6 +202,10 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
   if (!report && report.error().kind == ErrorKind::interrupted && request.video_descriptor >= 0)
     return fail("", "interrupted; the stream ends early", ErrorKind::interrupted);
   return report;
+}
+
+Result<ExportReport> export_frame(const ExportRequest& request, FrameRenderer& renderer, const ExportControl& control) {
+  return guarded([&] { return exported_frame(request, renderer, control); });
 }
 
 namespace {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "export/frame_renderer.h"
 #include "project/project.h"
 #include "scene/visibility.h"
 #include "video/frame_source.h"
@@ -62,6 +63,11 @@ struct ExportControl {
 // NAME.encounter.json. Each appears under its final name only when all are complete. With a video_descriptor none of
 // them is written, and the frames that have gone out before an error or an interruption stay with the reader.
 [[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
+
+// The same for a request of a single frame, with a renderer that keeps footage, models and OpenGL from call to call. The
+// bytes are those of export_project(); an intruder that is not in the picture gives no warning.
+[[nodiscard]] Result<ExportReport> export_frame(const ExportRequest& request, FrameRenderer& renderer,
+                                                const ExportControl& control);
 
 // The label formats asked for that name an image for each frame where a video is written and no images: "coco, yolo".
 // Empty: none.

@@ -170,6 +170,17 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
   return truths;
 }
 
+// Boxes of aircraft that the footage itself shows in a frame, as whole pixels of the image.
+std::vector<cv::Rect> real_aircraft_in(const Scene& scene, int frame) {
+  std::vector<cv::Rect> boxes;
+  const auto there = scene.real_aircraft.find(frame);
+  if (there == scene.real_aircraft.end()) return boxes;
+  for (const Box& box : there->second)
+    if (const cv::Rect pixels = pixels_touched(box, 0, {{0, 0}, scene.footage.size_px}); !pixels.empty())
+      boxes.push_back(pixels);
+  return boxes;
+}
+
 FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, const ComposedFrame& composed,
                     std::vector<IntruderTruth> intruders) {
   const glm::dvec3& position_m = moment.world_from_camera.translation_m;
@@ -182,7 +193,8 @@ FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, co
                      .attitude_source = scene.motion.source.attitude,
                      .attitude_sd_rad = attitude_sd_at(scene.motion.deviations, moment.time_s),
                      .place = scene.earth ? std::optional(scene.earth->place_of(position_m)) : std::nullopt},
-          .intruders = std::move(intruders)};
+          .intruders = std::move(intruders),
+          .real_aircraft = real_aircraft_in(scene, frame)};
 }
 
 }  // namespace

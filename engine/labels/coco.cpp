@@ -114,9 +114,11 @@ class CocoLabels : public LabelWriter {
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds))
         if (const Result<void> put = put_annotation(annotation_of(intruder, image_id)); !put) return put;
+    std::vector<Json> regions = own_body_;
+    for (const cv::Rect& box : truth.real_aircraft) regions.push_back(real_aircraft(box));
     for (std::size_t category = 1; category <= sequence_.categories.size(); ++category)
-      for (const Json& part : own_body_)
-        if (const Result<void> put = put_annotation(region_of(part, category, image_id)); !put) return put;
+      for (const Json& region : regions)
+        if (const Result<void> put = put_annotation(region_of(region, category, image_id)); !put) return put;
     return {};
   }
 
@@ -170,6 +172,15 @@ class CocoLabels : public LabelWriter {
     if (intruder.amodal_box) annotation["amodal_bbox"] = json_of(*intruder.amodal_box);
     if (intruder.detectability) annotation.update(appearance_of(intruder));
     return annotation;
+  }
+
+  [[nodiscard]] Json real_aircraft(const cv::Rect& box) const {
+    const cv::Mat whole(box.size(), CV_8UC1, cv::Scalar(255));
+    return {{"bbox", json_of(box)},
+            {"area", box.area()},
+            {"segmentation", rle_of(whole, box, sequence_.footage.size_px)},
+            {"iscrowd", 1},
+            {"real_aircraft", true}};
   }
 
   [[nodiscard]] static Json region_of(const Json& part, std::size_t category_id, int image_id) {

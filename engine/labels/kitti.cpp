@@ -79,6 +79,7 @@ class KittiLabels : public LabelWriter {
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds)) text += row(frame, truth, intruder);
     for (const cv::Rect& box : own_body_) text += region_row(frame, box);
+    for (const cv::Rect& box : truth.real_aircraft) text += region_row(frame, box);
     if (const Result<void> pose = write_pose(truth); !pose) return pose;
     return labels_.put(text);
   }

@@ -48,6 +48,7 @@ struct LabelSequence {
       own_body;  // CV_32FC1 of the image's size, 1 where the own body hides everything, 0 where nothing; empty: none
   std::optional<Camera> camera;  // nullopt: not known, and formats leave out what follows from it
   LabelThresholds thresholds;
+  bool has_real_aircraft = false;  // some frame's truth has FrameTruth::real_aircraft, which formats ignore as they can
   std::vector<std::string> volumes = {};  // of EncounterTruth, by name; empty: the truth has no encounters
 };
 

@@ -21,10 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // MOT16's class "distractor" (Milan et al. 2016, table 2): a report that matches one counts neither for nor against a
-// tracker. Where there are 8 categories or more, the own body has the number after the last of them.
+// tracker. Where there are 8 categories or more, what is ignored has the number after the last of them.
 constexpr int kDistractor = 8;
 
-int own_body_class(const LabelSequence& sequence) {
+int ignored_class(const LabelSequence& sequence) {
   const int categories = static_cast<int>(sequence.categories.size());
   return categories < kDistractor ? kDistractor : categories + 1;
 }
@@ -51,7 +51,9 @@ std::string seqinfo(const LabelSequence& sequence, const std::string& name) {
       sequence.image_extension, rate_text(footage));
   for (std::size_t i = 0; i < sequence.categories.size(); ++i)
     text += fmt::format("{}={}\n", i + 1, line_name(sequence.categories[i]));
-  if (!sequence.own_body.empty()) text += fmt::format("{}=own body, ignored\n", own_body_class(sequence));
+  if (!sequence.own_body.empty()) text += fmt::format("{}=own body, ignored\n", ignored_class(sequence));
+  if (sequence.own_body.empty() && sequence.has_real_aircraft)
+    text += fmt::format("{}=real aircraft, ignored\n", ignored_class(sequence));
   return text;
 }
 
@@ -71,7 +73,9 @@ class MotLabels : public LabelWriter {
         text += mot_row(frame, intruder.id + 1, *intruder.visible_box, true, category_index(sequence_, intruder.id) + 1,
                         intruder.visible_fraction);
     int id = first_own_body_id(sequence_);
-    for (const cv::Rect& box : own_body_) text += mot_row(frame, id++, box, false, own_body_class(sequence_), 1);
+    for (const cv::Rect& box : own_body_) text += mot_row(frame, id++, box, false, ignored_class(sequence_), 1);
+    for (const cv::Rect& box : truth.real_aircraft)
+      text += mot_row(frame, id++, box, false, ignored_class(sequence_), 1);
     return truth_.put(text);
   }
 

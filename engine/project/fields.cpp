@@ -72,6 +72,8 @@ void add_footage(FieldList list, FootageSettings& footage) {
               "frame that the occluder mask was made of; elsewhere it follows the camera's motion");
   list.number("occluder_distance_m", &footage.occluder_distance_m, "m", 0, 1e7,
               "how far the occluder is; nearer intruders are before it; 0: none is");
+  list.path("real_aircraft", footage.real_aircraft, false,
+            "CSV (frame,label,x,y,w,h) with boxes of real aircraft in the footage, which labels ignore; empty: none");
   list.path("own_body_mask", footage.own_body_mask, false,
             "image of the footage's size, white where the UAV's own body hides the intruder; empty: none");
   list.number("max_substituted_percent", &footage.max_substituted_percent, "%", 0, 100,

@@ -170,6 +170,7 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
       scene, part_or_placeholder(camera_flight(clean, footage, range, files), steady_flight(clean), draft.problems));
   scene.light = part_or_placeholder(scene_light(clean, scene), placeholder_light(scene.light), draft.problems);
   scene.own_body = part_or_placeholder(scene_own_body(clean, footage.size_px, files), cv::Mat(), draft.problems);
+  scene.real_aircraft = part_or_placeholder(scene_real_aircraft(clean, files), BoxesByFrame(), draft.problems);
   scene.occluder = part_or_placeholder(scene_occluder(clean, scene, files), Occluder(), draft.problems);
   for (std::size_t i = 0; i < clean.intruders.size(); ++i) {
     const bool has_waypoint = !clean.intruders[i].trajectory.waypoints.empty();

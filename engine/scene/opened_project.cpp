@@ -48,6 +48,9 @@ Result<Scene> open_valid_scene(const Project& project, const FootageShape& foota
   const Result<cv::Mat, Problem> own_body = scene_own_body(project, footage.size_px, files);
   if (!own_body) return failed(own_body.error());
   scene.own_body = *own_body;
+  Result<BoxesByFrame, Problem> real_aircraft = scene_real_aircraft(project, files);
+  if (!real_aircraft) return failed(real_aircraft.error());
+  scene.real_aircraft = *std::move(real_aircraft);
   Result<Occluder, Problem> occluder = scene_occluder(project, scene, files);
   if (!occluder) return failed(occluder.error());
   scene.occluder = *std::move(occluder);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "base/pose.h"
 #include "base/result.h"
 #include "camera/camera.h"
@@ -116,6 +117,7 @@ struct Scene {
   std::vector<SceneIntruder> intruders;              // in the project's order
   cv::Mat own_body;  // CV_32FC1 of the footage's size, 0..1: 1 where the own body hides everything; empty: no mask
   Occluder occluder;
+  BoxesByFrame real_aircraft = {};  // that the footage itself shows
   CompositingSettings compositing;
   AppearanceSettings appearance;
   FootageShape footage;

@@ -65,6 +65,30 @@ Result<AttitudeAtFrame> attitude_in(std::string_view line, const std::string& wh
   return AttitudeAtFrame{numbers[0], {rad_of_deg(numbers[1]), rad_of_deg(numbers[2]), rad_of_deg(numbers[3])}};
 }
 
+constexpr double kMaxBoxFrame = 1e7;
+constexpr double kMaxPixel = 1e6;
+
+struct BoxLine {
+  int frame = 0;
+  Box box;
+};
+
+// What a line of boxes says, or what is wrong with it.
+Result<BoxLine> box_in(std::string_view line, const std::string& where) {
+  const std::vector<std::string_view> cells = cells_of(line);
+  if (cells.size() < 6) return fail(where, fmt::format("expected frame,label,x,y,w,h, found {} fields", cells.size()));
+  std::array<double, 6> numbers{};
+  for (const std::size_t i : {0U, 2U, 3U, 4U, 5U}) {
+    const std::optional<double> number = finite_number(cells[i]);
+    if (!number || std::abs(*number) > (i == 0 ? kMaxBoxFrame : kMaxPixel))
+      return fail(where, fmt::format("field {} is no number in its range", i + 1));
+    numbers[i] = *number;
+  }
+  if (numbers[0] < 0 || numbers[0] != std::floor(numbers[0])) return fail(where, "the frame is no whole number from 0");
+  // From the centre of the first pixel at (1, 1) to its edge at (-0.5, -0.5).
+  return BoxLine{static_cast<int>(numbers[0]), {numbers[2] - 1.5, numbers[3] - 1.5, numbers[4], numbers[5]}};
+}
+
 cv::Mat gray_of(const cv::Mat& image) {
   if (image.channels() == 1) return image;
   cv::Mat gray;
@@ -197,6 +221,23 @@ Result<std::vector<AttitudeAtFrame>> read_attitude_file(const std::filesystem::p
   return attitudes;
 }
 
+Result<BoxesByFrame> read_boxes_by_frame(const std::filesystem::path& csv) {
+  const Result<std::string> text = read_text(csv);
+  if (!text) return fail(text.error());
+  std::string_view rest = *text;
+  static_cast<void>(next_line(rest));
+  BoxesByFrame boxes;
+  for (int line_number = 2; !rest.empty(); ++line_number) {
+    const std::string_view line = trimmed(next_line(rest));
+    if (line.empty()) continue;
+    const Result<BoxLine> read = box_in(line, fmt::format("{}: line {}", csv.string(), line_number));
+    if (!read) return fail(read.error());
+    if (read->box.width > 0 && read->box.height > 0) boxes[read->frame].push_back(read->box);
+  }
+  if (boxes.empty()) return fail(csv.string(), "has no box");
+  return boxes;
+}
+
 Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px) {
   if (const Result<void> file = check_input_file(path, "image"); !file) return fail(file.error());
   const auto check_size = [&](cv::Size size_px) -> Result<void> {
@@ -222,6 +263,7 @@ struct SceneFiles::Caches {
   FileCache<CameraKey, Camera> cameras;
   FileCache<ImageKey, cv::Mat> masks;
   FileCache<std::string, std::vector<AttitudeAtFrame>> attitudes;
+  FileCache<std::string, BoxesByFrame> boxes;
   FileCache<std::string, std::shared_ptr<const Track>> tracks;
   FileCache<std::uint64_t, std::shared_ptr<const Model>> crosses;
 };
@@ -244,6 +286,10 @@ Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::
 
 Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {
   return caches_->attitudes.take(name_of(file), stamp_of(file), [&] { return read_attitude_file(file); });
+}
+
+Result<BoxesByFrame> SceneFiles::boxes(const std::filesystem::path& csv) {
+  return caches_->boxes.take(name_of(csv), stamp_of(csv), [&] { return read_boxes_by_frame(csv); });
 }
 
 Result<std::shared_ptr<const Track>> SceneFiles::track(const std::filesystem::path& file) {

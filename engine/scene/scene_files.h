@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/image.h"
 #include "base/pose.h"
 #include "base/result.h"
 #include "camera/camera.h"
@@ -32,6 +33,12 @@ struct AttitudeAtFrame {
 // Returns CV_32FC1, 0..1. Errors: cannot_read; bad_data (not an image, another depth, or another size: both sizes are
 // named).
 [[nodiscard]] Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px);
+
+// Reads boxes of aircraft that footage shows (footage.real_aircraft): CSV with the header line frame,label,x,y,w,h, then
+// one line for each box; frames from 0, x and y in pixels of which the first one has the centre (1, 1), as in the
+// published boxes of the Svanstrom data set (doi:10.5281/zenodo.5500576). A box without area is left out. Errors:
+// cannot_read; bad_data (file and line) for what is no number, a frame beyond 10 million, no box at all.
+[[nodiscard]] Result<BoxesByFrame> read_boxes_by_frame(const std::filesystem::path& csv);
 
 // A cache of the files that scenes are made from: a scene that is opened again after an edit reads only what has
 // changed. A file is read again when its size or its time of change differs; an OBJ file is read with its materials and
@@ -60,6 +67,9 @@ class SceneFiles {
 
   // read_own_body_mask. The samples are shared with the cache: not to be written to.
   [[nodiscard]] Result<cv::Mat> own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px);
+
+  // read_boxes_by_frame
+  [[nodiscard]] Result<BoxesByFrame> boxes(const std::filesystem::path& csv);
 
   // The placeholder of a model (cross_mesh). The same length gives the same object. length_m > 0.
   [[nodiscard]] std::shared_ptr<const Model> cross(double length_m);

@@ -158,6 +158,13 @@ Result<cv::Mat, Problem> scene_own_body(const Project& project, cv::Size footage
   return *mask;
 }
 
+Result<BoxesByFrame, Problem> scene_real_aircraft(const Project& project, SceneFiles& files) {
+  if (project.footage.real_aircraft.empty()) return BoxesByFrame();
+  Result<BoxesByFrame> boxes = files.boxes(resolved(project, project.footage.real_aircraft));
+  if (!boxes) return in_field("footage.real_aircraft", boxes.error());
+  return *std::move(boxes);
+}
+
 Result<Occluder, Problem> scene_occluder(const Project& project, const Scene& scene, SceneFiles& files) {
   const FootageSettings& settings = project.footage;
   if (settings.occluder_mask.empty()) return Occluder();

@@ -48,6 +48,9 @@ namespace sigs {
 //   scene  its motion and footage
 [[nodiscard]] Result<Occluder, Problem> scene_occluder(const Project& project, const Scene& scene, SceneFiles& files);
 
+// Scene::real_aircraft; empty where the project names no file.
+[[nodiscard]] Result<BoxesByFrame, Problem> scene_real_aircraft(const Project& project, SceneFiles& files);
+
 // Scene::own_body; empty where the project names no mask.
 [[nodiscard]] Result<cv::Mat, Problem> scene_own_body(const Project& project, cv::Size footage_size_px,
                                                       SceneFiles& files);

@@ -124,6 +124,7 @@ struct FrameTruth {
   glm::dquat world_from_camera{1, 0, 0, 0};  // its attitude
   CameraTruth camera = {};
   std::vector<IntruderTruth> intruders;  // by id
+  std::vector<cv::Rect> real_aircraft = {};  // boxes, within the image, of aircraft that the footage itself shows
 };
 
 }  // namespace sigs

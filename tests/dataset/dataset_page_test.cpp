@@ -40,8 +40,10 @@ Plan plan_of_example(std::size_t n) {
   std::filesystem::create_symlink(assets / "calibrations/sample.xml", folder / "camera.xml");
   std::filesystem::create_symlink(assets / "footage/sample_own_body.png", folder / "own_body.png");
   std::filesystem::create_symlink(assets / "models/airliner/airliner.obj", folder / "airliner.obj");
+  std::filesystem::create_symlink(assets / "models/helicopter/helicopter.obj", folder / "helicopter.obj");
+  write_file(folder / "seen.csv", "frame,label,x,y,w,h\n0,AIRPLANE,10,10,20,10\n");
   const std::vector<std::string> examples = blocks(page("dataset.md") + page("dataset-recipe.md"), "json");
-  REQUIRE(examples.size() == 3);
+  REQUIRE(examples.size() == 4);
   const Result<ReadRecipe> read = parse_recipe(examples.at(n), folder / "recipe.json");
   REQUIRE_MESSAGE(read, read.error().text());
   CHECK(read->warnings.empty());
@@ -78,7 +80,13 @@ TEST_CASE("the recipe on the dataset's page makes its videos") {
 }
 
 TEST_CASE("the recipe of balanced places and sizes on the recipe's page makes all its videos") {
-  CHECK(plan_of_example(2).videos.size() == 60);
+  CHECK(plan_of_example(3).videos.size() == 60);
+}
+
+TEST_CASE("the recipe of images on the recipe's page makes all of them") {
+  const Plan plan = plan_of_example(2);
+  CHECK(plan.videos.size() == 1000);
+  CHECK(plan.videos.back().name == "land-0200");
 }
 
 TEST_CASE("the recipe of random encounters on the recipe's page makes all its videos") {

@@ -43,7 +43,7 @@ std::set<std::string> names_in(const fs::path& folder) {
 }  // namespace
 
 TEST_CASE("a video has the frames that its footage has, whatever its project says") {
-  VideoInfo footage;
+  FootageShape footage;
   for (int n = 0; n < 50; ++n) footage.times_s.push_back(n / 25.0);
   Project project;
   project.footage.first_frame = 10;

@@ -62,6 +62,23 @@ TEST_CASE("frames rendered one by one in any order are those of the stream") {
   }
 }
 
+TEST_CASE("the truth has the boxes of real aircraft, clipped to the image, in their frames alone") {
+  Scenario scenario(kFlightSize, kFlightFrames);
+  prepare_flight(scenario);
+  write_file(scenario.path("real.csv"), "frame,label,x,y,w,h\n4,A,11,21,6,5\n4,A,151,1,40,10\n4,A,900,900,4,4\n");
+  scenario.project.footage.real_aircraft = "real.csv";
+  FrameRenderer renderer;
+  CHECK(rendered(renderer, scenario.project, 3).truth.real_aircraft.empty());
+  // The pixel (1, 1) of the file is the first one.
+  CHECK(rendered(renderer, scenario.project, 4).truth.real_aircraft ==
+        std::vector<cv::Rect>{{10, 20, 6, 5}, {150, 0, 10, 10}});
+  write_file(scenario.path("real.csv"), "frame,label,x,y,w,h\n4,A,11,x,6,5\n");
+  const Result<ComposedFrame> wrong = FrameRenderer().render(scenario.project, 4);
+  REQUIRE_FALSE(wrong);
+  CHECK(wrong.error().text().find("footage.real_aircraft: ") != std::string::npos);
+  CHECK(wrong.error().text().find("line 2") != std::string::npos);
+}
+
 TEST_CASE("frames of images have the times that the project states, also after these have changed") {
   Scenario scenario(kFlightSize, kFlightFrames);
   prepare_flight(scenario);

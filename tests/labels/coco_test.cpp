@@ -198,6 +198,22 @@ TEST_CASE("coco: each part of the own body is a crowd region of each image and c
   CHECK(region["segmentation"]["counts"] == coco_counts(runs));
 }
 
+TEST_CASE("coco: a real aircraft in the footage is a crowd region of its image and each category") {
+  std::vector<FrameTruth> frames = frames_of({{visible_intruder(0, {20, 10, 3, 3})}, {invisible_intruder(0)}});
+  frames[1].real_aircraft = {{5, 6, 4, 3}};
+  const Json coco = coco_of(label_sequence(101), frames);
+  check_is_coco(coco);
+  CHECK(of_image(coco, 1, 1).empty());
+  const std::vector<Json> regions = of_image(coco, 2, 1);
+  REQUIRE(regions.size() == 2);
+  for (const Json& region : regions) {
+    CHECK(region["bbox"] == Json{5, 6, 4, 3});
+    CHECK(region["area"] == 12);
+    CHECK(region["real_aircraft"] == true);
+  }
+  CHECK(regions[0]["category_id"] != regions[1]["category_id"]);
+}
+
 TEST_CASE("coco: unusual names are read back") {
   for (const std::string& name : special_names()) {
     LabelSequence sequence = label_sequence();

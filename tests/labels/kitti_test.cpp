@@ -252,6 +252,16 @@ TEST_CASE("kitti gives the own body in every frame as regions to ignore") {
   }
 }
 
+TEST_CASE("kitti gives real aircraft of the footage as regions to ignore") {
+  FrameTruth frame = frame_of(5, {visible_intruder(0, {5, 5, 9, 9})});
+  frame.real_aircraft = {{20, 30, 7, 5}};
+  const std::vector<KittiRow> rows = written_kitti(synthetic_sequence(5, 5, {"airplane"}), {frame});
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[1].type == "DontCare");
+  CHECK(rows[1].left == 20);
+  CHECK(rows[1].bottom == 35);
+}
+
 TEST_CASE("kitti's images, list and calibration have the benchmark's paths") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(98, 100, {"airplane"});

@@ -148,6 +148,21 @@ TEST_CASE("mot gives the own body in every frame as a distractor that does not c
   check_accepted(folder / "m");
 }
 
+TEST_CASE("mot gives real aircraft of the footage as distractors that do not count") {
+  const TemporaryFolder folder;
+  LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
+  clip.has_real_aircraft = true;
+  FrameTruth frame = frame_of(0, {visible_intruder(0, {5, 5, 9, 9})});
+  frame.real_aircraft = {{20, 30, 7, 5}};
+  write_labels("mot", folder / "m", clip, {frame});
+  const std::vector<MotRow> rows = mot_rows(folder / "m");
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[1].box == cv::Rect2d(21, 31, 7, 5));
+  CHECK(rows[1].counts == 0);
+  CHECK(rows[1].category == 8);
+  check_accepted(folder / "m");
+}
+
 TEST_CASE("mot's own body takes no class that a category has") {
   const TemporaryFolder folder;
   LabelSequence clip = synthetic_sequence(0, 0, {"a", "b", "c", "d", "e", "f", "g", "h"});

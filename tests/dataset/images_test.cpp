@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <set>
+
+#include "dataset/entry.h"
+#include "dataset/footage_cache.h"
+#include "dataset/recipe_folder.h"
+#include "dataset/tiny_plan.h"
+#include "export/export_project.h"
+#include "support/files.h"
+
+using namespace sigs;
+using namespace sigs::test;
+
+namespace {
+
+nlohmann::ordered_json image_recipe(const nlohmann::ordered_json& group) {
+  nlohmann::ordered_json recipe = RecipeFolder::recipe();
+  recipe["backgrounds"][0]["camera"]["position_m"] = {0, 0, -3000};
+  recipe["videos"] = {group};
+  return recipe;
+}
+
+// The box of an intruder, by the estimate that reads no pixel.
+Box box_in(const PlannedVideo& image, int intruder) {
+  VideoVisibility opener;
+  const std::optional<Scene> scene = opener.scene_of(image.project);
+  REQUIRE(scene);
+  return VisibilityEstimator(*scene).at(intruder, image.project.footage.first_frame).silhouette.value();
+}
+
+}  // namespace
+
+TEST_CASE("a number of images is a recipe: any frame, any place, 8 to 128 px, in the formats of detectors") {
+  nlohmann::ordered_json recipe = image_recipe({});
+  recipe.erase("videos");
+  recipe["images"] = 300;
+  const Plan plan = RecipeFolder().plan(recipe);
+  REQUIRE(plan.videos.size() == 300);
+  CHECK(plan.videos.front().name == "image-0001");
+  double frames = 0, sizes = 0, columns = 0;
+  for (const PlannedVideo& image : plan.videos) {
+    const Project& project = image.project;
+    CHECK(project.footage.first_frame == *project.footage.last_frame);
+    CHECK(project.footage.first_frame == image.sampled.at("first_frame"));
+    CHECK(project.output.codec == VideoCodec::png);
+    CHECK(project.output.masks == MasksChoice::none);
+    CHECK(project.output.labels == std::vector<std::string>{"xml", "coco", "yolo"});
+    REQUIRE(project.intruders.size() == 1);
+    frames += project.footage.first_frame;
+    sizes += std::log2(image.sampled.at("size_px"));
+    columns += image.sampled.at("x_percent");
+  }
+  // Means of 300 even samples: within four deviations. The sample footage has 200 frames; sizes run over four octaves.
+  CHECK(std::abs(frames / 300 - 99.5) < 4 * 200 / std::sqrt(12.0 * 300));
+  CHECK(std::abs(sizes / 300 - 5) < 4 * 4 / std::sqrt(12.0 * 300));
+  CHECK(std::abs(columns / 300 - 50) < 4 * 100 / std::sqrt(12.0 * 300));
+}
+
+TEST_CASE("images show as many aircraft as drawn, none too, however often the others are sampled again") {
+  const Plan plan = RecipeFolder().plan(image_recipe({{"images", 200}, {"per_image", {{"choice", {0, 1, 3}}}}}));
+  REQUIRE(plan.videos.size() == 200);
+  std::map<std::size_t, int> counts;
+  for (const PlannedVideo& image : plan.videos) {
+    ++counts[image.project.intruders.size()];
+    CHECK(image.sampled.at("per_image") == double(image.project.intruders.size()));
+    CHECK((image.tags.at("aircraft") == "none") == image.project.intruders.empty());
+  }
+  CHECK(counts.size() == 3);
+  for (const auto& [count, images] : counts) CHECK(std::abs(images - 67) < 27);  // deviation 6.7
+}
+
+TEST_CASE("course and climb say where an aircraft at a place of the image flies, whatever the camera's pitch") {
+  const nlohmann::ordered_json flight{{"kind", "image_position"}, {"distance_m", 700},  {"x_percent", 30},
+                                      {"relative_speed_mps", 50}, {"course_deg", -120}, {"climb_deg", 10}};
+  const Plan plan = RecipeFolder().plan(image_recipe(
+      {{"images", 20}, {"camera", {{"attitude_deg.pitch", {{"uniform", {-20, 60}}}}}}, {"flights", {flight}}}));
+  REQUIRE(plan.videos.size() == 20);
+  std::set<double> pitches;
+  for (const PlannedVideo& image : plan.videos) {
+    const Project& project = image.project;
+    pitches.insert(*project.camera.pitch_deg);
+    CHECK(*project.camera.pitch_deg == image.sampled.at("camera.attitude_deg.pitch"));
+    const auto& waypoints = project.intruders.front().trajectory.waypoints;
+    REQUIRE(waypoints.size() == 2);
+    const double interval_s = 1 / 25.0;
+    const double camera_x_m = 22 * project.footage.first_frame * interval_s;
+    CHECK(glm::distance(waypoints[0].position_m, {camera_x_m, 0, -3000}) == doctest::Approx(700).epsilon(1e-4));
+    const glm::dvec3 relative_mps =
+        (waypoints[1].position_m - waypoints[0].position_m) / interval_s - glm::dvec3(22, 0, 0);
+    const double degree = std::numbers::pi / 180;
+    const glm::dvec3 expected =
+        50.0 * glm::dvec3(std::cos(10 * degree) * std::cos(-120 * degree),
+                          std::cos(10 * degree) * std::sin(-120 * degree), -std::sin(10 * degree));
+    CHECK(glm::distance(relative_mps, expected) < 0.1);  // waypoints are rounded to 2^-10 m
+  }
+  CHECK(pitches.size() > 15);
+}
+
+TEST_CASE("images are placed before sky or before land as the frame shows it, and never over a real aircraft") {
+  // In the sample footage the horizon is in the middle of the image, within some percent, and clouds are above it.
+  for (const char* const placement : {"sky", "land"}) {
+    CAPTURE(placement);
+    const Plan plan = RecipeFolder().plan(image_recipe({{"images", 40}, {"placement", placement}}));
+    REQUIRE(plan.videos.size() == 40);
+    const bool is_sky = std::string(placement) == "sky";
+    int beyond = 0;
+    for (const PlannedVideo& image : plan.videos) {
+      const Box box = box_in(image, 0);
+      const double middle_percent = 100 * (box.y + box.height / 2) / 960;
+      beyond += (middle_percent < 50) == is_sky ? 0 : 1;
+    }
+    CHECK(beyond == 0);
+    CHECK(resamples_of([&] {
+            std::vector<const PlannedVideo*> all;
+            for (const PlannedVideo& image : plan.videos) all.push_back(&image);
+            return all;
+          }())
+              .contains("placement"));
+  }
+  const TemporaryFolder folder;
+  std::string csv = "frame,label,x,y,w,h\n";
+  for (int frame = 0; frame < 200; ++frame) csv += std::to_string(frame) + ",A,1,1,900,960\n";
+  write_file(folder / "real.csv", csv);
+  nlohmann::ordered_json recipe = image_recipe({{"images", 40}});
+  recipe["backgrounds"][0]["footage"]["real_aircraft"] = (folder / "real.csv").string();
+  const Plan plan = RecipeFolder().plan(recipe);
+  REQUIRE(plan.videos.size() == 40);
+  for (const PlannedVideo& image : plan.videos) CHECK(box_in(image, 0).x >= 899.5);
+}
+
+TEST_CASE("what is wrong with a group of images is named") {
+  const RecipeFolder folder;
+  const auto error = [&](const nlohmann::ordered_json& group) { return folder.error(image_recipe(group)); };
+  const nlohmann::ordered_json place{{"kind", "image_position"}, {"size_px", 20}};
+  const auto with = [&](const char* key, const nlohmann::ordered_json& value) {
+    nlohmann::ordered_json flight = place;
+    flight[key] = value;
+    return error({{"images", 3}, {"flights", {flight}}});
+  };
+  CHECK(
+      error({{"images", 3}, {"flights", {"left_right"}}}).starts_with("videos[0].flights[0].kind: must be image_pos"));
+  CHECK(error({{"images", 3}, {"videos", 3}}).starts_with("videos[0].images: stands beside videos"));
+  CHECK(error({{"images", 3}, {"frames", 3}}).starts_with("videos[0].frames: is of videos"));
+  CHECK(error({{"videos", 3}, {"per_image", 2}}).starts_with("videos[0].per_image: is of images"));
+  CHECK(error({{"images", 3}, {"per_image", -1}}).starts_with("videos[0].per_image: must lie between 0 and 100"));
+  CHECK(error({{"images", 3}, {"placement", "sea"}}).starts_with("videos[0].placement: is \"sea\""));
+  CHECK(error({{"images", 3}, {"camera", {{"attitude_deg.pitch", 100}}}})
+            .starts_with("videos[0].camera.attitude_deg.pitch: must lie between"));
+  CHECK(with("distance_m", 100).starts_with("videos[0].flights[0].size_px: stands beside distance_m"));
+  CHECK(with("climb_deg", 5).starts_with("videos[0].flights[0].climb_deg: needs course_deg"));
+  nlohmann::ordered_json both = place;
+  both["course_deg"] = 5;
+  both["direction_deg"] = 5;
+  CHECK(error({{"images", 3}, {"flights", {both}}}).starts_with("videos[0].flights[0].course_deg: stands beside"));
+}
+
+TEST_CASE("videos of one frame that share what they opened have the bytes of exports of their own") {
+  TinyPlan tiny(5, 6);
+  int first = 4;
+  for (PlannedVideo& video : tiny.plan.videos) {
+    video.project.footage.first_frame = first;
+    video.project.footage.last_frame = first--;
+    video.project.output.codec = VideoCodec::png;
+  }
+  const DatasetReport report = made(tiny.plan, {.folder = tiny.out(), .source = synthetic_source(), .jobs = 2});
+  CHECK(report.exported == 5);
+  for (const PlannedVideo& video : tiny.plan.videos) {
+    CAPTURE(video.name);
+    ExportRequest alone{.project = video.project, .folder = tiny.out("alone")};
+    REQUIRE(export_project(alone, {}));
+    const VideoEntry entry = read_entry(tiny.out() / video.name / kEntryName).value();
+    REQUIRE_FALSE(entry.files.empty());
+    for (const DatasetFile& file : entry.files)
+      CHECK_MESSAGE(text_of(tiny.out() / video.name / file.path) == text_of(tiny.out("alone") / file.path), file.path);
+  }
+}
