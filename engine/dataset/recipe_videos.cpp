@@ -188,6 +188,7 @@ std::vector<LightPlan> read_lights(RecipeNode& group, const std::vector<std::str
 constexpr int kMaxVideos = 100'000;
 constexpr int kMaxFrames = 1'000'000'000;
 constexpr int kResamples = 100;  // of sampled groups without one
+constexpr int kResamplesOfImages = 1000;  // which keep their frame, in which there may be little room
 constexpr int kMaxResamples = 10'000;
 
 // The flights of a sampled group without any. docs/dataset-recipe.md shows them.
@@ -251,7 +252,7 @@ void read_count(RecipeNode& node, VideoGroup& group) {
                      "counts each combination, videos and images are so many in all; give one of them");
   group.count = images.value_or(videos.value_or(count.value_or(1)));
   group.resamples = node.whole("redraws", 0, kMaxResamples);
-  if (group.is_sampled && !group.resamples) group.resamples = kResamples;
+  if (group.is_sampled && !group.resamples) group.resamples = group.is_images ? kResamplesOfImages : kResamples;
 }
 
 // What a group of images has in place of a length.
