@@ -57,8 +57,8 @@ class VideoVisibility {
   [[nodiscard]] Result<void> look_for_sky(const FootageSettings& footage, const std::set<int>& frames,
                                           const std::atomic<bool>* cancel);
 
-  // What is behind a box of the image; beside the image its nearest place counts. Neither sky nor land is, among others,
-  // what lies below clouds, at which the sky that is found ends. None: the frame was not looked at.
+  // What is behind a box of the image; beside the image its nearest place counts. Neither sky nor land is, among
+  // others, what lies below clouds, at which the sky that is found ends. None: the frame was not looked at.
   struct Behind {
     double sky = 0;   // share of the box, 0..1
     double land = 0;  // likewise: lower than all sky within a quarter of the image's width

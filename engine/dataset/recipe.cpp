@@ -178,9 +178,23 @@ void check_names(const std::vector<Named>& all, const std::string& key, RecipeLo
         log.wrong(fmt::format("{}[{}].name", key, i), fmt::format("stands there twice: \"{}\"", all[i].name));
 }
 
+// Takes footage, camera, light and appearance of the project that a background names.
+void read_project_of(RecipeNode& node, Project& project) {
+  const std::optional<std::string> name = node.text("project");
+  if (!name) return;
+  Result<ReadProject> loaded = read_project(from_recipe_folder(node, *name));
+  if (!loaded) return node.log().wrong(node.key_of("project"), loaded.error().text(), loaded.error().kind);
+  make_paths_absolute(loaded->project);
+  project.footage = loaded->project.footage;
+  project.camera = loaded->project.camera;
+  project.light = loaded->project.light;
+  project.appearance = loaded->project.appearance;
+}
+
 Background read_background(RecipeNode node, const Project& base, const std::vector<std::string>& settings) {
   Project project = base;
   Background background{.name = node.needed_text("name"), .tags = node.text_map("tags")};
+  read_project_of(node, project);
   read_section(node, "footage", "footage", project);
   read_section(node, "camera", "camera", project);
   read_section(node, "light", "light", project);
@@ -188,6 +202,7 @@ Background read_background(RecipeNode node, const Project& base, const std::vect
   background.footage = project.footage;
   background.camera = project.camera;
   background.light = project.light;
+  background.appearance = project.appearance;
   check_tags(background.tags, node);
   node.done();
   return background;

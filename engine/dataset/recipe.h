@@ -19,12 +19,13 @@ namespace sigs {
 // A recipe as values. Reading it checks every key and every name; whether a flight can be flown is checked when the
 // plan is made (plan.h).
 
-// Footage that videos may use, with its camera and its light. Paths are absolute.
+// Footage that videos may use, with its camera, its light and how it looks. Paths are absolute.
 struct Background {
   std::string name;
   FootageSettings footage;  // first and last frame limit the part that may be used
   CameraSettings camera;
   LightSettings light;
+  AppearanceSettings appearance;
   std::map<std::string, std::string> tags;
 };
 
@@ -50,6 +51,7 @@ struct FlightPlan {
 // "light_z_m", "light_red", "light_green", "light_blue" and "light_ambient", as far as the recipe gives them.
 struct LightPlan {
   std::map<std::string, Quantity> quantities;
+  std::map<std::string, Quantity> numbers;  // of the project, by key: "light.sun.azimuth_deg"
 };
 
 // The light with the sampled numbers in it; those that were not sampled stay.

@@ -82,22 +82,35 @@ OthersPlan read_other(RecipeNode node, const Recipe& recipe) {
 
 }  // namespace
 
-std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
-                                             const std::vector<std::string>& settings) {
+namespace {
+
+// Numbers of a section of the project in a node, by their keys there, but those that the node has in another form.
+std::map<std::string, Quantity> numbers_in(RecipeNode& node, const std::string& section,
+                                           const std::vector<std::string>& settings,
+                                           const std::vector<std::string>& left_out) {
   std::map<std::string, Quantity> numbers;
-  const Json* const json = group.value(section);
-  if (json == nullptr) return numbers;
-  const Json renamed = with_current_keys(*json, section, group);
-  RecipeNode node(renamed, group.key_of(section), group.log());
   Project project;
   for (const Field& field : fields_of(project)) {
     if (!field.key.starts_with(section + ".") || !is_one_number(field)) continue;
     const std::string name = field.key.substr(section.size() + 1);
+    if (std::find(left_out.begin(), left_out.end(), name) != left_out.end()) continue;
     const Json* const value = node.value(name);
     if (value == nullptr || is_given_beside(settings, field.key)) continue;
-    if (const auto quantity = limited_quantity(*value, node.key_of(name), field, group.log()))
+    if (const auto quantity = limited_quantity(*value, node.key_of(name), field, node.log()))
       numbers[field.key] = *quantity;
   }
+  return numbers;
+}
+
+}  // namespace
+
+std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
+                                             const std::vector<std::string>& settings) {
+  const Json* const json = group.value(section);
+  if (json == nullptr) return {};
+  const Json renamed = with_current_keys(*json, section, group);
+  RecipeNode node(renamed, group.key_of(section), group.log());
+  std::map<std::string, Quantity> numbers = numbers_in(node, section, settings, {});
   node.done();
   return numbers;
 }
@@ -167,13 +180,15 @@ LightPlan read_light(RecipeNode node, const std::vector<std::string>& settings) 
     if (is_given_beside(settings, std::string("light.") + field.key))
       for (const char* const name : field.names) light.quantities.erase(name);
   }
+  light.numbers = numbers_in(node, "light", settings, {"ambient"});
   node.done();
   return light;
 }
 
 // A group's "light": { ... } or a list of them, each with "position_m", "color" (three quantities each) and "ambient"
-// (one), all of them optional. What `settings` (KEY=VALUE given beside the recipe) set is left out, since it takes
-// precedence. Values outside the limits of a project are mistakes.
+// (one), all of them optional, and other numbers of the project below `light` by their keys. What `settings` (KEY=VALUE
+// given beside the recipe) set is left out, since it takes precedence. Values outside the limits of a project are
+// mistakes.
 std::vector<LightPlan> read_lights(RecipeNode& group, const std::vector<std::string>& settings) {
   const Json* const json = group.value("light");
   if (json == nullptr) return {};
@@ -187,7 +202,7 @@ std::vector<LightPlan> read_lights(RecipeNode& group, const std::vector<std::str
 
 constexpr int kMaxVideos = 100'000;
 constexpr int kMaxFrames = 1'000'000'000;
-constexpr int kResamples = 100;  // of sampled groups without one
+constexpr int kResamples = 100;           // of sampled groups without one
 constexpr int kResamplesOfImages = 1000;  // which keep their frame, in which there may be little room
 constexpr int kMaxResamples = 10'000;
 

@@ -87,12 +87,9 @@ tl::expected<FrameRange, std::string> frames_of(const VideoGroup& group, const S
                                     group.frames ? fmt::format("{} ", *group.frames) : "any ", std::llround(skipped)));
 }
 
-std::map<std::string, double> light_of(const VideoGroup& group, const Sampler& sampler) {
-  std::map<std::string, double> values;
-  if (group.lights.empty()) return values;
-  const LightPlan& light = group.lights[sampler.pick(group.lights.size(), "light")];
-  for (const auto& [name, quantity] : light.quantities) values[name] = sampler.number(quantity, name);
-  return values;
+// The light that is sampled for a video; null: its background's.
+const LightPlan* light_of(const VideoGroup& group, const Sampler& sampler) {
+  return group.lights.empty() ? nullptr : &group.lights[sampler.pick(group.lights.size(), "light")];
 }
 
 std::vector<std::string> categories_of(const Recipe& recipe) {
@@ -113,6 +110,7 @@ Project project_of(const Recipe& recipe, const VideoSpec& spec, const FrameRange
   project.footage.first_frame = frames.first;
   project.footage.last_frame = frames.last;
   project.camera = background.camera;
+  project.appearance = background.appearance;
   project.light = with_sampled_light(background.light, light);
   project.output.categories = categories_of(recipe);
   project.intruders.clear();
@@ -269,12 +267,12 @@ tl::expected<void, std::string> add_flyers(const Recipe& recipe, const VideoSpec
   return {};
 }
 
-// Samples numbers of the project.
-void sample_numbers(const VideoGroup& group, const Sampler& sampler, PlannedVideo& video) {
-  if (group.numbers.empty()) return;
+// Samples numbers of the project, by their keys.
+void sample_numbers(const std::map<std::string, Quantity>& numbers, const Sampler& sampler, PlannedVideo& video) {
+  if (numbers.empty()) return;
   for (const Field& field : fields_of(video.project)) {
-    const auto quantity = group.numbers.find(field.key);
-    if (quantity == group.numbers.end()) continue;
+    const auto quantity = numbers.find(field.key);
+    if (quantity == numbers.end()) continue;
     const double number = sampler.number(quantity->second, field.key);
     video.sampled[field.key] = number;
     if (auto* const* const real = std::get_if<double*>(&field.value)) **real = number;
@@ -309,10 +307,14 @@ tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, cons
   const Sampler first = first_sampler(recipe, spec, again);
   const tl::expected<FrameRange, std::string> frames = frames_of(group, first, background.frames);
   if (!frames) return tl::unexpected(frames.error());
-  const std::map<std::string, double> light = light_of(group, sampler);
+  const LightPlan* const light_plan = light_of(group, sampler);
+  std::map<std::string, double> light;
+  if (light_plan != nullptr)
+    for (const auto& [name, quantity] : light_plan->quantities) light[name] = sampler.number(quantity, name);
   PlannedVideo video{.name = spec.name, .split = group.split, .tags = tags_of(recipe, spec)};
   video.project = project_of(recipe, spec, *frames, light);
-  sample_numbers(group, sampler, video);
+  if (light_plan != nullptr) sample_numbers(light_plan->numbers, sampler, video);
+  sample_numbers(group.numbers, sampler, video);
   const FlightContext context{
       .camera = video.project.camera, .lens = background.lens, .footage = background.footage, .frames = *frames};
   const PlaceRules rules{.background = background, .placement = group.placement};
