@@ -245,6 +245,18 @@ bool read_distractor(RecipeNode& node) {
   return json != nullptr && json->is_boolean() && json->get<bool>();
 }
 
+// "contrail": {"strands": QUANTITY, ..., "above_m": 8000}
+void read_contrail(RecipeNode& node, Aircraft& aircraft) {
+  const Json* const json = node.value("contrail");
+  if (json == nullptr) return;
+  RecipeNode contrail(*json, node.key_of("contrail"), node.log());
+  aircraft.contrail = numbers_in(contrail, "intruders[0].contrail", {}, {});
+  const Quantity above_m = read_quantity(contrail, "above_m").value_or(Quantity{});
+  if (above_m.kind != Quantity::Kind::fixed) node.log().wrong(contrail.key_of("above_m"), "must be one number");
+  aircraft.contrail_above_m = above_m.value;
+  contrail.done();
+}
+
 Aircraft read_aircraft(RecipeNode node, const Project& base) {
   Project project = base;
   IntruderSettings& intruder = project.intruders.front();
@@ -257,6 +269,7 @@ Aircraft read_aircraft(RecipeNode node, const Project& base) {
   aircraft.scale = read_scale(node);
   aircraft.is_distractor = read_distractor(node);
   aircraft.speed_limits_mps = read_speed_limits(node);
+  read_contrail(node, aircraft);
   check_tags(aircraft.tags, node);
   node.done();
   return aircraft;

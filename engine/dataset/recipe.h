@@ -32,11 +32,13 @@ struct Background {
 struct Aircraft {
   std::string name;
   std::string category = "airplane";
-  ModelSettings model;                   // its path is absolute
-  std::vector<std::string> liveries;     // models of the same shape, absolute; one is sampled; empty: `model` alone
-  Quantity scale{.value = 1};            // factor of the model's size
-  bool is_distractor = false;            // what detectors should not report, such as a bird
-  std::optional<Span> speed_limits_mps;  // over ground; none: any speed is allowed
+  ModelSettings model;                       // its path is absolute
+  std::vector<std::string> liveries;         // models of the same shape, absolute; one is sampled; empty: `model` alone
+  Quantity scale{.value = 1};                // factor of the model's size
+  bool is_distractor = false;                // what detectors should not report, such as a bird
+  std::optional<Span> speed_limits_mps;      // over ground; none: any speed is allowed
+  std::map<std::string, Quantity> contrail;  // numbers of the project, by key: "intruders[0].contrail.strands"
+  double contrail_above_m = 0;               // only this far above the ground, z = 0
   std::map<std::string, std::string> tags;
 };
 

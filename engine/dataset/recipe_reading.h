@@ -84,6 +84,12 @@ void read_splits(RecipeNode& recipe_node, Recipe& recipe);
 [[nodiscard]] std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
                                                            const std::vector<std::string>& settings);
 
+// Numbers of a section of the project in a node, by their keys there ("intruders[0].contrail.strands" of the node's
+// "strands"), within their limits, without those that `settings` set and those named in left_out.
+[[nodiscard]] std::map<std::string, Quantity> numbers_in(RecipeNode& node, const std::string& section,
+                                                         const std::vector<std::string>& settings,
+                                                         const std::vector<std::string>& left_out);
+
 // A group's "others": a list of OthersPlan; without the key none.
 [[nodiscard]] std::vector<OthersPlan> read_others(RecipeNode& group, const Recipe& recipe);
 

@@ -82,14 +82,12 @@ OthersPlan read_other(RecipeNode node, const Recipe& recipe) {
 
 }  // namespace
 
-namespace {
-
-// Numbers of a section of the project in a node, by their keys there, but those that the node has in another form.
 std::map<std::string, Quantity> numbers_in(RecipeNode& node, const std::string& section,
                                            const std::vector<std::string>& settings,
                                            const std::vector<std::string>& left_out) {
   std::map<std::string, Quantity> numbers;
   Project project;
+  project.intruders.resize(1);
   for (const Field& field : fields_of(project)) {
     if (!field.key.starts_with(section + ".") || !is_one_number(field)) continue;
     const std::string name = field.key.substr(section.size() + 1);
@@ -101,8 +99,6 @@ std::map<std::string, Quantity> numbers_in(RecipeNode& node, const std::string& 
   }
   return numbers;
 }
-
-}  // namespace
 
 std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
                                              const std::vector<std::string>& settings) {

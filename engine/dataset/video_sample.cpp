@@ -187,6 +187,34 @@ void turn_nose(TrajectoryPlan& trajectory, const std::map<std::string, double>& 
   trajectory.waypoints.front().heading_deg = std::remainder(course_deg + nose_deg->second, 360);
 }
 
+// Samples numbers of the project, by their keys. They stand in `sampled` without `dropped` before them.
+void sample_numbers(const std::map<std::string, Quantity>& numbers, const Sampler& sampler, const std::string& prefix,
+                    std::size_t dropped, Project& project, std::map<std::string, double>& sampled) {
+  if (numbers.empty()) return;
+  for (const Field& field : fields_of(project)) {
+    const auto quantity = numbers.find(field.key);
+    if (quantity == numbers.end()) continue;
+    const std::string name = prefix + field.key.substr(dropped);
+    const double number = sampler.number(quantity->second, name);
+    sampled[name] = number;
+    if (auto* const* const real = std::get_if<double*>(&field.value)) **real = number;
+    if (auto* const* const whole = std::get_if<int*>(&field.value)) **whole = static_cast<int>(std::floor(number));
+    if (auto* const* const optional = std::get_if<std::optional<double>*>(&field.value)) **optional = number;
+  }
+}
+
+// "contrail.strands" and others, of an aircraft that flies high enough.
+void sample_contrail(const Flyer& flyer, const Sampler& sampler, IntruderSettings& intruder,
+                     std::map<std::string, double>& sampled) {
+  const auto& waypoints = intruder.trajectory.waypoints;
+  if (flyer.aircraft.contrail.empty() || -waypoints.front().position_m.z < flyer.aircraft.contrail_above_m) return;
+  Project alone;
+  alone.intruders = {intruder};
+  sample_numbers(flyer.aircraft.contrail, sampler, flyer.prefix, std::string_view("intruders[0].").size(), alone,
+                 sampled);
+  intruder.contrail = alone.intruders.front().contrail;
+}
+
 // Adds a body to the project, or says why it cannot fly so.
 tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& recipe, FlightContext context,
                                           const PlaceRules& rules, const Sampler& sampler, VideoVisibility& estimator,
@@ -223,6 +251,7 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& reci
   }
   intruder.trajectory.waypoints = std::move(planned->waypoints);
   turn_nose(intruder.trajectory, values);
+  sample_contrail(flyer, sampler, intruder, video.sampled);
   video.project.intruders.push_back(std::move(intruder));
   return frame ? check_place(video.project, *frame, rules, estimator) : tl::expected<void, std::string>{};
 }
@@ -267,20 +296,6 @@ tl::expected<void, std::string> add_flyers(const Recipe& recipe, const VideoSpec
   return {};
 }
 
-// Samples numbers of the project, by their keys.
-void sample_numbers(const std::map<std::string, Quantity>& numbers, const Sampler& sampler, PlannedVideo& video) {
-  if (numbers.empty()) return;
-  for (const Field& field : fields_of(video.project)) {
-    const auto quantity = numbers.find(field.key);
-    if (quantity == numbers.end()) continue;
-    const double number = sampler.number(quantity->second, field.key);
-    video.sampled[field.key] = number;
-    if (auto* const* const real = std::get_if<double*>(&field.value)) **real = number;
-    if (auto* const* const whole = std::get_if<int*>(&field.value)) **whole = static_cast<int>(std::floor(number));
-    if (auto* const* const optional = std::get_if<std::optional<double>*>(&field.value)) **optional = number;
-  }
-}
-
 }  // namespace
 
 VideoSpec sampled_spec(const Recipe& recipe, VideoSpec spec, int again) {
@@ -313,8 +328,8 @@ tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, cons
     for (const auto& [name, quantity] : light_plan->quantities) light[name] = sampler.number(quantity, name);
   PlannedVideo video{.name = spec.name, .split = group.split, .tags = tags_of(recipe, spec)};
   video.project = project_of(recipe, spec, *frames, light);
-  if (light_plan != nullptr) sample_numbers(light_plan->numbers, sampler, video);
-  sample_numbers(group.numbers, sampler, video);
+  if (light_plan != nullptr) sample_numbers(light_plan->numbers, sampler, "", 0, video.project, video.sampled);
+  sample_numbers(group.numbers, sampler, "", 0, video.project, video.sampled);
   const FlightContext context{
       .camera = video.project.camera, .lens = background.lens, .footage = background.footage, .frames = *frames};
   const PlaceRules rules{.background = background, .placement = group.placement};

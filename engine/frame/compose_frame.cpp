@@ -16,6 +16,7 @@
 #include "compositor/haze.h"
 #include "compositor/warp.h"
 #include "frame/composite.h"
+#include "frame/contrail.h"
 #include "frame/render_plan.h"
 #include "scene/scene.h"
 #include "scene/scene_at.h"
@@ -77,26 +78,50 @@ cv::Rect box_in_image(const IntruderLayers& layers, cv::Size image_size_px) {
   return layers.warped.rect & image;
 }
 
-// Linear light of the haze in front of an intruder. Where the footage around it is asked for, but the intruder is far
-// beyond the image or wholly over the own body, the colour of the settings.
-cv::Vec3d airlight_of(const Scene& scene, const IntruderLayers& layers, const Frame* background) {
+// Linear light of the haze in front of what is in a box of the image. Where the footage around it is asked for, but the
+// box is far beyond the image or wholly over the own body, the colour of the settings.
+cv::Vec3d airlight_of(const Scene& scene, const cv::Rect& box, const Frame* background) {
   const HazeSettings& haze = scene.appearance.haze;
   const glm::dvec3& color = haze.airlight_color;
   std::optional<cv::Vec3d> behind;
   if (haze.airlight == AirlightChoice::behind && background != nullptr)
-    behind = airlight_around(*background, box_in_image(layers, scene.footage.size_px), scene.own_body);
+    behind = airlight_around(*background, box, scene.own_body);
   return behind.value_or(cv::Vec3d(color.x, color.y, color.z));
 }
 
-// The warped layer in the footage's tones and behind its haze. The saturation and the black are the camera's, which the
+// The layer in the footage's tones and behind its haze. The saturation and the black are the camera's, which the
 // airlight has already as the footage shows it: so they come before haze.
-Layer hazed_layer(const Scene& scene, const IntruderLayers& layers, const Frame* background) {
+Layer hazed_layer(const Scene& scene, const Layer& layer, double distance_m, const cv::Rect& box,
+                  const Frame* background) {
   const AppearanceSettings& look = scene.appearance;
-  if (scene.compositing.method != MethodChoice::direct) return layers.warped;
-  const Layer in_tone = toned(layers.warped, look.saturation, look.black);
+  if (scene.compositing.method != MethodChoice::direct) return layer;
+  const Layer in_tone = toned(layer, look.saturation, look.black);
   if (!look.haze.visibility_m) return in_tone;
-  return hazed(in_tone, haze_transmission(layers.placed.distance_m(), *look.haze.visibility_m),
-               airlight_of(scene, layers, background));
+  return hazed(in_tone, haze_transmission(distance_m, *look.haze.visibility_m), airlight_of(scene, box, background));
+}
+
+// A layer without what own body and, at this distance, the occluder hide.
+Layer without_hidden(const Scene& scene, const SceneMoment& moment, const Layer& layer, double distance_m,
+                     LensTable& lens) {
+  const Layer free = occluded_by_body(layer, scene.own_body);
+  if (!scene.occluder.hides(distance_m) || free.empty()) return free;
+  return occluded_by(free, occluder_seen_from(moment.world_from_camera, scene.occluder, lens, free.rect));
+}
+
+// Fills `contrail`: through haze, blurred by the lens.
+void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* background, LensTable& lens,
+                  IntruderLayers& layers) {
+  const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(layers.placed.id)];
+  if (intruder.contrail.strands == 0 || scene.compositing.method != MethodChoice::direct) return;
+  const cv::Rect image({0, 0}, scene.footage.size_px);
+  const double distance_m = layers.placed.distance_m();
+  const std::vector<TrailStrand> strands = contrail_strands(scene, moment, layers.placed, lens.camera().lens);
+  const Layer trail = trail_layer(strands, contrail_color(scene, moment, intruder.contrail),
+                                  grown(image, blur_margin_px(std::min(layers.sigma_px, 100.0))));
+  if (trail.empty()) return;
+  const Layer hazed = hazed_layer(scene, trail, distance_m, trail.rect & image, background);
+  layers.contrail = without_hidden(scene, moment, blurred_within(hazed, layers.sigma_px, image), distance_m, lens);
+  layers.contrail_is_nearer = is_before_aircraft(scene, moment, layers.placed);
 }
 
 // Fills `motion_blurred` and `blurred`; the latter stays empty where the layer is too faint to be seen.
@@ -163,6 +188,7 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
                              .motion_blur_px = far_to_near[i].motion_px,
                              .visibility_m = has_haze ? scene.appearance.haze.visibility_m : std::nullopt};
     if (scene.earth) truth.place = scene.earth->place_of(moment.world_from_camera * truth.position_m);
+    truth.has_contrail = !far_to_near[i].contrail.empty();
     truth.is_distractor = scene.intruders[static_cast<std::size_t>(truth.id)].is_distractor;
     truths.push_back(std::move(truth));
   }
@@ -212,17 +238,16 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     if (!views) return fail(views.error());
     layers.views = std::move(*views);
     layers.warped = warped(layers.views, lens, plan.warp_rect, row_transform(layers));
-    layers.hazed = hazed_layer(scene, layers, background);
+    layers.hazed =
+        hazed_layer(scene, layers.warped, placed.distance_m(), box_in_image(layers, scene.footage.size_px), background);
     blur(scene, footage, background == nullptr ? 8 : background->bit_depth, layers);
-    layers.occluded = occluded_by_body(layers.blurred, scene.own_body);
-    if (scene.occluder.hides(placed.distance_m()) && !layers.occluded.empty())
-      layers.occluded = occluded_by(
-          layers.occluded, occluder_seen_from(moment.world_from_camera, scene.occluder, lens, layers.occluded.rect));
+    layers.occluded = without_hidden(scene, moment, layers.blurred, placed.distance_m(), lens);
     const Result<double> area = whole_area_px(layers, plan, lens, scene, **renderer);
     if (!area) return fail(area.error());
     layers.whole_area_px = *area;
     layers.op_counts.pixels_warped += layers.warped.rect.area();
   }
+  add_contrail(scene, moment, background, lens, layers);
   layers.op_counts.lens_evaluations += lens.evaluations() - evaluations_before;
   return layers;
 }

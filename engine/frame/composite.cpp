@@ -105,24 +105,38 @@ std::string stage_name(const std::string& name, const IntruderLayers& layers, co
   return scene.intruders.size() == 1 ? name : fmt::format("{}_{}", layers.placed.id, name);
 }
 
-void composite_direct(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers) {
-  composed.op_counts.pixels_blended += blend_over(composed.image, layers.occluded, scene.compositing.blend);
-  add_to_mask(composed.mask, scene.footage.size_px, layers.occluded.rect, layers.occluded.color);
+void composite_direct(ComposedFrame& composed, const Scene& scene, const Layer& layer) {
+  composed.op_counts.pixels_blended += blend_over(composed.image, layer, scene.compositing.blend);
+  add_to_mask(composed.mask, scene.footage.size_px, layer.rect, layer.color);
 }
 
 // With the stages that follow blending, in code values. The mask has what they rewrite beyond the layer.
-void composite_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers,
-                                      int frame, bool keep) {
-  StageDone done;
-  if (keep)
-    done = [&](const std::string& name) {
-      composed.stages.push_back({stage_name(name, layers, scene), bgr_of(composed.image)});
-    };
-  const Rewritten rewritten = blend_with_post_blend_stages(composed, scene, layers, frame, done);
-  add_to_mask(composed.mask, scene.footage.size_px, layers.occluded.rect, layers.occluded.color);
+void composite_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const Layer& layer, int intruder,
+                                      int frame, const StageDone& done) {
+  const Rewritten rewritten = blend_with_post_blend_stages(composed, scene, layer, intruder, frame, done);
+  add_to_mask(composed.mask, scene.footage.size_px, layer.rect, layer.color);
   cv::Mat mask = composed.mask(rewritten.rect);
   cv::max(mask, rewritten.changed & 1, mask);
   composed.op_counts.pixels_blended += cv::countNonZero(rewritten.changed);
+}
+
+// An intruder's contrail and the intruder itself, the farther one first.
+void composite_intruder(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int frame,
+                        bool keep) {
+  const auto blend = [&](const Layer& layer, const StageDone& done) {
+    if (layer.empty()) return;
+    if (has_post_blend_stages(scene.appearance))
+      composite_with_post_blend_stages(composed, scene, layer, layers.placed.id, frame, done);
+    else
+      composite_direct(composed, scene, layer);
+  };
+  const auto keep_stage = [&](const std::string& name) {
+    composed.stages.push_back({stage_name(name, layers, scene), bgr_of(composed.image)});
+  };
+  if (!layers.contrail_is_nearer) blend(layers.contrail, {});
+  blend(layers.occluded, keep ? StageDone(keep_stage) : StageDone());
+  if (layers.contrail_is_nearer) blend(layers.contrail, {});
+  if (keep && !layers.contrail.empty()) keep_stage("contrail");
 }
 
 void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const IntruderLayers& layers,
@@ -261,14 +275,10 @@ ComposedFrame composited(Frame background, const Scene& scene, int frame,
       codec_match_for(composed.image, scene, frame, compositing_camera(scene).lens, far_to_near);
   if (keep && direct) composed.stages.push_back({"input1", bgr_of(composed.image)});
   for (const IntruderLayers& layers : far_to_near) {
-    if (layers.views.empty()) continue;
+    if (layers.views.empty() && layers.contrail.empty()) continue;
     if (direct) {
-      if (keep) keep_direct_stages(composed.stages, scene, layers, composed.image.color);
-      if (layers.occluded.empty()) continue;
-      if (has_post_blend_stages(scene.appearance))
-        composite_with_post_blend_stages(composed, scene, layers, frame, keep);
-      else
-        composite_direct(composed, scene, layers);
+      if (keep && !layers.views.empty()) keep_direct_stages(composed.stages, scene, layers, composed.image.color);
+      composite_intruder(composed, scene, layers, frame, keep);
     } else {
       ClassicStages classic = composite_classic(composed, scene, layers, context);
       if (keep)
@@ -346,15 +356,15 @@ bool has_post_blend_stages(const AppearanceSettings& appearance) {
   return appearance.sharpening > 0 || appearance.chroma_blur_px > 0 || !appearance.grain.is_none();
 }
 
-Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers,
+Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const Layer& layer, int intruder,
                                        int number, const StageDone& done) {
   const AppearanceSettings& look = scene.appearance;
-  FloatPatch patch = blended_patch(composed.image, layers.occluded, scene.compositing.blend,
+  FloatPatch patch = blended_patch(composed.image, layer, scene.compositing.blend,
                                    post_blend_stages_margin_px(look, composed.image.layout), scene.own_body);
   PostBlendStages stages(patch, composed, done);
   stages.sharpened(look.sharpening, look.sharpening_px);
   stages.with_chroma_blur(look.chroma_blur_px);
-  stages.with_grain(look.grain, number, layers.placed.id);
+  stages.with_grain(look.grain, number, intruder);
   return {patch.planes[0].rect, write_patch(patch, composed.image)};
 }
 
@@ -366,10 +376,15 @@ std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& 
   const cv::Rect image({0, 0}, background.size_px());
   std::vector<cv::Rect> reaches;
   std::vector<std::vector<cv::Point2d>> earlier_px;
+  const int margin_px = post_blend_stages_margin_px(scene.appearance, background.layout);
   for (const IntruderLayers& intruder : layers) {
+    if (!intruder.contrail.empty()) {  // which stays where it is
+      reaches.push_back(grown(intruder.contrail.rect, margin_px) & image);
+      if (settings.predicted_frames > 0)
+        earlier_px.emplace_back(std::min(settings.predicted_frames, frame), cv::Point2d(0, 0));
+    }
     if (intruder.occluded.empty()) continue;
-    reaches.push_back(grown(intruder.occluded.rect, post_blend_stages_margin_px(scene.appearance, background.layout)) &
-                      image);
+    reaches.push_back(grown(intruder.occluded.rect, margin_px) & image);
     if (settings.predicted_frames > 0)
       earlier_px.push_back(earlier_places(scene, frame, intruder.placed, lens, settings.predicted_frames));
   }

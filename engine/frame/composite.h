@@ -42,18 +42,19 @@ namespace sigs {
 // Called with the name of each stage that is not left out, when the frame holds its result.
 using StageDone = std::function<void(const std::string& name)>;
 
-// Blends an intruder's occluded layer onto the frame, and then, on what that changes in code values and before it is
+// Blends a layer of an intruder onto the frame, and then, on what that changes in code values and before it is
 // rounded: sharpening, chroma blur, grain. Only samples within the layer and the reach of these stages are
 // rewritten; those that the own body hides wholly keep their bits. Gives back which pixels are rewritten (write_patch):
 // CV_8UC1, 255 or 0, over `rect`.
-//   number  of the frame in the footage, for the grain
+//   layer   within the image
+//   intruder, number  the intruder's number, and that of the frame in the footage, for the grain
 //   done    may be empty; otherwise every stage is written into the frame on its way
 struct Rewritten {
   cv::Rect rect;
   cv::Mat changed;
 };
-[[nodiscard]] Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene,
-                                                     const IntruderLayers& layers, int number, const StageDone& done);
+[[nodiscard]] Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const Layer& layer,
+                                                     int intruder, int number, const StageDone& done);
 
 // The codec match of a frame as the scene's settings (appearance.codec) ask for it, to be made before the layers are
 // blended and applied after; nothing where there is none to be done: it is not asked for, the method is not direct, the

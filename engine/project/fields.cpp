@@ -80,6 +80,15 @@ void add_footage(FieldList list, FootageSettings& footage) {
               "how many of the exported frames may be damaged, an intact one is used instead; more are an error");
 }
 
+void add_contrail(FieldList list, ContrailSettings& contrail) {
+  list.number("strands", &contrail.strands, "", 0, 4, "trails of ice behind a jet, one for each engine; 0: none");
+  list.number("length_m", &contrail.length_m, "m", 1, 1e6, "how far behind the aircraft nothing of it is left");
+  list.number("width_m", &contrail.width_m, "m", 0.01, 1000, "of a strand where it begins");
+  list.number("spread_mps", &contrail.spread_mps, "m/s", 0, 100, "how fast a strand widens: a quarter of its width");
+  list.number("opacity", &contrail.opacity, "", 0, 1, "of a strand where it begins, seen from the side");
+  list.number("brightness", &contrail.brightness, "", 0, 10, "1: as bright as a white surface squarely in the sun");
+}
+
 void add_own_body(FieldList list, OwnBodySettings& own_body) {
   list.add("method", choice_of(own_body.method, {"stable", "paper"}), "",
            "stable: what stays put while the world moves; paper: section 4 of the paper");
@@ -276,6 +285,7 @@ std::vector<Field> fields_of(Project& project) {
         .add("role", choice_of(intruder.role, {"intruder", "distractor"}), "",
              "distractor: what detectors should not report, such as a bird; evaluation counts it as no intruder");
     add_model(FieldList(fields, prefix + "model."), intruder.model);
+    add_contrail(FieldList(fields, prefix + "contrail."), intruder.contrail);
     add_trajectory(FieldList(fields, prefix + "trajectory."), intruder.trajectory);
     for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j) {
       WaypointSettings& waypoint = intruder.trajectory.waypoints[j];

@@ -202,6 +202,18 @@ struct TrajectoryPlan {
   [[nodiscard]] bool operator==(const TrajectoryPlan&) const = default;
 };
 
+// The trail of ice behind a jet (docs/contrails.md).
+struct ContrailSettings {
+  int strands = 0;          // 0: none; 1 to 4, one for each engine
+  double length_m = 4000;   // behind which nothing of it is left
+  double width_m = 4;       // of a strand where it begins: four sigmas of its profile
+  double spread_mps = 1;    // by which sigma grows with age
+  double opacity = 0.6;     // of a strand's middle where it begins, seen from the side, 0..1
+  double brightness = 0.5;  // of a white surface squarely in the sun
+
+  [[nodiscard]] bool operator==(const ContrailSettings&) const = default;
+};
+
 // What a detector should make of it: an intruder, or something else in the air that it should not report, such as a
 // bird, which labels state with its own category.
 enum class RoleChoice { intruder, distractor };
@@ -212,6 +224,7 @@ struct IntruderSettings {
   std::string category = "airplane";
   RoleChoice role = RoleChoice::intruder;
   ModelSettings model;
+  ContrailSettings contrail;
   TrajectoryPlan trajectory;
   std::string unknown_json;
 

@@ -179,6 +179,7 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
     if (!has_waypoint) continue;
     add_intruder(scene, clean.intruders[i].name, model, drafted_trajectory(project, clean, i, draft));
     scene.intruders.back().is_distractor = clean.intruders[i].role == RoleChoice::distractor;
+    scene.intruders.back().contrail = clean.intruders[i].contrail;
   }
   scene.issues = plausibility_issues(clean, scene, draft.intruder_of_project);
   // A field with a problem is not reported as implausible too.

@@ -54,6 +54,7 @@ struct SceneIntruder {
   const Model* model = nullptr;  // one of Scene::models
   Trajectory trajectory;
   bool is_distractor = false;  // RoleChoice::distractor
+  ContrailSettings contrail = {};
 };
 
 // Attitude of the aircraft that carries the camera, at one moment. The identity: wings level, nose along world X.

@@ -93,6 +93,7 @@ struct IntruderTruth {
   std::optional<Detectability> detectability = {};  // none where no pixel shows it
   ImageFormation image_formation = {};
   std::optional<EncounterTruth> encounter = {};  // none where it was not asked for
+  bool has_contrail = false;                     // some of its contrail is in the image; no box or mask has it
   bool is_distractor = false;                    // what detectors should not report, such as a bird
 };
 
@@ -123,7 +124,7 @@ struct FrameTruth {
   glm::dvec3 camera_position_m{0, 0, 0};     // in the world
   glm::dquat world_from_camera{1, 0, 0, 0};  // its attitude
   CameraTruth camera = {};
-  std::vector<IntruderTruth> intruders;  // by id
+  std::vector<IntruderTruth> intruders;      // by id
   std::vector<cv::Rect> real_aircraft = {};  // boxes, within the image, of aircraft that the footage itself shows
 };
 
