@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 56> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 62> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
@@ -46,6 +46,12 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 56> kNames{{
     {"geo.height_m", "Height of z = 0"},
     {"geo.heading_deg", "Heading of X"},
     {"compositing.blur_px_per_m", "Blur with distance"},
+    {"contrail.strands", "Contrail strands"},
+    {"contrail.length_m", "Contrail length"},
+    {"contrail.width_m", "Contrail width"},
+    {"contrail.spread_mps", "Contrail spread"},
+    {"contrail.opacity", "Contrail opacity"},
+    {"contrail.brightness", "Contrail brightness"},
     {"export.video.crf", "Quality (crf)"},
     {"export.video.codec", "Codec"},
     {"export.video.container", "Container"},
@@ -113,7 +119,7 @@ std::string advice_on_guess(std::string_view key) {
 }
 
 bool is_common(std::string_view key) {
-  constexpr std::array<std::string_view, 34> kCommon{
+  constexpr std::array<std::string_view, 35> kCommon{
       "name",
       "footage.video",
       "footage.first_frame",
@@ -141,6 +147,7 @@ bool is_common(std::string_view key) {
       "model.forward",
       "model.up",
       "model.length_m",
+      "contrail.strands",
       "trajectory.timing",
       "trajectory.attitude",
       "compositing.method",

@@ -229,6 +229,11 @@ void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {
   for (const Field& field : rows.sheet().fields())
     if (field.key.starts_with(key + ".model.") && field.key != key + ".model.file")
       rows.row(field.key, look_of(field, settings));
+  rows.rows(key + ".contrail.", [&](const Field& field) {
+    RowOptions look;
+    if (settings.contrail.strands == 0 && !field.key.ends_with("strands")) look.off_because = "It has no contrail.";
+    return look;
+  });
 }
 
 namespace {
