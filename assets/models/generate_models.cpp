@@ -10,7 +10,10 @@ int main(int count, char** arguments) {
     return 64;
   }
   using namespace sigs::models;
-  for (const auto model : {airliner, light_aircraft, helicopter, quadcopter, bird, balloon, insect})
+  for (const auto model :
+       {airliner, light_aircraft, helicopter, helicopter_trainer, helicopter_utility, helicopter_fenestron,
+        helicopter_medium, helicopter_military, helicopter_heavy, quadcopter, multirotor_racer, multirotor_hexa,
+        multirotor_octo, multirotor_sprayer, bird, balloon, insect})
     if (!write_model(model(), arguments[1])) return 74;
   return 0;
 }

@@ -3,7 +3,6 @@
 // 10.8 m long, main rotor 10.7 m across. Proportions after public three-view drawings of that class; shape, numbers and
 // paint are our own. "s" is metres behind the nose.
 #include <cmath>
-#include <numbers>
 
 #include "finishes.h"
 #include "loft.h"
@@ -15,7 +14,6 @@ namespace sigs::models {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kNose_m = 3.4;  // ahead of the origin, which lies below the mast
 const glm::dmat3 kStraight(1.0);
 // Bodies of revolution around x, set upright (+x becomes +z), and set across (+x becomes the right, -y).
@@ -76,28 +74,6 @@ Colour underside_colour(const PlanPoint& at) {
 
 Patch ball(double s, double y, double z, const glm::dvec3& half_axes_m, const std::string& material) {
   return moved(teardrop(half_axes_m, 1.0, 10, material), kStraight, at(s, y, z));
-}
-
-// Round tube through points, in the plane of y constant or along y.
-Patch tube(const std::vector<glm::dvec3>& points_m, double diameter_m, const std::string& material) {
-  Patch all;
-  for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {
-    const glm::dvec3 along = glm::normalize(points_m[i + 1] - points_m[i]);
-    const glm::dvec3 side =
-        glm::normalize(glm::cross(along, std::abs(along.y) > 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0)));
-    const glm::dvec3 across = glm::cross(along, side);
-    std::vector<Ring> rings(2);
-    for (int k = 0; k <= 8; ++k) {
-      const double angle = 2 * kPi * (k % 8) / 8;
-      const glm::dvec3 rim = 0.5 * diameter_m * (std::cos(angle) * side + std::sin(angle) * across);
-      rings[0].push_back(points_m[i] - 0.3 * diameter_m * along + rim);
-      rings[1].push_back(points_m[i + 1] + 0.3 * diameter_m * along + rim);
-    }
-    all = joined(all,
-                 turned_outwards(skin(
-                     closed(std::move(rings)), [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, material)));
-  }
-  return all;
 }
 
 // Engine and gearbox behind and below the mast, with the air inlets each side and the exhaust at the end.

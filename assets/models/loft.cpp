@@ -123,4 +123,25 @@ Patch teardrop(const glm::dvec3& half_axes_m, double tail_stretch, int sides, co
   return moved(revolved(profile, sides, material), scale, {0, 0, 0});
 }
 
+Patch tube(const std::vector<glm::dvec3>& points_m, double diameter_m, const std::string& material) {
+  Patch all;
+  for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {
+    const glm::dvec3 along = glm::normalize(points_m[i + 1] - points_m[i]);
+    const glm::dvec3 side =
+        glm::normalize(glm::cross(along, std::abs(along.y) > 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 across = glm::cross(along, side);
+    std::vector<Ring> rings(2);
+    for (int k = 0; k <= 8; ++k) {
+      const double angle = 2 * std::numbers::pi * (k % 8) / 8;
+      const glm::dvec3 rim = 0.5 * diameter_m * (std::cos(angle) * side + std::sin(angle) * across);
+      rings[0].push_back(points_m[i] - 0.3 * diameter_m * along + rim);
+      rings[1].push_back(points_m[i + 1] + 0.3 * diameter_m * along + rim);
+    }
+    all = joined(all,
+                 turned_outwards(skin(
+                     closed(std::move(rings)), [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, material)));
+  }
+  return all;
+}
+
 }  // namespace sigs::models

@@ -46,6 +46,9 @@ struct WingStation {
 [[nodiscard]] Patch strut(const glm::dvec3& from_m, const glm::dvec3& to_m, double chord_m, double thickness_m,
                           const std::string& material);
 
+// A round tube through points, each piece with closed ends that reach into the next.
+[[nodiscard]] Patch tube(const std::vector<glm::dvec3>& points_m, double diameter_m, const std::string& material);
+
 // An ovoid: half axes in metres, blunt in front, elongated behind (tail_stretch times as long behind as in front).
 [[nodiscard]] Patch teardrop(const glm::dvec3& half_axes_m, double tail_stretch, int sides,
                              const std::string& material);

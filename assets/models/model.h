@@ -42,7 +42,17 @@ struct Model {
 [[nodiscard]] Model airliner();
 [[nodiscard]] Model light_aircraft();
 [[nodiscard]] Model helicopter();
+[[nodiscard]] Model helicopter_trainer();
+[[nodiscard]] Model helicopter_utility();
+[[nodiscard]] Model helicopter_fenestron();
+[[nodiscard]] Model helicopter_medium();
+[[nodiscard]] Model helicopter_military();
+[[nodiscard]] Model helicopter_heavy();
 [[nodiscard]] Model quadcopter();
+[[nodiscard]] Model multirotor_racer();
+[[nodiscard]] Model multirotor_hexa();
+[[nodiscard]] Model multirotor_octo();
+[[nodiscard]] Model multirotor_sprayer();
 
 // Distractors. The insect is flat: a spot as an insect on the lens looks, out of focus, seen from behind (along +x).
 [[nodiscard]] Model bird();

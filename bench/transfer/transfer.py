@@ -19,13 +19,27 @@ TEST_IMAGES_A_CLIP = 8
 SEEDS = (1, 2, 3)
 DRAWS = 1000  # of the bootstrap by clip
 
-# Name of the arm: what its images are made with, beside the defaults. None: the footage's own aircraft.
+AIRPLANES = ("airliner", "airliner-grey", "airliner-dark", "light-aircraft", "light-aircraft-grey", "light-aircraft-dark")
+HELICOPTERS = ("helicopter",) + tuple(
+    f"helicopter-{kind}" for kind in ("trainer", "utility", "fenestron", "medium", "military", "heavy")
+)
+CONTRAIL = {
+    "strands": {"choice": [0, 0, 0, 2, 2, 4]},
+    "length_m": {"log_uniform": [500, 8000]},
+    "width_m": {"uniform": [2, 6]},
+    "opacity": {"uniform": [0.2, 0.8]},
+    "brightness": {"uniform": [0.3, 0.9]},
+}
+
+# Name of the arm: in what its images differ from the whole of what SIGS does. None: the footage's own aircraft.
 ARMS = {
     "real": None,
     "ours": {},
+    "ours as before": {"exposure_s": 1e-6, "path": True, "one": True, "no trail": True},
     "ours, rotors frozen": {"exposure_s": 1e-6},
     "ours, level and nose first": {"path": True},
-    "ours, frozen and level": {"exposure_s": 1e-6, "path": True},
+    "ours, one helicopter": {"one": True},
+    "ours, without contrails": {"no trail": True},
     "ours, without codec, noise and blur": {"set": ["appearance.codec.match=none", "appearance.psf_sigma_px=0"]},
     "pasted plainly, a lamp": {"set": ["compositing.method=plain", "light.kind=point"]},
 }
@@ -95,13 +109,14 @@ def recipe_of(name, folder, clips_folder, clips, images, arm):
     }
     if arm and "exposure_s" in arm:
         group["camera"]["exposure_s"] = arm["exposure_s"]
-    is_path = bool(arm) and arm.get("path", False)
+    arm = arm or {}
     aircraft = []
-    for file in ("airliner", "airliner-grey", "airliner-dark", "light-aircraft", "helicopter", "helicopter"):
-        category = "airplane" if is_path or file != "helicopter" else "helicopter"
-        aircraft.append(
-            {"name": f"{file}-{len(aircraft)}", "category": category, "model": {"file": str(models / file / f"{file}.obj")}}
-        )
+    for file in AIRPLANES + (("helicopter",) * len(HELICOPTERS) if "one" in arm else HELICOPTERS):
+        one = {"name": f"{file}-{len(aircraft)}", "model": {"file": str(models / file / f"{file}.obj")}}
+        one["category"] = "helicopter" if file in HELICOPTERS and "path" not in arm else "airplane"
+        if file.startswith("airliner") and "no trail" not in arm:
+            one["contrail"] = CONTRAIL
+        aircraft.append(one)
     backgrounds = [
         {
             "name": clip,

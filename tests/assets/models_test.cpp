@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "assets/obj_text.h"
+#include "support/files.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -31,8 +32,27 @@ Sample sample(const std::string& name) {
 const std::vector<std::string> kLiveries = {"airliner-grey", "airliner-dark", "light-aircraft-grey",
                                             "light-aircraft-dark"};
 
+// Helicopters and multirotors that generators make from a table: what is published of the class.
+struct Rotorcraft {
+  const char* name;
+  double overall_m;  // with rotors turning; of a multirotor from motor to motor across its middle
+  double rotor_m;    // diameter of the main rotor, or of each
+  int blades;
+};
+const std::vector<Rotorcraft> kHelicopters = {
+    {"helicopter-trainer", 8.76, 7.67, 2},    {"helicopter-utility", 17.40, 14.63, 2},
+    {"helicopter-fenestron", 12.16, 10.2, 4}, {"helicopter-medium", 16.66, 13.8, 5},
+    {"helicopter-military", 19.76, 16.36, 4}, {"helicopter-heavy", 25.35, 21.29, 5}};
+const std::vector<Rotorcraft> kMultirotors = {{"multirotor-racer", 0.22, 0.127, 3},
+                                              {"multirotor-hexa", 1.133, 0.533, 2},
+                                              {"multirotor-octo", 1.045, 0.381, 2},
+                                              {"multirotor-sprayer", 2.1, 0.965, 2}};
+
 std::vector<Sample> samples() {
-  return {sample("airliner"), sample("light-aircraft"), sample("helicopter"), sample("quadcopter")};
+  std::vector<Sample> all{sample("airliner"), sample("light-aircraft"), sample("helicopter"), sample("quadcopter")};
+  for (const Rotorcraft& craft : kHelicopters) all.push_back(sample(craft.name));
+  for (const Rotorcraft& craft : kMultirotors) all.push_back(sample(craft.name));
+  return all;
 }
 
 // What is no aircraft.
@@ -147,9 +167,35 @@ TEST_CASE("the quadcopter measures 0.35 m from motor to motor across its middle"
   CHECK(glm::distance(front_left, rear_right) == doctest::Approx(0.35).epsilon(0.04));
 }
 
+TEST_CASE("further helicopters and multirotors have the sizes, rotors and blades of their classes") {
+  for (const Rotorcraft& craft : kHelicopters) {
+    CAPTURE(craft.name);
+    const Sample s = sample(craft.name);
+    const auto [low, high] = bounds(s.obj, is_anything);
+    CHECK(high.x - low.x == doctest::Approx(craft.overall_m).epsilon(0.02));
+    const auto [disc_low, disc_high] = bounds_of(s.obj, "main_rotor");
+    CHECK(disc_high.y - disc_low.y == doctest::Approx(craft.rotor_m).epsilon(0.01));
+    CHECK(s.mtl.materials.at("main_rotor").opacity < 0.2);
+    const std::string statements = text_of(s.obj_path.parent_path() / s.obj.mtllib);
+    CHECK(statements.find("rotor_blades " + std::to_string(craft.blades) + "\n") != std::string::npos);
+  }
+  for (const Rotorcraft& craft : kMultirotors) {
+    CAPTURE(craft.name);
+    const Sample s = sample(craft.name);
+    double reach_m = 0;
+    for (const ObjText::Face& face : s.obj.faces)
+      for (const int corner : face.position)
+        if (face.material == "motor")
+          reach_m = std::max(reach_m, std::hypot(s.obj.positions[corner - 1].x, s.obj.positions[corner - 1].y));
+    CHECK(2 * reach_m == doctest::Approx(craft.overall_m).epsilon(0.1));  // motors are some centimetres wide
+    const auto [disc_low, disc_high] = bounds_of(s.obj, "rotor_1");
+    CHECK(disc_high.x - disc_low.x == doctest::Approx(craft.rotor_m).epsilon(0.02));
+  }
+}
+
 TEST_CASE("the models are symmetric and the origin lies between nose and tail") {
   for (const Sample& s : samples()) {
-    const bool is_quadcopter = s.obj.mtllib == "quadcopter.mtl";
+    const bool is_quadcopter = s.obj.mtllib == "quadcopter.mtl" || s.obj.mtllib.starts_with("multirotor");
     const auto [body_low, body_high] = bounds_of(s.obj, is_quadcopter ? "shell" : "fuselage");
     CHECK(body_low.y == doctest::Approx(-body_high.y).epsilon(1e-4));  // the file has four decimals
     const auto [low, high] = bounds(s.obj, is_anything);
@@ -236,7 +282,8 @@ TEST_CASE("the models are watertight and wound outwards") {
 }
 
 TEST_CASE("letters on fuselage and fin are not mirrored on either side") {
-  for (const Sample& s : {sample("airliner"), sample("light-aircraft"), sample("helicopter")}) {
+  for (const Sample& s :
+       {sample("airliner"), sample("light-aircraft"), sample("helicopter"), sample("helicopter-medium")}) {
     const bool has_painted_fin = !s.mtl.materials.at("fin").texture.empty();
     int left = 0, right = 0;
     for (const ObjText::Face& face : s.obj.faces) {
