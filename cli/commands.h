@@ -28,6 +28,7 @@ using Command = std::function<Result<void>()>;
 [[nodiscard]] Command add_info_command(CLI::App& program);             // sigs info
 [[nodiscard]] Command add_init_command(CLI::App& program);             // sigs init
 [[nodiscard]] Command add_mask_command(CLI::App& program);             // sigs mask
+[[nodiscard]] Command add_model_command(CLI::App& program);            // sigs model, with its two subcommands
 [[nodiscard]] Command add_occluder_command(CLI::App& program);         // sigs occluder
 [[nodiscard]] Command add_path_command(CLI::App& program);             // sigs path
 [[nodiscard]] Command add_telemetry_command(CLI::App& program);        // sigs telemetry

@@ -50,7 +50,7 @@ set(CPACK_COMPONENT_DEV_DESCRIPTION "Engine of SIGS for programs of your own
 Headers, static libraries and the CMake package of the library with which
 SIGS puts simulated aircraft into footage: find_package(sigs).")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-  "libopencv-dev, libopencv-contrib-dev, libavformat-dev, libavcodec-dev, libavutil-dev, libswscale-dev, libpng-dev, libglm-dev, libtinyobjloader-dev, libepoxy-dev, libegl-dev, nlohmann-json3-dev, libpugixml-dev, libyaml-cpp-dev, libexpected-dev, libfmt-dev, libgeographiclib-dev, pkg-config")
+  "libopencv-dev, libopencv-contrib-dev, libavformat-dev, libavcodec-dev, libavutil-dev, libswscale-dev, libpng-dev, libglm-dev, libtinyobjloader-dev, libassimp-dev, libepoxy-dev, libegl-dev, nlohmann-json3-dev, libpugixml-dev, libyaml-cpp-dev, libexpected-dev, libfmt-dev, libgeographiclib-dev, pkg-config")
 
 # What Debian asks of every package: the licence and the changes beside it. SOURCE_DATE_EPOCH, where it is set, is the
 # date of the changes.

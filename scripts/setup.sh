@@ -12,7 +12,7 @@ set -euo pipefail
 sigs_packages_programs=(
   g++ cmake ninja-build pkg-config
   libopencv-dev libopencv-contrib-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
-  libpng-dev libglm-dev libtinyobjloader-dev libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
+  libpng-dev libglm-dev libtinyobjloader-dev libassimp-dev libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev libfmt-dev libgeographiclib-dev
   pybind11-dev python3-dev python3-numpy
   libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core

@@ -39,6 +39,29 @@ double oddness(double length_m) {
   return std::abs(std::log(length_m / kUsual_m));
 }
 
+FirstProjectNote axes_note(const ModelShape& shape, const ModelSettings& settings) {
+  FirstProjectNote note{.field = "intruders[0].model.forward", .is_guess = true};
+  const bool is_sure = shape.nose_is_sure && shape.top_is_sure;
+  note.text = fmt::format("nose {}, up {}, {}; if the aircraft flies tail first or upside down, turn the signs",
+                          settings.forward, settings.up,
+                          is_sure ? "judged by the model's shape" : "a guess, which the shape does not confirm");
+  return note;
+}
+
+}  // namespace
+
+std::string category_of_model(const fs::path& file) {
+  const std::string name = lower_case(file.filename().string());
+  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
+  if (has("heli")) return "helicopter";
+  if (has("drone") || has("quad") || has("uav") || has("copter") || has("multirotor")) return "drone";
+  if (has("glider") || has("sailplane")) return "glider";
+  if (has("balloon")) return "balloon";
+  if (has("bird")) return "bird";
+  if (has("insect")) return "insect";
+  return "airplane";
+}
+
 FirstProjectNote unit_note(double length, ModelSettings& settings) {
   FirstProjectNote note{.field = "intruders[0].model.scale"};
   if (length >= kMinMetres && length <= kMaxMetres) {
@@ -61,29 +84,6 @@ FirstProjectNote unit_note(double length, ModelSettings& settings) {
   note.text = fmt::format("{} m, the file is {:.3g} long in no unit of aircraft; set it to what the aircraft measures",
                           number_text(kUsual_m, 1), length);
   return note;
-}
-
-FirstProjectNote axes_note(const ModelShape& shape, const ModelSettings& settings) {
-  FirstProjectNote note{.field = "intruders[0].model.forward", .is_guess = true};
-  const bool is_sure = shape.nose_is_sure && shape.top_is_sure;
-  note.text = fmt::format("nose {}, up {}, {}; if the aircraft flies tail first or upside down, turn the signs",
-                          settings.forward, settings.up,
-                          is_sure ? "judged by the model's shape" : "a guess, which the shape does not confirm");
-  return note;
-}
-
-}  // namespace
-
-std::string category_of_model(const fs::path& file) {
-  const std::string name = lower_case(file.filename().string());
-  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
-  if (has("heli")) return "helicopter";
-  if (has("drone") || has("quad") || has("uav") || has("copter")) return "drone";
-  if (has("glider") || has("sailplane")) return "glider";
-  if (has("balloon")) return "balloon";
-  if (has("bird")) return "bird";
-  if (has("insect")) return "insect";
-  return "airplane";
 }
 
 Result<FirstModel> users_model(const fs::path& file, SceneFiles& files) {

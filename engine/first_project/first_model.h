@@ -20,6 +20,9 @@ struct FirstModel {
   std::vector<Warning> warnings;
 };
 
+// The unit of a model that is so long in its own, by the rule below: sets `scale` or, where no unit fits, `length_m`.
+FirstProjectNote unit_note(double length, ModelSettings& settings);
+
 // A user's model, with its axes judged by its shape (mesh/geometry.h) and its unit by its size: what is 1 to 90 long
 // is in metres, else the unit of millimetres, centimetres, inches and feet with which it is most like a light aircraft.
 // Errors: those of read_obj().
