@@ -172,6 +172,8 @@ LabelSequence label_sequence(const Project& project, const VideoInfo& footage, c
                          .camera = scene.camera,
                          .thresholds = {.min_pixels = project.output.label_min_pixels,
                                         .min_visible_fraction = project.output.label_min_visible_fraction},
+                         .box_scale = project.output.label_box_scale,
+                         .box_margin_px = project.output.label_box_margin_px,
                          .has_real_aircraft = !scene.real_aircraft.empty(),
                          .volumes = project.output.encounter};
   for (std::size_t i = 0; i < scene.intruders.size(); ++i)

@@ -155,7 +155,7 @@ class CocoLabels : public LabelWriter {
   [[nodiscard]] Json annotation_of(const IntruderTruth& intruder, int image_id) const {
     Json annotation{{"image_id", image_id},
                     {"category_id", category_id_of(intruder.id)},
-                    {"bbox", json_of(*intruder.visible_box)},
+                    {"bbox", json_of(labelled_box(intruder, sequence_))},
                     {"area", intruder.visible_pixels}};
     if (!intruder.visible.empty())
       annotation["segmentation"] = rle_of(intruder.visible, *intruder.visible_box, sequence_.footage.size_px);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/ensure.h"
 #include "labels/formats.h"
@@ -96,6 +97,17 @@ int category_index(const LabelSequence& sequence, int id) {
 bool is_labelled(const IntruderTruth& truth, const LabelThresholds& thresholds) {
   return truth.visible_box && truth.visible_pixels >= thresholds.min_pixels &&
          truth.visible_fraction >= thresholds.min_visible_fraction;
+}
+
+cv::Rect labelled_box(const IntruderTruth& truth, const LabelSequence& sequence) {
+  const cv::Rect& box = *truth.visible_box;
+  if (sequence.box_scale == 1 && sequence.box_margin_px == 0) return box;
+  const auto by = [&](int side) {
+    return static_cast<int>(std::lround(0.5 * (sequence.box_scale - 1) * side)) + sequence.box_margin_px;
+  };
+  const cv::Rect grown(box.x - by(box.width), box.y - by(box.height), box.width + 2 * by(box.width),
+                       box.height + 2 * by(box.height));
+  return grown & cv::Rect({0, 0}, sequence.footage.size_px);
 }
 
 std::string image_name(int frame, std::string_view extension) {

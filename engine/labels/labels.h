@@ -48,6 +48,8 @@ struct LabelSequence {
       own_body;  // CV_32FC1 of the image's size, 1 where the own body hides everything, 0 where nothing; empty: none
   std::optional<Camera> camera;  // nullopt: not known, and formats leave out what follows from it
   LabelThresholds thresholds;
+  double box_scale = 1;            // of labelled_box()
+  int box_margin_px = 0;           // likewise
   bool has_real_aircraft = false;  // some frame's truth has FrameTruth::real_aircraft, which formats ignore as they can
   std::vector<std::string> volumes = {};  // of EncounterTruth, by name; empty: the truth has no encounters
 };
@@ -60,6 +62,10 @@ struct LabelSequence {
 
 // Whether a frame's labels contain an intruder: it has a visible box and meets both thresholds.
 [[nodiscard]] bool is_labelled(const IntruderTruth& truth, const LabelThresholds& thresholds);
+
+// The box that detectors are to learn: the visible one, box_scale times as wide and high about its middle and grown by
+// box_margin_px on each side, within the image. The intruder must have a visible box.
+[[nodiscard]] cv::Rect labelled_box(const IntruderTruth& truth, const LabelSequence& sequence);
 
 // "frame_000123.png": the name of a frame's image in LabelSequence::images. The number is the footage's.
 //   extension  LabelSequence::image_extension

@@ -25,7 +25,8 @@ bool is_difficult(const IntruderTruth& truth) {
   return truth.visible_fraction < kDifficult;
 }
 
-void add_object(pugi::xml_node annotation, const IntruderTruth& truth, const std::string& category) {
+void add_object(pugi::xml_node annotation, const IntruderTruth& truth, const cv::Rect& labelled,
+                const std::string& category) {
   pugi::xml_node object = annotation.append_child("object");
   add_element(object, "name", category);
   add_element(object, "pose", "Unspecified");
@@ -34,10 +35,10 @@ void add_object(pugi::xml_node annotation, const IntruderTruth& truth, const std
   add_element(object, "difficult", is_difficult(truth) ? 1 : 0);
   add_element(object, "trackid", truth.id);
   pugi::xml_node box = object.append_child("bndbox");
-  add_element(box, "xmin", truth.visible_box->x + 1);
-  add_element(box, "ymin", truth.visible_box->y + 1);
-  add_element(box, "xmax", truth.visible_box->x + truth.visible_box->width);
-  add_element(box, "ymax", truth.visible_box->y + truth.visible_box->height);
+  add_element(box, "xmin", labelled.x + 1);
+  add_element(box, "ymin", labelled.y + 1);
+  add_element(box, "xmax", labelled.x + labelled.width);
+  add_element(box, "ymax", labelled.y + labelled.height);
 }
 
 std::string annotation_of(const FrameTruth& truth, const LabelSequence& sequence) {
@@ -56,7 +57,7 @@ std::string annotation_of(const FrameTruth& truth, const LabelSequence& sequence
   add_element(annotation, "segmented", 0);
   for (const IntruderTruth& intruder : truth.intruders)
     if (is_labelled(intruder, sequence.thresholds))
-      add_object(annotation, intruder,
+      add_object(annotation, intruder, labelled_box(intruder, sequence),
                  sequence.categories[static_cast<std::size_t>(category_index(sequence, intruder.id))]);
   std::ostringstream text;
   document.save(text, "  ", pugi::format_default | pugi::format_no_declaration, pugi::encoding_utf8);

@@ -79,8 +79,9 @@ class YoloLabels : public LabelWriter {
  private:
   [[nodiscard]] std::string line_of(const IntruderTruth& intruder) const {
     const cv::Size size_px = sequence_.footage.size_px;
-    const Span across = span_of(intruder.visible_box->x, intruder.visible_box->width, size_px.width);
-    const Span down = span_of(intruder.visible_box->y, intruder.visible_box->height, size_px.height);
+    const cv::Rect labelled = labelled_box(intruder, sequence_);
+    const Span across = span_of(labelled.x, labelled.width, size_px.width);
+    const Span down = span_of(labelled.y, labelled.height, size_px.height);
     return fmt::format("{} {} {} {} {}\n", category_index(sequence_, intruder.id), decimal(across.centre),
                        decimal(down.centre), decimal(across.length), decimal(down.length));
   }

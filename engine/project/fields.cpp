@@ -258,6 +258,10 @@ void add_output(FieldList list, ExportSettings& output) {
               "fewer visible pixels: no label; xml, csv and jsonl leave nothing out");
   list.number("label_min_visible_fraction", &output.label_min_visible_fraction, "", 0, 1,
               "less of it to be seen: no label; xml, csv and jsonl leave nothing out");
+  list.number("label_box_scale", &output.label_box_scale, "", 1, 10,
+              "boxes of coco, yolo and voc: so many times as wide and high as what is visible");
+  list.number("label_box_margin_px", &output.label_box_margin_px, "px", 0, 1000,
+              "and so much more on each side; annotators often leave 4 to 10");
   list.add("categories", &output.categories, "",
            "categories that labels count, in this order; empty: those of the intruders");
   static const std::string encounter_help =

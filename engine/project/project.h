@@ -341,6 +341,8 @@ struct ExportSettings {
   std::vector<std::string> labels{"xml"};
   int label_min_pixels = 1;
   double label_min_visible_fraction = 0;
+  double label_box_scale = 1;   // boxes of coco, yolo and voc: so much wider and higher than what is visible ...
+  int label_box_margin_px = 0;  // ... and so much more on each side, as annotators draw them
   std::vector<std::string> categories;  // empty: those of the intruders, in their order
   std::vector<std::string> encounter;   // volumes of well clear; empty: no truth of the encounter is written
 

@@ -135,6 +135,60 @@ TEST_CASE("images are placed before sky or before land as the frame shows it, an
   for (const PlannedVideo& image : plan.videos) CHECK(box_in(image, 0).x >= 899.5);
 }
 
+TEST_CASE("a background may be a project, whose camera, light and look it has; groups draw numbers of the light") {
+  const TemporaryFolder folder;
+  const std::filesystem::path assets = source_dir() / "assets";
+  const nlohmann::ordered_json project{
+      {"sigs", 1},
+      {"footage",
+       {{"video", (assets / "footage/sample.mp4").string()},
+        {"calibration", (assets / "calibrations/sample.xml").string()}}},
+      {"camera", {{"position_m", {0, 0, -2000}}, {"attitude_deg", {{"roll", 1}, {"pitch", 7}}}}},
+      {"light", {{"kind", "sun"}, {"exposure", 1.25}}},
+      {"appearance", {{"psf_sigma_px", 0.81}}}};
+  write_file(folder / "clip.json", project.dump());
+  nlohmann::ordered_json recipe = image_recipe(
+      {{"images", 12}, {"light", {{"sun.azimuth_deg", {{"uniform", {-180, 180}}}}, {"sun.elevation_deg", 30}}}});
+  recipe["backgrounds"][0] = {
+      {"name", "day"}, {"project", (folder / "clip.json").string()}, {"camera", {{"speed_mps", 5}}}};
+  const Plan plan = RecipeFolder().plan(recipe);
+  REQUIRE(plan.videos.size() == 12);
+  std::set<double> azimuths;
+  for (const PlannedVideo& image : plan.videos) {
+    const Project& made = image.project;
+    CHECK(*made.camera.pitch_deg == 7);
+    CHECK(made.camera.speed_mps == 5);
+    CHECK(made.light.kind == LightKind::sun);
+    CHECK(made.light.exposure == 1.25);
+    CHECK(*made.light.sun.elevation_deg == 30);
+    CHECK(made.appearance.psf_sigma_px == 0.81);
+    azimuths.insert(*made.light.sun.azimuth_deg);
+    CHECK(image.sampled.at("light.sun.azimuth_deg") == *made.light.sun.azimuth_deg);
+  }
+  CHECK(azimuths.size() == 12);
+  recipe["backgrounds"][0]["project"] = (folder / "none.json").string();
+  CHECK(RecipeFolder().error(recipe).starts_with("backgrounds[0].project: "));
+}
+
+TEST_CASE("recipes draw a contrail by aircraft, where it flies high enough") {
+  nlohmann::ordered_json recipe = image_recipe({{"images", 40}});
+  recipe["aircraft"][0]["contrail"] = {
+      {"strands", {{"choice", {1, 2, 4}}}}, {"opacity", {{"uniform", {0.2, 0.8}}}}, {"above_m", 3000}};
+  const Plan plan = RecipeFolder().plan(recipe);
+  int with = 0;
+  for (const PlannedVideo& image : plan.videos) {
+    const IntruderSettings& jet = image.project.intruders.front();
+    const bool is_high = -jet.trajectory.waypoints.front().position_m.z >= 3000;
+    CHECK((jet.contrail.strands > 0) == is_high);
+    CHECK(image.sampled.contains("contrail.opacity") == is_high);
+    with += is_high ? 1 : 0;
+  }
+  CHECK(with > 5);
+  CHECK(with < 35);
+  recipe["aircraft"][0]["contrail"] = {{"strands", 7}};
+  CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].contrail.strands: must lie between 0 and 4"));
+}
+
 TEST_CASE("what is wrong with a group of images is named") {
   const RecipeFolder folder;
   const auto error = [&](const nlohmann::ordered_json& group) { return folder.error(image_recipe(group)); };

@@ -198,6 +198,27 @@ TEST_CASE("coco: each part of the own body is a crowd region of each image and c
   CHECK(region["segmentation"]["counts"] == coco_counts(runs));
 }
 
+TEST_CASE("labelled boxes are the visible ones, or wider by a scale and a margin, within the image") {
+  LabelSequence sequence = label_sequence();  // 64 x 48
+  IntruderTruth truth = visible_intruder(0, {20, 10, 10, 6});
+  CHECK(labelled_box(truth, sequence) == cv::Rect(20, 10, 10, 6));
+  sequence.box_margin_px = 8;
+  CHECK(labelled_box(truth, sequence) == cv::Rect(12, 2, 26, 22));
+  sequence.box_scale = 2;
+  CHECK(labelled_box(truth, sequence) == cv::Rect(7, 0, 36, 27));  // cut off above
+  sequence.box_margin_px = 1000;
+  CHECK(labelled_box(truth, sequence) == cv::Rect(0, 0, 64, 48));
+}
+
+TEST_CASE("coco: a margin widens the box and leaves area and mask") {
+  LabelSequence sequence = label_sequence();
+  sequence.box_margin_px = 3;
+  const Json coco = coco_of(sequence, frames_of({{visible_intruder(0, {20, 10, 3, 3})}}));
+  check_is_coco(coco);
+  CHECK(coco["annotations"][0]["bbox"] == Json{17, 7, 9, 9});
+  CHECK(coco["annotations"][0]["area"] == 9);
+}
+
 TEST_CASE("coco: a real aircraft in the footage is a crowd region of its image and each category") {
   std::vector<FrameTruth> frames = frames_of({{visible_intruder(0, {20, 10, 3, 3})}, {invisible_intruder(0)}});
   frames[1].real_aircraft = {{5, 6, 4, 3}};
