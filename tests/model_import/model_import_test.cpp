@@ -102,7 +102,6 @@ TEST_CASE("a model has its size, its nose and its top, in whatever format it com
                                              {"collada", "a.dae", 1.0},
                                              {"fbxa", "a.fbx", 0.01},
                                              {"3ds", "a.3ds", 1.0}}) {
-    CAPTURE(name);
     convert(format, folder / name);
     const Imported got = imported({.file = folder / name, .turns_rotors = false});
     for (int axis = 0; axis < 3; ++axis) {
