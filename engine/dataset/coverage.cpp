@@ -42,8 +42,9 @@ int cell_of_box(const std::optional<Box>& box, cv::Size image_px) {
 }
 
 // What of one scene can be seen in a frame.
-void add_sights(const Project& project, const Scene& scene, const VisibilityEstimator& estimator, int frame,
+void add_sights(const PlannedVideo& video, const Scene& scene, const VisibilityEstimator& estimator, int frame,
                 Coverage& coverage) {
+  const Project& project = video.project;
   const std::vector<VisibilityEstimate> estimates = estimator.all_at(frame);
   const SceneMoment moment = scene_at(scene, frame);
   for (const PlacedIntruder& placed : moment.intruders) {
@@ -59,6 +60,7 @@ void add_sights(const Project& project, const Scene& scene, const VisibilityEsti
                   .horizon = scene.horizon_is_known ? horizon_side_of(intruder.model->outermost_m,
                                                                       placed.camera_from_body, moment.up_in_camera)
                                                     : HorizonSide::unknown,
+                  .before = before_what(video.sampled, i),
                   .cell = cell_of_box(estimates[i].silhouette, scene.camera.size_px)});
   }
 }
@@ -103,7 +105,14 @@ std::map<std::string, std::string> categories_in(const std::filesystem::path& pr
   return categories;
 }
 
-Result<void> count_video(const std::filesystem::path& folder, const std::string& name, Coverage& coverage) {
+// A video of an index: its name, and the numbers sampled for it.
+struct IndexedVideo {
+  std::string name;
+  std::map<std::string, double> sampled;
+};
+
+Result<void> count_video(const std::filesystem::path& folder, const IndexedVideo& video, Coverage& coverage) {
+  const std::string& name = video.name;
   const std::filesystem::path file = folder / name / (name + ".xml");
   const Result<std::string> text = read_text(file);
   if (!text)
@@ -121,37 +130,53 @@ Result<void> count_video(const std::filesystem::path& folder, const std::string&
     ++coverage.frames;
     for (const pugi::xml_node intruder : frame.children("intruder")) {
       if (!intruder.child("box")) continue;
-      const Result<Sight> sight = sight_of(intruder, image_px, categories);
+      Result<Sight> sight = sight_of(intruder, image_px, categories);
       if (!sight)
         return fail(file.string(),
                     fmt::format("frame {}: {}", line_text(frame.attribute("index").value()), sight.error().what));
+      sight->before = before_what(video.sampled, intruder.attribute("id").as_uint());
       coverage.add(*sight);
     }
   }
   return {};
 }
 
-// Names of the videos in a dataset's index.
-Result<std::vector<std::string>> names_in_index(const std::filesystem::path& file) {
+// The videos of a dataset's index.
+Result<std::vector<IndexedVideo>> videos_in_index(const std::filesystem::path& file) {
   const Result<std::string> text = read_text(file);
   if (!text) return fail(text.error());
   const Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_data);
   if (!json) return fail(json.error());
   if (!json->is_object() || !json->contains("videos") || !json->at("videos").is_array())
     return fail(file.string(), "is no index of a dataset: it has no list \"videos\"");
-  std::vector<std::string> names;
+  std::vector<IndexedVideo> videos;
   for (const Json& video : json->at("videos")) {
     const auto name = video.is_object() ? video.find("name") : video.end();
     if (!video.is_object() || name == video.end() || !name->is_string())
-      return fail(file.string(), fmt::format("videos[{}] has no name", names.size()));
-    names.push_back(name->get<std::string>());
-    if (const std::string wrong = wrong_with_video_name(names.back()); !wrong.empty())
-      return fail(file.string(), fmt::format("videos[{}].name {}", names.size() - 1, wrong));
+      return fail(file.string(), fmt::format("videos[{}] has no name", videos.size()));
+    videos.push_back({name->get<std::string>(), {}});
+    if (const std::string wrong = wrong_with_video_name(videos.back().name); !wrong.empty())
+      return fail(file.string(), fmt::format("videos[{}].name {}", videos.size() - 1, wrong));
+    if (const auto drawn = video.find("drawn"); drawn != video.end() && drawn->is_object())
+      for (const auto& [quantity, number] : drawn->items())
+        if (number.is_number()) videos.back().sampled[quantity] = number.get<double>();
   }
-  return names;
+  return videos;
 }
 
 }  // namespace
+
+BeforeWhat before_what(const std::map<std::string, double>& sampled, std::size_t body) {
+  constexpr double kNearlyAll_percent = 98;
+  const std::string prefix = body == 0 ? "" : fmt::format("other{}.", body);
+  const auto percent_of = [&](const char* what) {
+    const auto there = sampled.find(prefix + what);
+    return there == sampled.end() ? -1 : there->second;
+  };
+  if (percent_of("sky_percent") < 0) return BeforeWhat::unknown;
+  if (percent_of("sky_percent") >= kNearlyAll_percent) return BeforeWhat::sky;
+  return percent_of("land_percent") >= kNearlyAll_percent ? BeforeWhat::land : BeforeWhat::both;
+}
 
 int cell_of(double x_px, double y_px, cv::Size image_px) {
   const auto third = [](double at_px, int length_px) {
@@ -168,6 +193,7 @@ void CoverageCounts::add(const Sight& sight) {
   count_in(bearing, kBearingLimits_deg, sight.bearing_deg);
   ++cell.at(static_cast<std::size_t>(sight.cell));
   ++horizon.at(static_cast<std::size_t>(sight.horizon));
+  ++before.at(static_cast<std::size_t>(sight.before));
 }
 
 void Coverage::add(const Sight& sight) {
@@ -189,18 +215,18 @@ Result<Coverage> predicted_coverage(const std::vector<const PlannedVideo*>& vide
     ++coverage.videos;
     coverage.frames += scene->last_frame - scene->first_frame + 1;
     for (int frame = scene->first_frame; frame <= scene->last_frame; ++frame)
-      add_sights(video->project, *scene, estimator, frame, coverage);
+      add_sights(*video, *scene, estimator, frame, coverage);
   }
   return coverage;
 }
 
 Result<Coverage> counted_coverage(const std::filesystem::path& folder, const std::atomic<bool>* cancel) {
-  const Result<std::vector<std::string>> names = names_in_index(folder / "index.json");
-  if (!names) return fail(names.error());
+  const Result<std::vector<IndexedVideo>> videos = videos_in_index(folder / "index.json");
+  if (!videos) return fail(videos.error());
   Coverage coverage;
-  for (const std::string& name : *names) {
+  for (const IndexedVideo& video : *videos) {
     if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-    if (const Result<void> counted = count_video(folder, name, coverage); !counted) return fail(counted.error());
+    if (const Result<void> counted = count_video(folder, video, coverage); !counted) return fail(counted.error());
   }
   return coverage;
 }
@@ -243,9 +269,18 @@ std::vector<CoverageSection> sections_of(const Coverage& coverage) {
     horizon.intruders.push_back(intruders.horizon.at(static_cast<std::size_t>(side)));
     horizon.distractors.push_back(distractors.horizon.at(static_cast<std::size_t>(side)));
   }
-  return {binned("range_m", kRangeLimits_m, intruders.range, distractors.range),
-          binned("size_px", kSizeLimits_px, intruders.size, distractors.size),
-          binned("bearing_deg", kBearingLimits_deg, intruders.bearing, distractors.bearing), cells, horizon};
+  std::vector<CoverageSection> sections{
+      binned("range_m", kRangeLimits_m, intruders.range, distractors.range),
+      binned("size_px", kSizeLimits_px, intruders.size, distractors.size),
+      binned("bearing_deg", kBearingLimits_deg, intruders.bearing, distractors.bearing), cells, horizon};
+  const long long known = intruders.sights + distractors.sights - intruders.before.back() - distractors.before.back();
+  if (known > 0)
+    sections.push_back({.title = "before",
+                        .bins = {kBeforeNames.begin(), kBeforeNames.end()},
+                        .limits = {},
+                        .intruders = intruders.before,
+                        .distractors = distractors.before});
+  return sections;
 }
 
 std::string share_text(long long part, long long whole) {
@@ -281,7 +316,7 @@ Json counts_json(const CoverageSection& section, const std::vector<long long>& c
   for (std::size_t i = 0; i < counts.size(); ++i) {
     Json bin = Json::object();
     if (section.limits.empty()) {
-      bin[section.title == "horizon" ? "side" : "cell"] = section.bins[i];
+      bin[section.title == "horizon" ? "side" : section.title == "before" ? "what" : "cell"] = section.bins[i];
     } else {
       bin["from"] = i == 0 ? Json(nullptr) : Json(section.limits[i - 1]);
       bin["to"] = i == section.limits.size() ? Json(nullptr) : Json(section.limits[i]);

@@ -20,6 +20,13 @@ namespace sigs {
 // distances, sizes and bearings, and on which side of the horizon. Predicted from a plan before a frame is made, or
 // counted from the labels of a dataset. Contrast is not among it: it follows from the rendered images alone.
 
+// What a body is before, as the frame shows it (VideoVisibility::behind); looked at for images alone.
+enum class BeforeWhat { sky, land, both, unknown };
+inline constexpr std::array kBeforeNames{"sky", "land", "both", "unknown"};
+
+// From the numbers sampled for an image: those of its further bodies are called other1.sky_percent, ...
+[[nodiscard]] BeforeWhat before_what(const std::map<std::string, double>& sampled, std::size_t body);
+
 // One body in one frame.
 struct Sight {
   std::string category;
@@ -28,6 +35,7 @@ struct Sight {
   double size_px = 0;      // longer side of the box of its whole silhouette
   double bearing_deg = 0;  // of the reference point, to the right of the optical axis, in the camera's axes; -180..180
   HorizonSide horizon = HorizonSide::unknown;
+  BeforeWhat before = BeforeWhat::unknown;
   int cell = 4;  // of kCellNames: third of the image's width and height with the middle of the silhouette's box
 };
 
@@ -49,6 +57,7 @@ struct CoverageCounts {
   std::vector<long long> bearing = std::vector<long long>(kBearingLimits_deg.size() + 1);
   std::vector<long long> cell = std::vector<long long>(kCellNames.size());
   std::array<long long, 4> horizon{};  // by HorizonSide: below, on, above, unknown
+  std::vector<long long> before = std::vector<long long>(kBeforeNames.size());
 
   void add(const Sight& sight);
   [[nodiscard]] bool operator==(const CoverageCounts&) const = default;

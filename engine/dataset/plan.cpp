@@ -101,7 +101,7 @@ class Planner {
 
   void add(const VideoSpec& spec, Plan& plan);
 
-  // Decodes the frames of images that are to show their aircraft before sky or before land.
+  // Decodes the frames of images, to know what aircraft in them are before.
   [[nodiscard]] Result<void> look_for_sky(const std::vector<VideoSpec>& specs, const std::atomic<bool>* cancel);
 
  private:
@@ -117,8 +117,7 @@ class Planner {
 Result<void> Planner::look_for_sky(const std::vector<VideoSpec>& specs, const std::atomic<bool>* cancel) {
   std::map<std::size_t, std::set<int>> frames;  // by background
   for (const VideoSpec& spec : specs) {
-    const VideoGroup& group = recipe_.groups[spec.group];
-    if (!group.is_images || group.placement == Placement::anywhere) continue;
+    if (!recipe_.groups[spec.group].is_images) continue;
     const VideoSpec sampled = sampled_spec(recipe_, spec, 0);
     const Result<OpenedBackground>& background = backgrounds_.at(sampled.background);
     if (!background) continue;

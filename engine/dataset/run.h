@@ -19,8 +19,9 @@ namespace sigs {
 struct DatasetRequest {
   std::filesystem::path folder;
   DatasetSource source;
-  int jobs = 0;         // videos exported in parallel, 0: one for every four cores; the bytes do not depend on it
-  bool resume = false;  // keep videos that are complete and as planned; false: the folder must hold no dataset
+  int jobs = 0;  // videos exported in parallel, 0: one for every four cores, of single images one for each; bytes
+                 // do not depend on it
+  bool resume = false;         // keep videos that are complete and as planned; false: the folder must hold no dataset
   std::optional<Shard> shard;  // make only these videos, and no index
   bool index = true;           // false: make no index, since the plan is only a part of the dataset's
   bool merge_only = false;     // export nothing, only make the index; a missing video is an error

@@ -155,11 +155,13 @@ bool have_common_area(const Box& a, const Box& b) {
   return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-// Where the intruder that was placed in the image may not be there: the reason.
-tl::expected<void, std::string> check_place(const Project& project, int frame, const PlaceRules& rules,
-                                            VideoVisibility& estimator) {
+// Where the intruder that was placed in the image may not be there: the reason. Else what it is before, where that was
+// looked at.
+using Behind = std::optional<VideoVisibility::Behind>;
+tl::expected<Behind, std::string> checked_place(const Project& project, int frame, const PlaceRules& rules,
+                                                VideoVisibility& estimator) {
   const std::optional<VisibilityEstimate> seen = estimator.last_intruder_at(project, frame);
-  if (!seen) return {};
+  if (!seen) return Behind();
   if (seen->visibility_state == VisibilityState::occluded)
     return tl::unexpected(std::string("x_percent, y_percent: the own body hides all of the intruder there"));
   if (seen->visibility_state == VisibilityState::out_of_view || !seen->silhouette)
@@ -175,7 +177,7 @@ tl::expected<void, std::string> check_place(const Project& project, int frame, c
     return tl::unexpected(std::string("placement: the image does not show sky there"));
   if (behind && rules.placement == Placement::land && behind->land < kNearlyAll)
     return tl::unexpected(std::string("placement: the image does not show land there"));
-  return {};
+  return behind;
 }
 
 // By nose_deg, where it was drawn: one heading for the whole flight, since that quantity is of straight flights.
@@ -253,7 +255,14 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& reci
   turn_nose(intruder.trajectory, values);
   sample_contrail(flyer, sampler, intruder, video.sampled);
   video.project.intruders.push_back(std::move(intruder));
-  return frame ? check_place(video.project, *frame, rules, estimator) : tl::expected<void, std::string>{};
+  if (!frame) return {};
+  const tl::expected<Behind, std::string> behind = checked_place(video.project, *frame, rules, estimator);
+  if (!behind) return tl::unexpected(behind.error());
+  if (*behind) {
+    video.sampled[flyer.prefix + "sky_percent"] = std::round(100 * (*behind)->sky);
+    video.sampled[flyer.prefix + "land_percent"] = std::round(100 * (*behind)->land);
+  }
+  return {};
 }
 
 // What else flies. Keys of random numbers are those of the names in `drawn`, "other3.bearing_deg".

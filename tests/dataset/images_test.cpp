@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 #include <set>
 
+#include "dataset/coverage.h"
 #include "dataset/entry.h"
 #include "dataset/footage_cache.h"
 #include "dataset/recipe_folder.h"
@@ -117,12 +118,12 @@ TEST_CASE("images are placed before sky or before land as the frame shows it, an
       beyond += (middle_percent < 50) == is_sky ? 0 : 1;
     }
     CHECK(beyond == 0);
-    CHECK(resamples_of([&] {
-            std::vector<const PlannedVideo*> all;
-            for (const PlannedVideo& image : plan.videos) all.push_back(&image);
-            return all;
-          }())
-              .contains("placement"));
+    std::vector<const PlannedVideo*> all;
+    for (const PlannedVideo& image : plan.videos) all.push_back(&image);
+    CHECK(resamples_of(all).contains("placement"));
+    const Coverage coverage = predicted_coverage(all).value();
+    CHECK(coverage.intruders.before[is_sky ? 0 : 1] == coverage.intruders.sights);
+    CHECK(coverage_text(coverage, "predicted").find("\nbefore ") != std::string::npos);
   }
   const TemporaryFolder folder;
   std::string csv = "frame,label,x,y,w,h\n";
