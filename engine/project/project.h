@@ -208,7 +208,7 @@ struct ContrailSettings {
   double length_m = 4000;   // behind which nothing of it is left
   double width_m = 4;       // of a strand where it begins: four sigmas of its profile
   double spread_mps = 1;    // by which sigma grows with age
-  double opacity = 0.6;     // of a strand's middle where it begins, seen from the side, 0..1
+  double opacity = 0.5;     // of a strand's middle where it begins, seen from the side, 0..1
   double brightness = 0.5;  // of a white surface squarely in the sun
 
   [[nodiscard]] bool operator==(const ContrailSettings&) const = default;
