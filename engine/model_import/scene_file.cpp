@@ -12,10 +12,10 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <set>
 
+#include "base/image_codecs.h"
 #include "base/input_file.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
@@ -144,9 +144,9 @@ class SceneReader {
     std::string written = bytes;
     if (!is_png && !is_jpeg) {
       const std::vector<uchar> encoded(bytes.begin(), bytes.end());
-      const cv::Mat image = encoded.empty() ? cv::Mat() : cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+      const cv::Mat image = encoded.empty() ? cv::Mat() : image_codecs::imdecode(encoded, cv::IMREAD_UNCHANGED);
       std::vector<uchar> png;
-      if (image.empty() || !cv::imencode(".png", image, png)) return "";
+      if (image.empty() || !image_codecs::imencode(".png", image, png)) return "";
       written.assign(png.begin(), png.end());
     }
     const std::string name = unique_word(stem, "texture", image_names_) + (is_jpeg ? ".jpg" : ".png");
