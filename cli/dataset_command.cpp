@@ -267,7 +267,9 @@ Command add_dataset_command(CLI::App& program) {
       program.add_subcommand("dataset", "make a whole dataset from a recipe: videos, truth, labels, index");
   command->add_option("RECIPE", options->recipe, "the recipe, a JSON file")->required();
   add_output(*command, "--out", options->folder, "folder to write into; not given: the dataset's name", "DIR");
-  command->add_option("--jobs", options->jobs, "videos exported side by side; 0: one for every four processor cores, of single images one for each")
+  command
+      ->add_option("--jobs", options->jobs,
+                   "videos exported side by side; 0: one for every four processor cores, of single images one for each")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_flag("--resume", options->resume, "keep the videos that are complete and as the recipe asks");
