@@ -64,8 +64,8 @@ struct ExportControl {
 // them is written, and the frames that have gone out before an error or an interruption stay with the reader.
 [[nodiscard]] Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control);
 
-// The same for a request of a single frame, with a renderer that keeps footage, models and OpenGL from call to call. The
-// bytes are those of export_project(); an intruder that is not in the picture gives no warning.
+// The same for a request of a single frame, with a renderer that keeps footage, models and OpenGL from call to call.
+// The bytes are those of export_project(); an intruder that is not in the picture gives no warning.
 [[nodiscard]] Result<ExportReport> export_frame(const ExportRequest& request, FrameRenderer& renderer,
                                                 const ExportControl& control);
 

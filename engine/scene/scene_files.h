@@ -34,8 +34,8 @@ struct AttitudeAtFrame {
 // named).
 [[nodiscard]] Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px);
 
-// Reads boxes of aircraft that footage shows (footage.real_aircraft): CSV with the header line frame,label,x,y,w,h, then
-// one line for each box; frames from 0, x and y in pixels of which the first one has the centre (1, 1), as in the
+// Reads boxes of aircraft that footage shows (footage.real_aircraft): CSV with the header line frame,label,x,y,w,h,
+// then one line for each box; frames from 0, x and y in pixels of which the first one has the centre (1, 1), as in the
 // published boxes of the Svanstrom data set (doi:10.5281/zenodo.5500576). A box without area is left out. Errors:
 // cannot_read; bad_data (file and line) for what is no number, a frame beyond 10 million, no box at all.
 [[nodiscard]] Result<BoxesByFrame> read_boxes_by_frame(const std::filesystem::path& csv);
