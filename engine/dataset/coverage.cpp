@@ -167,7 +167,7 @@ Result<std::vector<IndexedVideo>> videos_in_index(const std::filesystem::path& f
 }  // namespace
 
 BeforeWhat before_what(const std::map<std::string, double>& sampled, std::size_t body) {
-  constexpr double kNearlyAll_percent = 98;
+  constexpr double kNearlyAll_percent = 100 * kNearlyAll;
   const std::string prefix = body == 0 ? "" : fmt::format("other{}.", body);
   const auto percent_of = [&](const char* what) {
     const auto there = sampled.find(prefix + what);

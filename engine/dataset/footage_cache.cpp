@@ -31,6 +31,14 @@ std::string footage_key(const FootageSettings& footage) {
   return fmt::format("{}\n{}\n{}", footage.video, footage.frame_rate_hz.value_or(0), footage.timestamps);
 }
 
+// The footage of a project, by absolute paths.
+FootageSettings footage_of(const Project& project) {
+  FootageSettings settings = project.footage;
+  settings.video = resolved(project, settings.video).string();
+  if (!settings.timestamps.empty()) settings.timestamps = resolved(project, settings.timestamps).string();
+  return settings;
+}
+
 Result<FootageShape> opened_shape(const FootageSettings& footage, const std::atomic<bool>* cancel = nullptr) {
   Project project;
   project.footage = footage;
@@ -146,9 +154,7 @@ void VideoVisibility::remember(const FootageSettings& footage, const FootageShap
 }
 
 std::optional<Scene> VideoVisibility::scene_of(const Project& project) {
-  FootageSettings settings = project.footage;
-  settings.video = resolved(project, settings.video).string();
-  if (!settings.timestamps.empty()) settings.timestamps = resolved(project, settings.timestamps).string();
+  const FootageSettings settings = footage_of(project);
   const std::optional<FootageShape> footage = shape_of_footage(settings);
   if (!footage) return std::nullopt;
   Project unit = project;
@@ -242,9 +248,7 @@ Result<int> frames_of(const Project& project, const FootageShape& footage) {
 }
 
 Result<int> ExportLengths::frames_of(const Project& project) {
-  FootageSettings settings = project.footage;
-  settings.video = resolved(project, settings.video).string();
-  if (!settings.timestamps.empty()) settings.timestamps = resolved(project, settings.timestamps).string();
+  const FootageSettings settings = footage_of(project);
   const std::string key = footage_key(settings);
   std::unique_lock lock(mutex_);
   auto known = shapes_.find(key);

@@ -37,6 +37,9 @@ struct OpenedBackground {
 // background (calibration, mask, attitudes) is wrong. Errors name the recipe and the key.
 [[nodiscard]] Result<std::vector<Result<OpenedBackground>>> opened_backgrounds(const Recipe& recipe);
 
+// Share of a box from which on all of it counts as before sky, or before land.
+inline constexpr double kNearlyAll = 0.98;
+
 // Estimates of how the intruder of a planned video will be visible, and before what. Keeps what it has opened. For one
 // thread at a time.
 class VideoVisibility {

@@ -339,10 +339,12 @@ void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node
 
 std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recipe,
                                     const std::vector<std::string>& settings) {
-  for (const char* const key : {"videos", "images"}) {
-    const Json* const number = recipe_node.value(key);
-    if (number == nullptr || !number->is_number()) continue;
-    const Json group{{key, *number}};  // one group without other keys
+  const Json* const videos_json = recipe_node.value("videos");
+  const Json* const images_json = recipe_node.value("images");
+  if (images_json != nullptr && videos_json != nullptr)
+    recipe_node.log().wrong("images", "stands beside videos; give one of the two, or groups with images in videos");
+  if (images_json != nullptr || (videos_json != nullptr && videos_json->is_number())) {  // one group without other keys
+    const Json group = images_json != nullptr ? Json{{"images", *images_json}} : Json{{"videos", *videos_json}};
     return {read_group(RecipeNode(group, "", recipe_node.log()), recipe, settings)};
   }
   std::vector<VideoGroup> groups;

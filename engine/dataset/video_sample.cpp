@@ -171,7 +171,6 @@ tl::expected<Behind, std::string> checked_place(const Project& project, int fram
     for (const Box& box : real->second)
       if (have_common_area(box, *seen->silhouette))
         return tl::unexpected(std::string("real_aircraft: the intruder would be over a real aircraft"));
-  constexpr double kNearlyAll = 0.98;
   const auto behind = estimator.behind(project.footage, frame, *seen->silhouette);
   if (behind && rules.placement == Placement::sky && behind->sky < kNearlyAll)
     return tl::unexpected(std::string("placement: the image does not show sky there"));

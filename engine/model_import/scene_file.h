@@ -45,7 +45,6 @@ struct ImportedScene {
   std::vector<ImportedPart> parts;
   std::vector<ImportedMaterial> materials;
   std::vector<ImportedImage> images;
-  double unit_m = 1;              // metres for each unit of the positions
   bool unit_is_known = false;     // the file states it
   std::vector<Warning> warnings;  // an image is missing
 };

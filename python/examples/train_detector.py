@@ -4,10 +4,10 @@
 
     python3 train_detector.py train DATASET/labels/coco/train.json --images DATASET --out detector.pt
     python3 train_detector.py detect DATASET/labels/coco/val.json --images DATASET --weights detector.pt --out found.json
-    sigs evaluate detect DATASET/labels/coco/val.json found.json
+    sigs evaluate detect DATASET --split val --results found.json
 
-It finds where aircraft are and how large they look, not of which category they are. Needs PyTorch, NumPy and Pillow or
-OpenCV's Python module (Debian: python3-torch python3-numpy python3-pil).
+It finds where aircraft are and how large they look, not of which category they are. Needs PyTorch, NumPy and
+Pillow (Debian: python3-torch python3-numpy python3-pil).
 
 Pixels: (0, 0) is the corner of the first pixel, as in COCO. Boxes are left, top, width, height.
 """

@@ -202,6 +202,12 @@ TEST_CASE("what is wrong with a group of images is named") {
   CHECK(
       error({{"images", 3}, {"flights", {"left_right"}}}).starts_with("videos[0].flights[0].kind: must be image_pos"));
   CHECK(error({{"images", 3}, {"videos", 3}}).starts_with("videos[0].images: stands beside videos"));
+  nlohmann::ordered_json beside = RecipeFolder::recipe();
+  beside["images"] = 3;
+  CHECK(folder.error(beside).starts_with("images: stands beside videos"));
+  beside.erase("videos");
+  beside["images"] = "ten";
+  CHECK(folder.error(beside).starts_with("images: "));
   CHECK(error({{"images", 3}, {"frames", 3}}).starts_with("videos[0].frames: is of videos"));
   CHECK(error({{"videos", 3}, {"per_image", 2}}).starts_with("videos[0].per_image: is of images"));
   CHECK(error({{"images", 3}, {"per_image", -1}}).starts_with("videos[0].per_image: must lie between 0 and 100"));
