@@ -173,6 +173,10 @@ std::string add_disc(const FoundRotor& rotor, int number, ImportedScene& scene) 
 
 }  // namespace
 
+bool is_named_as_rotor(const ImportedScene& scene, const ImportedPart& part) {
+  return kind_of(part.name, scene.materials[static_cast<std::size_t>(part.material)].name).has_value();
+}
+
 std::vector<std::string> turn_rotors(ImportedScene& scene) {
   std::vector<FoundRotor> rotors;
   std::vector<ImportedPart> kept;

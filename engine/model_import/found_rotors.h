@@ -8,6 +8,9 @@
 
 namespace sigs {
 
+// Whether a part or its material is named as a rotor, whatever its shape.
+[[nodiscard]] bool is_named_as_rotor(const ImportedScene& scene, const ImportedPart& part);
+
 // Replaces parts that are named as rotors (rotor, propeller, prop, blade) by discs of blades that turn
 // (docs/rotors.md). A name tells the axis: of a propeller along the nose, of a tail rotor across, of any other rotor
 // upright. The shape tells hub and radius, and how many blades there are where they can be counted; the rest is a

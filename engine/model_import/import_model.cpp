@@ -17,17 +17,20 @@ namespace sigs {
 
 namespace {
 
-// The scene as a mesh whose body axes are those of ModelAxes{}: for what judges shapes.
+// The scene as a mesh whose body axes are those of ModelAxes{}, for what judges shapes, which leaves out rotors.
 Mesh mesh_of(const ImportedScene& scene) {
-  Mesh mesh{.materials = {Material{}}};
-  for (const ImportedPart& part : scene.parts)
+  Mesh mesh{.materials = {Material{}, Material{.rotor = Rotor{}}}};
+  for (const ImportedPart& part : scene.parts) {
+    const auto first = static_cast<std::uint32_t>(mesh.indices.size());
     for (const auto& triangle : part.triangles)
       for (const ImportedVertex& vertex : triangle) {
         mesh.indices.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
         mesh.vertices.push_back(
             {glm::vec3(vertex.position.x, -vertex.position.y, -vertex.position.z), {0, 0, 0}, {0, 0}});
       }
-  mesh.parts = {{0, 0, static_cast<std::uint32_t>(mesh.indices.size())}};
+    mesh.parts.push_back(
+        {is_named_as_rotor(scene, part) ? 1 : 0, first, static_cast<std::uint32_t>(mesh.indices.size()) - first});
+  }
   mesh.low_m = mesh.high_m = mesh.vertices.front().position_m;
   for (const Vertex& vertex : mesh.vertices) {
     mesh.low_m = glm::min(mesh.low_m, vertex.position_m);

@@ -125,7 +125,7 @@ class SceneReader {
     return "";
   }
 
-  // The first file of the name, by path, at most three folders below the one above the model's.
+  // The first file of the name, in whatever case, by path, at most three folders below the one above the model's.
   [[nodiscard]] std::optional<fs::path> around(const fs::path& name) const {
     std::optional<fs::path> first;
     std::error_code code;
@@ -133,7 +133,8 @@ class SceneReader {
     for (fs::recursive_directory_iterator it(above, fs::directory_options::skip_permission_denied, code), end;
          !code && it != end; it.increment(code)) {
       if (it.depth() >= 3) it.disable_recursion_pending();
-      if (it->path().filename() == name && (!first || it->path() < *first)) first = it->path();
+      if (lower_case(it->path().filename().string()) == lower_case(name.string()) && (!first || it->path() < *first))
+        first = it->path();
     }
     return first;
   }

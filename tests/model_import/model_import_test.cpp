@@ -146,6 +146,30 @@ TEST_CASE("an AC3D model lies as FlightGear has it, and its propeller turns") {
   CHECK_FALSE(has_rotors(still.mesh));
 }
 
+// Blades longer than the fuselage would be taken for wings, and the boom for the nose.
+TEST_CASE("a helicopter's nose is found by what is no rotor") {
+  for (const double nose : {-1.0, 1.0}) {
+    const TemporaryFolder folder;
+    const auto along = [&](double from, double to) {
+      return std::array{std::min(nose * from, nose * to), std::max(nose * from, nose * to)};
+    };
+    const auto part = [&](const char* name, double from, double to, const glm::dvec3& low, const glm::dvec3& high) {
+      const std::array<double, 2> x = along(from, to);
+      return AcObject{name, box({x[0], low.y, low.z}, {x[1], high.y, high.z})};
+    };
+    std::vector<AcObject> objects{part("cabin", -1, 1, {0, -0.6, -0.5}, {0, 0.6, 0.5}),
+                                  part("boom", -5, -1, {0, 0.2, -0.1}, {0, 0.4, 0.1}),
+                                  part("tailplane", -4.6, -4.2, {0, 0.3, -0.9}, {0, 0.35, 0.9}),
+                                  part("fin", -5, -4.6, {0, 0.2, -0.05}, {0, 1.4, 0.05}),
+                                  {"main_rotor", box({-5, 1.2, -0.1}, {5, 1.22, 0.1})}};
+    for (const glm::dvec3& p : box({-0.1, 1.2, -5}, {0.1, 1.22, 5})) objects.back().points.push_back(p);
+    write_file(folder / "a.ac", ac_text(objects));
+    const Imported got = imported({.file = folder / "a.ac"});
+    CHECK(has_note(got.model, nose < 0 ? "nose along -x" : "nose along +x"));
+    CHECK(has_note(got.model, "main rotor of 10.0"));
+  }
+}
+
 TEST_CASE("propellers left and right in one object are two, a main rotor is upright, a tail rotor across") {
   const TemporaryFolder folder;
   std::vector<AcObject> objects = aircraft_objects();
