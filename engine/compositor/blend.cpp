@@ -162,17 +162,18 @@ class IntoFrame {
 template <class Sample>
 class IntoPatch {
  public:
-  explicit IntoPatch(FloatPatch& patch) : patch_(patch), top_(patch.bit_depth) {}
+  IntoPatch(FloatPatch& patch, bool clips) : patch_(patch), top_(patch.bit_depth), clips_(clips) {}
 
   void put(int plane, int y, int x, float code, float opacity) const {
     PatchPlane& to = patch_.planes[static_cast<std::size_t>(plane)];
-    to.after.ptr<float>(y - to.rect.y)[x - to.rect.x] = std::clamp(code, 0.0F, top_.value());
+    to.after.ptr<float>(y - to.rect.y)[x - to.rect.x] = clips_ ? std::clamp(code, 0.0F, top_.value()) : code;
     to.opacity.ptr<float>(y - to.rect.y)[x - to.rect.x] = std::min(opacity, 1.0F);
   }
 
  private:
   FloatPatch& patch_;
   TopCode<Sample> top_;
+  bool clips_;
 };
 
 // Reads single pixels of a frame as R'G'B', in the frame's own planes, and puts what becomes of them into Target. Where
@@ -310,7 +311,8 @@ template <class Sample, class Target>
 std::int64_t blend_into(const Target& target, const Frame& frame, const Layer& layer, BlendChoice space) {
   PlaneWriter<Sample, Target> planes(frame, target);
   const cv::Mat color = in_footage_primaries(layer.color, frame.color);
-  const TransferCurve curve = transfer_curve_of(frame.color);
+  const TransferCurve curve =
+      space == BlendChoice::heat ? TransferCurve(TransferFunction::srgb) : transfer_curve_of(frame.color);
   return space == BlendChoice::linear
              ? planes.rewrite(layer.rect, LayerPixels<BlendChoice::linear>{color, layer.rect, curve})
              : planes.rewrite(layer.rect, LayerPixels<BlendChoice::display>{color, layer.rect, curve});
@@ -334,7 +336,7 @@ FloatPatch blended_patch(const Frame& frame, const Layer& layer, BlendChoice spa
   if (layer.empty()) return patch;
   with_sample_type(frame.bit_depth, [&](auto sample) {
     using Sample = decltype(sample);
-    blend_into<Sample>(IntoPatch<Sample>(patch), frame, layer, space);
+    blend_into<Sample>(IntoPatch<Sample>(patch, space != BlendChoice::heat), frame, layer, space);
   });
   return patch;
 }

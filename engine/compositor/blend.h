@@ -131,7 +131,7 @@ void SubsampledChroma::write(const Out& out) const {
 std::int64_t blend_over(Frame& frame, const Layer& layer, BlendChoice space);
 
 // The same into a copy of the samples around the layer, not rounded (compositor/float_patch.h), for stages that work on
-// what the layer changes. The frame stays as it is.
+// what the layer changes; of heat not clipped either. The frame stays as it is.
 //   margin_px  of the copy beyond the layer, on each side
 //   own_body   as for patch_of()
 [[nodiscard]] FloatPatch blended_patch(const Frame& frame, const Layer& layer, BlendChoice space, int margin_px,

@@ -19,6 +19,7 @@
 #include "base/image.h"
 #include "base/pose.h"
 #include "compositor/blend.h"
+#include "compositor/blur.h"
 #include "compositor/classic.h"
 #include "compositor/float_patch.h"
 #include "frame/render_plan.h"
@@ -125,7 +126,7 @@ void composite_intruder(ComposedFrame& composed, const Scene& scene, const Intru
                         bool keep) {
   const auto blend = [&](const Layer& layer, const StageDone& done) {
     if (layer.empty()) return;
-    if (has_post_blend_stages(scene.appearance))
+    if (has_post_blend_stages(scene))
       composite_with_post_blend_stages(composed, scene, layer, layers.placed.id, frame, done);
     else
       composite_direct(composed, scene, layer);
@@ -320,6 +321,20 @@ class PostBlendStages {
     tell("sharpened");
   }
 
+  // The camera's enhancement of local contrast: what a warm thing adds to the mean around it is taken away there.
+  void with_halo(double amount, double sigma_px) {
+    if (amount == 0) return;
+    const PatchPlane& plane = patch_.planes[0];
+    const cv::Mat added = plane.after - plane.before;
+    cv::Mat mean;
+    const cv::Mat kernel = sampled_gaussian(sigma_px, blur_margin_px(sigma_px));
+    cv::sepFilter2D(added, mean, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_CONSTANT);
+    for (int i = 0; i < (patch_.layout == PixelLayout::rgb ? 3 : 1); ++i)
+      add_change(patch_.planes[static_cast<std::size_t>(i)], -amount * mean);
+    composed_.op_counts.samples_filtered += samples_of(patch_, 0, 1);
+    tell("halo");
+  }
+
   void with_chroma_blur(double sigma_samples) {
     if (sigma_samples == 0 || patch_.plane_count() == 1) return;
     blur_chroma(patch_, sigma_samples);
@@ -347,21 +362,34 @@ class PostBlendStages {
 
 }  // namespace
 
-int post_blend_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layout) {
-  return std::max(sharpening_margin_px(appearance.sharpening, appearance.sharpening_px),
-                  chroma_blur_margin_px(layout, appearance.chroma_blur_px));
+namespace {
+
+double halo_of(const Scene& scene) {
+  return scene.is_thermal ? scene.appearance.thermal.halo : 0;
 }
 
-bool has_post_blend_stages(const AppearanceSettings& appearance) {
-  return appearance.sharpening > 0 || appearance.chroma_blur_px > 0 || !appearance.grain.is_none();
+}  // namespace
+
+int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout) {
+  const AppearanceSettings& appearance = scene.appearance;
+  return std::max({sharpening_margin_px(appearance.sharpening, appearance.sharpening_px),
+                   chroma_blur_margin_px(layout, appearance.chroma_blur_px),
+                   halo_of(scene) > 0 ? blur_margin_px(appearance.thermal.halo_px) : 0});
+}
+
+bool has_post_blend_stages(const Scene& scene) {
+  const AppearanceSettings& appearance = scene.appearance;
+  return appearance.sharpening > 0 || appearance.chroma_blur_px > 0 || !appearance.grain.is_none() ||
+         halo_of(scene) > 0;
 }
 
 Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const Layer& layer, int intruder,
                                        int number, const StageDone& done) {
   const AppearanceSettings& look = scene.appearance;
   FloatPatch patch = blended_patch(composed.image, layer, scene.compositing.blend,
-                                   post_blend_stages_margin_px(look, composed.image.layout), scene.own_body);
+                                   post_blend_stages_margin_px(scene, composed.image.layout), scene.own_body);
   PostBlendStages stages(patch, composed, done);
+  stages.with_halo(halo_of(scene), look.thermal.halo_px);
   stages.sharpened(look.sharpening, look.sharpening_px);
   stages.with_chroma_blur(look.chroma_blur_px);
   stages.with_grain(look.grain, number, intruder);
@@ -376,7 +404,7 @@ std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& 
   const cv::Rect image({0, 0}, background.size_px());
   std::vector<cv::Rect> reaches;
   std::vector<std::vector<cv::Point2d>> earlier_px;
-  const int margin_px = post_blend_stages_margin_px(scene.appearance, background.layout);
+  const int margin_px = post_blend_stages_margin_px(scene, background.layout);
   for (const IntruderLayers& intruder : layers) {
     if (!intruder.contrail.empty()) {  // which stays where it is
       reaches.push_back(grown(intruder.contrail.rect, margin_px) & image);

@@ -33,11 +33,11 @@ namespace sigs {
 [[nodiscard]] cv::Mat occluder_seen_from(const Pose<frame::World, frame::Camera>& world_from_camera,
                                          const Occluder& occluder, LensTable& lens, const cv::Rect& rect);
 
-// Whether anything follows the blending: sharpening, chroma blur, grain.
-[[nodiscard]] bool has_post_blend_stages(const AppearanceSettings& appearance);
+// Whether anything follows the blending: the halo of a thermal camera, sharpening, chroma blur, grain.
+[[nodiscard]] bool has_post_blend_stages(const Scene& scene);
 
 // How far these stages carry a change beyond the layer, px.
-[[nodiscard]] int post_blend_stages_margin_px(const AppearanceSettings& appearance, PixelLayout layout);
+[[nodiscard]] int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout);
 
 // Called with the name of each stage that is not left out, when the frame holds its result.
 using StageDone = std::function<void(const std::string& name)>;

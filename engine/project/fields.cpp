@@ -64,6 +64,8 @@ void add_footage(FieldList list, FootageSettings& footage) {
   list.number("first_frame", &footage.first_frame, "frame", 0, 1e9, "first frame that is used, counted from 0");
   list.number("last_frame", &footage.last_frame, "frame", 0, 1e9, "last frame that is used; null: the footage's last");
   list.path("calibration", footage.calibration, true, "the camera's calibration file");
+  list.add("spectrum", choice_of(footage.spectrum, {"visible", "thermal"}), "",
+           "thermal: the camera sees heat; light has no effect, appearance.thermal and intruders[].heat have");
   list.add("lens_model", choice_of(footage.lens_model, {"auto", "brown_conrady", "fisheye"}), "",
            "lens model of the calibration's numbers; auto: as the file says, else as they look");
   list.path("occluder_mask", footage.occluder_mask, false,
@@ -87,6 +89,14 @@ void add_contrail(FieldList list, ContrailSettings& contrail) {
   list.number("spread_mps", &contrail.spread_mps, "m/s", 0, 100, "how fast a strand widens: a quarter of its width");
   list.number("opacity", &contrail.opacity, "", 0, 1, "of a strand where it begins, seen from the side");
   list.number("brightness", &contrail.brightness, "", 0, 10, "1: as bright as a white surface squarely in the sun");
+}
+
+void add_heat(FieldList list, HeatSettings& heat) {
+  list.number("skin", &heat.skin, "code", 0, 10'000, "thermal: how much warmer than the sky its skin looks");
+  list.number("engine", &heat.engine, "code", 0, 10'000, "the same of engines, nacelles and cowls");
+  list.number("exhaust", &heat.exhaust, "code", 0, 10'000, "of exhausts and nozzles");
+  list.number("glass", &heat.glass, "code", 0, 10'000, "of glass, which is opaque to heat");
+  list.number("rotor", &heat.rotor, "code", 0, 10'000, "of blades");
 }
 
 void add_own_body(FieldList list, OwnBodySettings& own_body) {
@@ -228,6 +238,12 @@ void add_appearance(FieldList list, AppearanceSettings& appearance) {
   list.add("haze.airlight", choice_of(haze.airlight, {"behind", "color"}), "",
            "colour of the haze: as the footage is around the intruder, or airlight_color");
   list.number("haze.airlight_color", &haze.airlight_color, "", 0, 100, "red, green, blue in linear light");
+  ThermalSettings& thermal = appearance.thermal;
+  list.number("thermal.sky", &thermal.sky, "code", 0, 255, "thermal: code value of the clear sky");
+  list.add("thermal.hot", choice_of(thermal.hot, {"white", "black"}), "", "thermal: how what is warm is shown");
+  list.number("thermal.halo", &thermal.halo, "", 0, 5,
+              "thermal: how much the camera takes away of the mean around each place; 0: no halo");
+  list.number("thermal.halo_px", &thermal.halo_px, "px", 0.2, 100, "thermal: sigma of the blur that this mean is of");
   list.add("codec.match", choice_of(appearance.codec.match, {"none", "footage", "h264", "mjpeg"}), "",
            "codec that the image around the intruder goes through once; footage: its own");
   list.number("codec.quantiser", &appearance.codec.quantiser, "", 0, 100,
@@ -290,6 +306,7 @@ std::vector<Field> fields_of(Project& project) {
              "distractor: what detectors should not report, such as a bird; evaluation counts it as no intruder");
     add_model(FieldList(fields, prefix + "model."), intruder.model);
     add_contrail(FieldList(fields, prefix + "contrail."), intruder.contrail);
+    add_heat(FieldList(fields, prefix + "heat."), intruder.heat);
     add_trajectory(FieldList(fields, prefix + "trajectory."), intruder.trajectory);
     for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j) {
       WaypointSettings& waypoint = intruder.trajectory.waypoints[j];

@@ -19,6 +19,9 @@ namespace sigs {
 // not, judged by its numbers (docs/calibration-files.md).
 enum class LensModelChoice { automatic, brown_conrady, fisheye };
 
+// What the camera's sensor responds to: light, or the heat that things send out (long-wave infrared).
+enum class Spectrum { visible, thermal };
+
 // The contents of a project file: numbers, names and paths; nothing is opened. The members are described, with unit and
 // range, in fields.cpp and docs/project-format.md.
 // The background: which video, which of its frames, and the camera that took it.
@@ -35,6 +38,7 @@ struct FootageSettings {
   int occluder_frame = 0;          // the frame that the mask was made of, counted from 0
   double occluder_distance_m = 0;  // intruders nearer than this are before it; 0: none is
   std::string real_aircraft;       // file with the boxes of aircraft that the footage itself shows; empty: none
+  Spectrum spectrum = Spectrum::visible;
   LensModelChoice lens_model = LensModelChoice::automatic;
   double max_substituted_percent = 1;  // of the exported frames; more damaged ones are an error
 
@@ -214,6 +218,18 @@ struct ContrailSettings {
   [[nodiscard]] bool operator==(const ContrailSettings&) const = default;
 };
 
+// How much warmer than the clear sky the parts of an aircraft look to a thermal camera, in 8-bit code values before
+// they clip (docs/thermal.md). Which part a surface belongs to is told by its material.
+struct HeatSettings {
+  double skin = 200;
+  double engine = 300;
+  double exhaust = 400;
+  double glass = 150;
+  double rotor = 100;
+
+  [[nodiscard]] bool operator==(const HeatSettings&) const = default;
+};
+
 // What a detector should make of it: an intruder, or something else in the air that it should not report, such as a
 // bird, which labels state with its own category.
 enum class RoleChoice { intruder, distractor };
@@ -225,6 +241,7 @@ struct IntruderSettings {
   RoleChoice role = RoleChoice::intruder;
   ModelSettings model;
   ContrailSettings contrail;
+  HeatSettings heat;  // used with Spectrum::thermal
   TrajectoryPlan trajectory;
   std::string unknown_json;
 
@@ -235,9 +252,11 @@ struct IntruderSettings {
 [[nodiscard]] AttitudeKind attitude_of_category(const std::string& category);
 
 // How the intruder gets into the image: directly through the lens, by section 3.2 of the paper, or by a keyed paste;
-// and whether light is mixed, which adds as in the lens, or code values, as the paper does.
+// and whether light is mixed, which adds as in the lens, or code values, as the paper does. No project states `heat`:
+// code values as sRGB has them whatever the footage's curve, since they stand for heat, and none clips before the
+// stages that follow.
 enum class MethodChoice { direct, classic, plain };
-enum class BlendChoice { linear, display };
+enum class BlendChoice { linear, display, heat };
 
 // The blur by distance with which SIGS follows the paper, which gives no number: sigma 2 px at 1 km.
 inline constexpr double kPaperBlur_px_per_m = 0.002;
@@ -297,6 +316,20 @@ struct CodecMatchSettings {
   [[nodiscard]] bool operator==(const CodecMatchSettings&) const = default;
 };
 
+// Which end of the scale things that are warm have.
+enum class HotChoice { white, black };
+
+// Of thermal footage: its scale, and the camera's enhancement of local contrast, by which a warm thing darkens what is
+// around it.
+struct ThermalSettings {
+  double sky = 96;  // 8-bit code value of the clear sky
+  HotChoice hot = HotChoice::white;
+  double halo = 0.35;   // how much of the surroundings' mean is taken away, 0..5
+  double halo_px = 12;  // sigma of the Gaussian that this mean is taken by
+
+  [[nodiscard]] bool operator==(const ThermalSettings&) const = default;
+};
+
 // How the footage looks, and so how an intruder in it has to look (method direct). Each part but the point
 // spread is left out at its default.
 struct AppearanceSettings {
@@ -308,6 +341,7 @@ struct AppearanceSettings {
   double saturation = 1;       // of the intruder's colours
   GrainSettings grain;
   HazeSettings haze;
+  ThermalSettings thermal;  // used with Spectrum::thermal
   CodecMatchSettings codec;
 
   [[nodiscard]] bool operator==(const AppearanceSettings&) const = default;

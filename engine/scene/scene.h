@@ -124,6 +124,7 @@ struct Scene {
   FootageShape footage;
   int first_frame = 0;                          // of the footage, from 0
   int last_frame = 0;                           // included
+  bool is_thermal = false;                      // Spectrum::thermal: models and light are as heat.h has them
   bool horizon_is_known = false;                // the project, or the camera's log, states the camera's attitude
   std::optional<LocalFrame> earth = {};         // where the world lies on the Earth, if that is known
   std::optional<double> utc_at_frame_0_s = {};  // seconds since 1970 without leap seconds, if the camera's log knows

@@ -170,7 +170,8 @@ FileStamp stamp_of(const std::filesystem::path& file) {
 }
 
 // Numbers by their bits, so that NaN has a place in the order too.
-using ModelKey = std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t, bool>;
+using ModelKey =
+    std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t, bool, std::optional<HeatLevels>>;
 using ImageKey = std::tuple<std::string, int, int>;
 using CameraKey = std::tuple<std::string, int, int, std::optional<LensModel>>;
 
@@ -178,22 +179,25 @@ std::string name_of(const std::filesystem::path& file) {
   return file.lexically_normal().string();
 }
 
-ModelKey key_of(const std::filesystem::path& file, const ModelAxes& axes) {
+ModelKey key_of(const std::filesystem::path& file, const ModelAxes& axes, const std::optional<HeatLevels>& heat) {
   return {name_of(file),
           axes.forward,
           axes.up,
           std::bit_cast<std::uint64_t>(axes.scale),
           std::bit_cast<std::uint64_t>(axes.length_m),
-          axes.anchor_at_bounds};
+          axes.anchor_at_bounds,
+          heat};
 }
 
 ImageKey key_of(const std::filesystem::path& file, cv::Size size_px) {
   return {name_of(file), size_px.width, size_px.height};
 }
 
-Result<std::shared_ptr<const Model>> read_model(const std::filesystem::path& file, const ModelAxes& axes) {
+Result<std::shared_ptr<const Model>> read_model(const std::filesystem::path& file, const ModelAxes& axes,
+                                                const std::optional<HeatLevels>& heat) {
   Result<Mesh> mesh = read_obj(file, axes);
   if (!mesh) return fail(mesh.error());
+  if (heat) heat_surfaces(*mesh, *heat);
   return std::make_shared<const Model>(model_of(*std::move(mesh)));
 }
 
@@ -273,8 +277,9 @@ SceneFiles::SceneFiles(SceneFiles&&) noexcept = default;
 SceneFiles& SceneFiles::operator=(SceneFiles&&) noexcept = default;
 SceneFiles::~SceneFiles() = default;
 
-Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::path& file, const ModelAxes& axes) {
-  return caches_->models.take(key_of(file, axes), stamp_of(file), [&] { return read_model(file, axes); });
+Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::path& file, const ModelAxes& axes,
+                                                       const std::optional<HeatLevels>& heat) {
+  return caches_->models.take(key_of(file, axes, heat), stamp_of(file), [&] { return read_model(file, axes, heat); });
 }
 
 Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::Size footage_size_px,

@@ -12,6 +12,7 @@
 #include "base/result.h"
 #include "camera/camera.h"
 #include "mesh/mesh.h"
+#include "scene/heat.h"
 #include "scene/model.h"
 #include "telemetry/track.h"
 
@@ -53,7 +54,9 @@ class SceneFiles {
   ~SceneFiles();
 
   // The same file and axes give the same object for as long as it is in use.
-  [[nodiscard]] Result<std::shared_ptr<const Model>> model(const std::filesystem::path& file, const ModelAxes& axes);
+  //   heat  none: it looks as its materials say; else as a thermal camera sees it
+  [[nodiscard]] Result<std::shared_ptr<const Model>> model(const std::filesystem::path& file, const ModelAxes& axes,
+                                                           const std::optional<HeatLevels>& heat = std::nullopt);
 
   // read_calibration (camera/camera.h). model: none: taken from the file.
   [[nodiscard]] Result<Camera> camera(const std::filesystem::path& calibration, cv::Size footage_size_px,

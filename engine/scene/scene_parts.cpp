@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/pose.h"
+#include "scene/heat.h"
 #include "scene/scene_at.h"
 
 namespace sigs {
@@ -93,22 +94,40 @@ CameraMotion steady_motion(const CameraSettings& camera) {
               camera.exposure_s ? std::vector<ExposureTime>{{0, *camera.exposure_s}} : std::vector<ExposureTime>{}};
 }
 
+namespace {
+
+SceneLight light_of(const LightSettings& light) {
+  return {.kind = light.kind,
+          .position_m = light.position_m,
+          .color = light.color,
+          .ambient = light.ambient,
+          .sun_azimuth_rad = rad_of_deg(light.sun.azimuth_deg),
+          .sun_elevation_rad = rad_of_deg(light.sun.elevation_deg),
+          .sky_color = light.sky_color,
+          .ground_color = light.ground_color,
+          .exposure = light.exposure};
+}
+
+// A scene that a thermal camera sees: surfaces send out what their materials say, from every side alike (heat.h), and
+// code values mix, as they stand for heat.
+void see_heat(Scene& scene) {
+  scene.is_thermal = true;
+  scene.light = {.kind = LightKind::point, .ambient = 1};
+  scene.compositing.blend = BlendChoice::heat;
+}
+
+}  // namespace
+
 Scene bare_scene(const Project& project, const FootageShape& footage) {
-  return {.camera = {.lens = *Lens::make({}), .size_px = footage.size_px},
-          .motion = steady_motion(project.camera),
-          .light = {.kind = project.light.kind,
-                    .position_m = project.light.position_m,
-                    .color = project.light.color,
-                    .ambient = project.light.ambient,
-                    .sun_azimuth_rad = rad_of_deg(project.light.sun.azimuth_deg),
-                    .sun_elevation_rad = rad_of_deg(project.light.sun.elevation_deg),
-                    .sky_color = project.light.sky_color,
-                    .ground_color = project.light.ground_color,
-                    .exposure = project.light.exposure},
-          .compositing = project.compositing,
-          .appearance = project.appearance,
-          .footage = footage,
-          .horizon_is_known = knows_horizon(project.camera)};
+  Scene scene{.camera = {.lens = *Lens::make({}), .size_px = footage.size_px},
+              .motion = steady_motion(project.camera),
+              .light = light_of(project.light),
+              .compositing = project.compositing,
+              .appearance = project.appearance,
+              .footage = footage,
+              .horizon_is_known = knows_horizon(project.camera)};
+  if (project.footage.spectrum == Spectrum::thermal) see_heat(scene);
+  return scene;
 }
 
 Result<FrameRange, Problem> scene_range(const FootageSettings& settings, const FootageShape& footage) {
@@ -181,7 +200,12 @@ Result<Occluder, Problem> scene_occluder(const Project& project, const Scene& sc
 Result<std::shared_ptr<const Model>, Problem> scene_model(const Project& project, std::size_t intruder,
                                                           SceneFiles& files) {
   const ModelSettings& settings = project.intruders[intruder].model;
-  const Result<std::shared_ptr<const Model>> model = files.model(resolved(project, settings.file), axes_of(settings));
+  const std::optional<HeatLevels> heat =
+      project.footage.spectrum == Spectrum::thermal
+          ? std::optional(heat_levels_of(project.intruders[intruder].heat, project.appearance.thermal))
+          : std::nullopt;
+  const Result<std::shared_ptr<const Model>> model =
+      files.model(resolved(project, settings.file), axes_of(settings), heat);
   if (model) return *model;
   const std::string key = key_of_intruder(intruder) + ".model.";
   if (is_axes_setting(model.error().where))
