@@ -2,6 +2,7 @@
 # Whether inserted aircraft can be told from real ones: realism/README.md.
 #   bench/realism.sh [--init] [--matched] [--best] [BUILD]             the clips, at the defaults; some minutes on two processors
 #   bench/realism.sh stills|trackers [--matched] [--best] [BUILD]
+#   bench/realism.sh thermal --init [BUILD]  those of a thermal camera
 #   bench/realism.sh lit --init [BUILD]     how bright the intruder is beside a real one, before and after `sigs appearance --lit-like`
 #   --steps    trackers: what each equality of the real and the inserted target changes, of the last settings; some minutes more
 #   --views N  of each inserted target, of which the one with the silhouette as large as the real one's is taken
@@ -13,7 +14,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 what=clips
-case "${1:-}" in clips | stills | trackers | lit) what=$1 && shift ;; esac
+case "${1:-}" in clips | stills | trackers | lit | thermal) what=$1 && shift ;; esac
 matched= best= init= further=()
 while [[ "${1:-}" == --* ]]; do
   case "$1" in
@@ -30,12 +31,13 @@ build=${1:-build/release}
 data=${SIGS_TEST_DATA:-../shared/data}
 folder=$build/realism
 [ $what = stills ] && folder=$build/realism-stills
+[ $what = thermal ] && folder=$build/realism-thermal
 mkdir -p "$folder/init"
 options=(--shake "${further[@]}")
 [ $what = clips ] || options+=("--$what")
 [ $what != lit ] || options+=(--frames 2)
 if [ -n "$init" ]; then
-  for clip in "$data"/track/V_{AIRPLANE,HELICOPTER}_*.mp4; do
+  for clip in "$data"/$([ $what = thermal ] && echo thermal/IR || echo track/V)_{AIRPLANE,HELICOPTER}_*.mp4; do
     to=$folder/init/$(basename "${clip%.*}").json
     [ -e "$to" ] || "$build/sigs" init "$clip" --out "$to" >/dev/null 2>"$to.log" || { cat "$to.log" >&2; exit 1; }
   done

@@ -34,26 +34,39 @@ bool is_like_tuning(std::string_view name) {
 
 }  // namespace
 
-std::vector<RealClip> real_clips() {
+namespace {
+
+// The clips of airplanes and helicopters in a folder, by name; of others there is no model.
+std::vector<RealClip> clips_in(const fs::path& folder, std::string_view prefix) {
   std::vector<RealClip> clips;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(fs::path(SIGS_TEST_DATA) / "track", ignored)) {
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     if (entry.path().extension() != ".mp4") continue;
     const std::string name = entry.path().stem().string();
-    if (!name.starts_with("V_AIRPLANE_") && !name.starts_with("V_HELICOPTER_")) continue;  // birds and drones
-    const bool is_tuning = std::find(std::begin(kTuning), std::end(kTuning), name) != std::end(kTuning);
-    if (!is_tuning && is_like_tuning(name)) continue;  // neither tuned by nor apart
-    const fs::path csv = entry.path().parent_path() / (name + "_gt.csv");
-    if (!fs::exists(csv)) continue;
+    const bool is_helicopter = name.starts_with(std::string(prefix) + "HELICOPTER_");
+    const fs::path csv = folder / (name + "_gt.csv");
+    if ((!is_helicopter && !name.starts_with(std::string(prefix) + "AIRPLANE_")) || !fs::exists(csv)) continue;
     const auto boxes = read_target_boxes(csv);
     if (!boxes) accuracy::stop(boxes.error().text());
-    clips.push_back({.name = name,
-                     .path = entry.path(),
-                     .is_helicopter = name.find("HELICOPTER") != std::string::npos,
-                     .is_tuning = is_tuning,
-                     .boxes = *boxes});
+    clips.push_back({.name = name, .path = entry.path(), .is_helicopter = is_helicopter, .boxes = *boxes});
   }
   std::sort(clips.begin(), clips.end(), [](const RealClip& a, const RealClip& b) { return a.name < b.name; });
+  return clips;
+}
+
+}  // namespace
+
+std::vector<RealClip> real_clips() {
+  std::vector<RealClip> clips = clips_in(fs::path(SIGS_TEST_DATA) / "track", "V_");
+  for (RealClip& clip : clips)
+    clip.is_tuning = std::find(std::begin(kTuning), std::end(kTuning), clip.name) != std::end(kTuning);
+  std::erase_if(clips, [](const RealClip& clip) { return !clip.is_tuning && is_like_tuning(clip.name); });
+  return clips;
+}
+
+std::vector<RealClip> thermal_clips() {
+  std::vector<RealClip> clips = clips_in(fs::path(SIGS_TEST_DATA) / "thermal", "IR_");
+  for (std::size_t i = 0; i < clips.size(); ++i) clips[i].is_tuning = i % 2 == 1;
   return clips;
 }
 

@@ -25,6 +25,9 @@ struct RealClip {
 // clips.cpp; others of the same runs of five numbers, which often show the same sky, are left out.
 [[nodiscard]] std::vector<RealClip> real_clips();
 
+// Those of SIGS_TEST_DATA/thermal, of a thermal camera; every second by name is for tuning.
+[[nodiscard]] std::vector<RealClip> thermal_clips();
+
 // The stills of SIGS_TEST_DATA/stills as clips of one frame each, with boxes drawn by hand: four raw gray images of a
 // camera aloft (Airborne Object Tracking), four JPEG images of a towed glider's nose camera.
 [[nodiscard]] std::vector<RealClip> real_stills();

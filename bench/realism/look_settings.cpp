@@ -12,7 +12,8 @@ namespace sigs::bench {
 
 namespace {
 
-constexpr std::string_view kTaken[] = {"light.", "compositing.", "appearance.", "camera.exposure_s"};
+constexpr std::string_view kTaken[] = {"light.", "compositing.", "appearance.", "camera.exposure_s",
+                                       "footage.spectrum"};
 
 bool is_taken(const std::string& key) {
   for (const std::string_view begin : kTaken)

@@ -25,6 +25,7 @@ struct Options {
   int jobs = 2;
   bool tuning_only = false;
   bool shakes = false;
+  bool thermal = false;
   bool stills = false;
   bool trackers = false;
   bool steps = false;
@@ -112,6 +113,7 @@ int main(int count, char** arguments) {
   app.add_option("--clip", options.clip, "clips whose name contains this alone");
   app.add_flag("--tuning", options.tuning_only, "the tuning clips alone");
   app.add_flag("--stills", options.stills, "the stills in place of the clips");
+  app.add_flag("--thermal", options.thermal, "clips of a thermal camera");
   app.add_flag("--trackers", options.trackers, "instead: how OpenCV's trackers follow real and inserted targets");
   app.add_flag("--lit", options.lit,
                "instead: how bright the intruder is beside a real target before and after lit_like()");
@@ -123,7 +125,7 @@ int main(int count, char** arguments) {
   CLI11_PARSE(app, count, arguments);
   const fs::path folder = options.folder;
   fs::create_directories(folder / "calibrations");
-  std::vector<RealClip> clips = options.stills ? real_stills() : real_clips();
+  std::vector<RealClip> clips = options.stills ? real_stills() : options.thermal ? thermal_clips() : real_clips();
   std::erase_if(clips, [&](const RealClip& clip) {
     return clip.name.find(options.clip) == std::string::npos || (options.tuning_only && !clip.is_tuning);
   });

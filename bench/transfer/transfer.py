@@ -31,17 +31,36 @@ CONTRAIL = {
     "brightness": {"uniform": [0.3, 0.9]},
 }
 
+# What the footage does not tell is drawn, as bright as real aircraft are in the training clips: photographers have the
+# sun behind them more often than not.
+DRAWN_LIGHT = {
+    "sun.azimuth_deg": {"normal": {"mean": 180, "deviation": 60, "low": 0, "high": 360}},
+    "sun.elevation_deg": {"uniform": [5, 50]},
+    "exposure": {"log_uniform": [0.7, 3]},
+}
+SUN_ANYWHERE = {"sun.azimuth_deg": {"uniform": [-180, 180]}, "sun.elevation_deg": {"uniform": [15, 60]}}
+
 # Name of the arm: in what its images differ from the whole of what SIGS does. None: the footage's own aircraft.
 ARMS = {
     "real": None,
     "ours": {},
-    "ours as before": {"exposure_s": 1e-6, "path": True, "one": True, "no trail": True},
+    "ours as before": {"exposure_s": 1e-6, "path": True, "one": True, "no trail": True, "sun anywhere": True},
     "ours, rotors frozen": {"exposure_s": 1e-6},
     "ours, level and nose first": {"path": True},
     "ours, one helicopter": {"one": True},
     "ours, without contrails": {"no trail": True},
+    "ours, the sun anywhere": {"sun anywhere": True},
     "ours, without codec, noise and blur": {"set": ["appearance.codec.match=none", "appearance.psf_sigma_px=0"]},
-    "pasted plainly, a lamp": {"set": ["compositing.method=plain", "light.kind=point"]},
+    "pasted plainly, a lamp": {"set": ["compositing.method=plain", "light.kind=point"], "sun anywhere": True},
+}
+# Of thermal clips, where neither light nor trails count.
+THERMAL_ARMS = {"real": None, "ours": {"no trail": True}, "ours, lit as by day": {"no trail": True, "lit": True}}
+HEAT = {
+    "skin": {"log_uniform": [80, 400]},
+    "engine": {"log_uniform": [100, 500]},
+    "exhaust": {"log_uniform": [100, 800]},
+    "glass": {"log_uniform": [50, 300]},
+    "rotor": {"log_uniform": [20, 200]},
 }
 MIXED = {
     "a tenth of the real clips": [("real", 0.1)],
@@ -77,7 +96,15 @@ def halves_of(test):
 
 
 def clips_in(folder, *kinds):
-    return sorted(path.stem for path in pathlib.Path(folder).glob("V_*.mp4") if kind_of(path.stem) in kinds)
+    return sorted(path.stem for path in pathlib.Path(folder).glob("*_*_*.mp4") if kind_of(path.stem) in kinds)
+
+
+def is_thermal(clips):
+    return all(clip.startswith("IR_") for clip in clips)
+
+
+def arms_of(clips):
+    return THERMAL_ARMS if is_thermal(clips) else ARMS
 
 
 def run(*command):
@@ -104,9 +131,18 @@ def recipe_of(name, folder, clips_folder, clips, images, arm):
         "placement": "sky",
         "per_image": 0 if arm is None else {"choice": [1, 1, 2]},
         "camera": {"attitude_deg.pitch": {"uniform": [5, 60]}},
-        "light": {"sun.azimuth_deg": {"uniform": [-180, 180]}, "sun.elevation_deg": {"uniform": [15, 60]}},
+        "light": DRAWN_LIGHT,
         "flights": [flight],
     }
+    thermal = is_thermal(clips)
+    if thermal:
+        flight["size_px"] = {"log_uniform": [4, 64]}
+        # Noise and clouds hide the sky from what tells it from land; land lies below in all of these clips.
+        group["placement"] = "anywhere"
+        flight["y_percent"] = {"uniform": [0, 65]}
+        group["appearance"] = {"thermal.halo": {"uniform": [0.1, 0.6]}}
+    if arm is None or "sun anywhere" in arm:
+        group["light"] = SUN_ANYWHERE
     if arm and "exposure_s" in arm:
         group["camera"]["exposure_s"] = arm["exposure_s"]
     arm = arm or {}
@@ -116,12 +152,15 @@ def recipe_of(name, folder, clips_folder, clips, images, arm):
         one["category"] = "helicopter" if file in HELICOPTERS and "path" not in arm else "airplane"
         if file.startswith("airliner") and "no trail" not in arm:
             one["contrail"] = CONTRAIL
+        if thermal:
+            one["heat"] = HEAT
         aircraft.append(one)
     backgrounds = [
         {
             "name": clip,
             "project": f"projects/{clip}.json",
-            "footage": {"real_aircraft": str(pathlib.Path(clips_folder) / f"{clip}_gt.csv")},
+            "footage": {"real_aircraft": str(pathlib.Path(clips_folder) / f"{clip}_gt.csv")}
+            | ({"spectrum": "visible"} if "lit" in arm else {}),
             "camera": {"position_m": [0, 0, -20000], "track": {"file": ""}},
         }
         for clip in clips
@@ -148,7 +187,7 @@ def make(folder, sigs, clips_folder):
         if not project.exists():
             run(sigs, "init", pathlib.Path(clips_folder) / f"{clip}.mp4", "--out", project)
     sets = {f"test {clip}": ([clip], TEST_IMAGES_A_CLIP, None) for clip in test + others}
-    sets |= {name: (train, TRAIN_IMAGES, arm) for name, arm in ARMS.items()}
+    sets |= {name: (train, TRAIN_IMAGES, arm) for name, arm in arms_of(flown).items()}
     for name, (clips, images, arm) in sets.items():
         out = folder / name.replace(" ", "-").replace(",", "")
         if (out / "index.json").exists():
@@ -158,6 +197,11 @@ def make(folder, sigs, clips_folder):
         settings = [part for setting in (arm or {}).get("set", []) for part in ("--set", setting)]
         run(sigs, "dataset", recipe, "--out", out, "--resume", *settings)
         print(f"{name}: made", flush=True)
+
+
+def made_of(folder):
+    """The clips that there are projects of."""
+    return [path.stem for path in (folder / "projects").glob("*_*_*.json")]
 
 
 def labels_of(folder, name):
@@ -305,7 +349,7 @@ def report(folder):
         print(f"\n{title}: {len(half)} clips, {counts}\n")
         print("| trained on | AP | airplanes | helicopters | boxes over 56 px | recall at 1 false alarm an image | from seed to seed | seeds | birds, drones |")
         print("|---|---|---|---|---|---|---|---|---|")
-        for arm in list(ARMS) + list(MIXED):
+        for arm in list(arms_of(clips)) + list(MIXED):
             runs = found.get(arm.replace(" ", "-").replace(",", ""))
             if runs:
                 print(row_of(arm, runs, half, others))
@@ -319,7 +363,7 @@ def main():
         train_arm(folder, sys.argv[3], int(sys.argv[4]))
     elif command == "list":
         for seed in SEEDS:
-            for arm in list(ARMS) + list(MIXED):
+            for arm in list(arms_of(made_of(folder))) + list(MIXED):
                 print(f"{arm}\t{seed}")
     else:
         report(folder)

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 62> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 78> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
@@ -41,6 +41,22 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 62> kNames{{
     {"appearance.grain.seed", "Grain seed"},
     {"appearance.haze.visibility_m", "Visibility"},
     {"appearance.haze.airlight_color", "Airlight colour"},
+    {"appearance.thermal.sky", "Sky's code"},
+    {"appearance.thermal.hot", "Warm is"},
+    {"appearance.thermal.halo", "Halo"},
+    {"appearance.thermal.halo_px", "Halo radius"},
+    {"heat.skin", "Heat of skin"},
+    {"lights.position_cd", "Position lights"},
+    {"lights.strobe_cd", "Strobes"},
+    {"lights.beacon_cd", "Beacons"},
+    {"lights.landing_cd", "Landing light"},
+    {"lights.landing_beam_deg", "Its beam"},
+    {"lights.flashes_per_minute", "Flashes a minute"},
+    {"lights.flash_s", "Length of a flash"},
+    {"lights.phase", "Phase of flashes"},
+    {"light.white_cdpm2", "White is"},
+    {"appearance.glare", "Glare of lights"},
+    {"appearance.glare_px", "Glare radius"},
     {"appearance.codec.match", "Codec"},
     {"appearance.codec.quantiser", "Quantiser"},
     {"geo.height_m", "Height of z = 0"},
@@ -119,12 +135,13 @@ std::string advice_on_guess(std::string_view key) {
 }
 
 bool is_common(std::string_view key) {
-  constexpr std::array<std::string_view, 35> kCommon{
+  constexpr std::array<std::string_view, 37> kCommon{
       "name",
       "footage.video",
       "footage.first_frame",
       "footage.last_frame",
       "footage.calibration",
+      "footage.spectrum",
       "footage.own_body_mask",
       "own_body.method",
       "own_body.soft_edge_px",
@@ -148,6 +165,7 @@ bool is_common(std::string_view key) {
       "model.up",
       "model.length_m",
       "contrail.strands",
+      "heat.skin",
       "trajectory.timing",
       "trajectory.attitude",
       "compositing.method",

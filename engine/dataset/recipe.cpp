@@ -257,6 +257,15 @@ void read_contrail(RecipeNode& node, Aircraft& aircraft) {
   contrail.done();
 }
 
+// "heat": {"skin": QUANTITY, ...}, "lights": {"strobe_cd": QUANTITY, ...}
+void read_drawn(RecipeNode& node, const char* section, Aircraft& aircraft) {
+  const Json* const json = node.value(section);
+  if (json == nullptr) return;
+  RecipeNode part(*json, node.key_of(section), node.log());
+  aircraft.drawn.merge(numbers_in(part, std::string("intruders[0].") + section, {}, {}));
+  part.done();
+}
+
 Aircraft read_aircraft(RecipeNode node, const Project& base) {
   Project project = base;
   IntruderSettings& intruder = project.intruders.front();
@@ -270,6 +279,7 @@ Aircraft read_aircraft(RecipeNode node, const Project& base) {
   aircraft.is_distractor = read_distractor(node);
   aircraft.speed_limits_mps = read_speed_limits(node);
   read_contrail(node, aircraft);
+  for (const char* const section : {"heat", "lights"}) read_drawn(node, section, aircraft);
   check_tags(aircraft.tags, node);
   node.done();
   return aircraft;

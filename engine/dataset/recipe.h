@@ -39,6 +39,7 @@ struct Aircraft {
   std::optional<Span> speed_limits_mps;      // over ground; none: any speed is allowed
   std::map<std::string, Quantity> contrail;  // numbers of the project, by key: "intruders[0].contrail.strands"
   double contrail_above_m = 0;               // only this far above the ground, z = 0
+  std::map<std::string, Quantity> drawn;     // likewise, of heat and lights: "intruders[0].heat.skin"
   std::map<std::string, std::string> tags;
 };
 

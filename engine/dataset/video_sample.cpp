@@ -204,16 +204,18 @@ void sample_numbers(const std::map<std::string, Quantity>& numbers, const Sample
   }
 }
 
-// "contrail.strands" and others, of an aircraft that flies high enough.
-void sample_contrail(const Flyer& flyer, const Sampler& sampler, IntruderSettings& intruder,
-                     std::map<std::string, double>& sampled) {
-  const auto& waypoints = intruder.trajectory.waypoints;
-  if (flyer.aircraft.contrail.empty() || -waypoints.front().position_m.z < flyer.aircraft.contrail_above_m) return;
+// "heat.skin", "lights.strobe_cd" and others; "contrail.strands" and others, of an aircraft that flies high enough.
+void sample_look(const Flyer& flyer, const Sampler& sampler, IntruderSettings& intruder,
+                 std::map<std::string, double>& sampled) {
+  const bool is_high = -intruder.trajectory.waypoints.front().position_m.z >= flyer.aircraft.contrail_above_m;
   Project alone;
-  alone.intruders = {intruder};
-  sample_numbers(flyer.aircraft.contrail, sampler, flyer.prefix, std::string_view("intruders[0].").size(), alone,
-                 sampled);
-  intruder.contrail = alone.intruders.front().contrail;
+  alone.intruders = {std::move(intruder)};
+  const auto sample = [&](const std::map<std::string, Quantity>& numbers) {
+    sample_numbers(numbers, sampler, flyer.prefix, std::string_view("intruders[0].").size(), alone, sampled);
+  };
+  sample(flyer.aircraft.drawn);
+  if (is_high) sample(flyer.aircraft.contrail);
+  intruder = std::move(alone.intruders.front());
 }
 
 // Adds a body to the project, or says why it cannot fly so.
@@ -252,7 +254,7 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& reci
   }
   intruder.trajectory.waypoints = std::move(planned->waypoints);
   turn_nose(intruder.trajectory, values);
-  sample_contrail(flyer, sampler, intruder, video.sampled);
+  sample_look(flyer, sampler, intruder, video.sampled);
   video.project.intruders.push_back(std::move(intruder));
   if (!frame) return {};
   const tl::expected<Behind, std::string> behind = checked_place(video.project, *frame, rules, estimator);

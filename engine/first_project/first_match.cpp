@@ -5,14 +5,23 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "appearance/appearance.h"
 #include "base/pose.h"
+#include "base/statistics.h"
 #include "base/text.h"
+#include "base/transfer.h"
 #include "ego_motion/ego_motion.h"
+#include "horizon/horizon.h"
+#include "horizon/sky_map.h"
+#include "video/color_space.h"
 
 namespace sigs {
 
@@ -110,6 +119,117 @@ Result<std::vector<FirstProjectNote>> match_appearance(FrameSource& footage, con
   const std::vector<FirstProjectNote> light = light_notes(seen->surroundings);
   notes.insert(notes.begin(), light.begin(), light.end());
   return notes;
+}
+
+namespace {
+
+constexpr int kSpectrumFrames = 5;
+constexpr double kMinSkyShare = 0.08, kMaxSkyShare = 0.9;  // beyond them sky or ground is not told from the other
+constexpr double kWarmShare = 0.75;  // quantile of the ground that is brighter than the sky, the camera's halo left out
+constexpr double kWarmGround_codes = 5;  // by so much
+constexpr int kThermalWidth_px = 640, kThermalHeight_px = 512;
+constexpr double kNight_code = 25;       // of 8 bits: half of the footage is darker by night
+constexpr double kNightWhite_cdpm2 = 5;  // f/2, 1/30 s, ISO 3200: 120 N^2 / (S t)
+constexpr double kWhiteOverNight = 3;    // light of a white surface over that of what is there
+constexpr double kHaloOfWidth = 0.0375;  // sigma of the halo over the image's width: 12 px in 320
+
+// Display codes of 8 bits: the median of what is sky in a frame, kWarmShare of what is not, the median of all.
+struct SkyAndGround {
+  std::optional<double> sky, ground;
+  double all = 0;
+};
+
+SkyAndGround sky_and_ground_of(const Frame& frame) {
+  cv::Mat gray;
+  cv::extractChannel(bgr_of(frame), gray, 1);
+  const ReducedLuma reduced = reduced_luma(gray);
+  const SkyMap map = sky_map_of(reduced.luma);
+  std::vector<double> sky, ground, all;
+  for (int y = 0; y < reduced.luma.rows; ++y)
+    for (int x = 0; x < reduced.luma.cols; ++x) {
+      const double code = reduced.luma.at<uchar>(y, x);
+      all.push_back(code);
+      (map.is_sky(x, y) ? sky : ground).push_back(code);
+    }
+  SkyAndGround found{.all = median(all)};
+  if (map.share < kMinSkyShare || map.share > kMaxSkyShare) return found;
+  found.sky = median(sky);
+  found.ground = quantile(ground, kWarmShare);
+  return found;
+}
+
+}  // namespace
+
+namespace {
+
+// Medians over some frames; skies and differences of those in which both sky and ground are told.
+struct Brightness {
+  std::vector<double> all, skies, differences;
+
+  [[nodiscard]] bool has_both() const { return 2 * skies.size() >= all.size(); }
+};
+
+Result<Brightness> brightness_of(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel) {
+  Brightness seen;
+  const int length = scene.last_frame - scene.first_frame + 1;
+  const int count = std::min(kSpectrumFrames, length);
+  for (int i = 0; i < count; ++i) {
+    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
+    const Result<Frame> frame =
+        footage.read(scene.first_frame + static_cast<int>((2LL * i + 1) * length / (2LL * count)));
+    if (!frame) return fail(frame.error());
+    if (frame->damaged) continue;
+    const SkyAndGround found = sky_and_ground_of(*frame);
+    seen.all.push_back(found.all);
+    if (!found.sky) continue;
+    seen.skies.push_back(*found.sky);
+    seen.differences.push_back(*found.ground - *found.sky);
+  }
+  return seen;
+}
+
+FirstProjectNote set_thermal(const Brightness& seen, int width_px, Project& project) {
+  project.footage.spectrum = Spectrum::thermal;
+  project.light = {};
+  project.appearance.black = 0;
+  project.appearance.haze = {};
+  project.appearance.thermal.sky = std::round(median(seen.has_both() ? seen.skies : seen.all));
+  project.appearance.thermal.halo_px = std::round(kHaloOfWidth * width_px * 10) / 10;
+  FirstProjectNote note{.field = "footage.spectrum", .is_guess = true};
+  note.text = fmt::format(
+      "thermal: the footage is gray and {}; its sky has code {:.0f}; how warm the intruder is "
+      "(intruders[].heat) and the camera's halo (appearance.thermal.halo) are guesses",
+      seen.has_both() ? "its ground is brighter than its sky" : "as small as that of thermal cameras",
+      project.appearance.thermal.sky);
+  note.remedy = "set footage.spectrum to visible if it is footage by light";
+  return note;
+}
+
+FirstProjectNote set_night(double code, Project& project) {
+  const double light = kWhiteOverNight * linear_of_display(static_cast<float>(code / 255));
+  project.light = {.color = glm::dvec3(light), .ambient = 1, .white_cdpm2 = kNightWhite_cdpm2};
+  FirstProjectNote note{.field = "light.white_cdpm2", .is_guess = true};
+  note.text = fmt::format(
+      "{} cd/m2 are white: by night, as the footage is as dark as code {:.0f}; the intruder is as "
+      "dark and shows its lights (intruders[].lights)",
+      kNightWhite_cdpm2, code);
+  note.remedy = "set it by aperture, exposure and sensitivity (docs/aircraft-lights.md)";
+  return note;
+}
+
+}  // namespace
+
+Result<std::optional<FirstProjectNote>> set_dark_or_thermal(FrameSource& footage, const Scene& scene, Project& project,
+                                                            const std::atomic<bool>* cancel) {
+  const Result<Brightness> seen = brightness_of(footage, scene, cancel);
+  if (!seen) return fail(seen.error());
+  if (seen->all.empty()) return std::nullopt;
+  const cv::Size& size_px = scene.footage.size_px;
+  const bool is_small = size_px.width <= kThermalWidth_px && size_px.height <= kThermalHeight_px;
+  const bool is_warm = seen->has_both() ? median(seen->differences) >= kWarmGround_codes : is_small;
+  if (project.appearance.saturation == 0 && is_warm) return set_thermal(*seen, size_px.width, project);
+  const double code = median(seen->all);
+  return code < kNight_code ? std::optional(set_night(code, project)) : std::nullopt;
 }
 
 namespace {

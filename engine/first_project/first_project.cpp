@@ -265,11 +265,13 @@ class Planning {
     const Result<std::vector<FirstProjectNote>> found =
         match_appearance(source, scene(), project(), {.progress = tell, .cancel = control_.cancel});
     if (!found) return fail(found.error());
-    for (const FirstProjectNote& one : *found) note(one);
-    if (project().appearance.saturation == 0)
-      first_.warnings.push_back({options_.video.string(),
-                                 "is gray; if a thermal camera took it, things show their heat in it, which is not "
-                                 "modelled: the intruder is lit as by day"});
+    const Result<std::optional<FirstProjectNote>> unlit =
+        set_dark_or_thermal(source, scene(), project(), control_.cancel);
+    if (!unlit) return fail(unlit.error());
+    if (*unlit) note(**unlit);
+    // What daylight would do is of no use then.
+    for (const FirstProjectNote& one : *found)
+      if (!*unlit || (!one.field.starts_with("light.") && one.field != "appearance.haze.visibility_m")) note(one);
     return {};
   }
 
@@ -284,6 +286,7 @@ class Planning {
     IntruderSettings intruder{.name = "intruder", .category = model->category, .model = model->settings};
     intruder.trajectory.attitude = attitude_of_category(intruder.category);
     intruder.trajectory.waypoints = std::move(flight.waypoints);
+    if (project().light.white_cdpm2) intruder.lights = usual_lights(intruder.category);  // by night
     project().intruders = {std::move(intruder)};
     project().camera.position_m.z -= flight.raise_m;
     note({.field = "camera.position_m",

@@ -64,6 +64,17 @@ struct MatchControl {
 [[nodiscard]] Result<std::vector<FirstProjectNote>> match_appearance(FrameSource& footage, const Scene& scene,
                                                                      Project& project, const MatchControl& control);
 
+// Makes the project thermal or one of the night, where the footage looks so: a guess, which the note says. None:
+// neither. Thermal: it is gray, and its ground is brighter than its sky, as things that are warm are, or there is no
+// ground and the image is as small as most thermal ones. Then the sky's code value is by the footage, the halo's width
+// by the image's, and the visible light's estimates are taken back. Night: half of it is darker than code 25 of 8 bits.
+// Then the intruder is lit as dark.
+//   project  after match_appearance()
+// Errors: those of FrameSource::read(), interrupted.
+[[nodiscard]] Result<std::optional<FirstProjectNote>> set_dark_or_thermal(FrameSource& footage, const Scene& scene,
+                                                                          Project& project,
+                                                                          const std::atomic<bool>* cancel);
+
 // The camera's turns as the images show them (ego_motion).
 struct FirstMotion {
   std::optional<FocalScale> focal;  // the lens is another one: of its focal length; the track is by that

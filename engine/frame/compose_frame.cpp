@@ -124,6 +124,22 @@ void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* ba
   layers.contrail_is_nearer = is_before_aircraft(scene, moment, layers.placed);
 }
 
+// Fills `lamps`. A thermal camera sees none of them.
+void add_lamps(const Scene& scene, const SceneMoment& moment, LensTable& lens, IntruderLayers& layers) {
+  const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(layers.placed.id)];
+  if (intruder.lights.is_dark() || scene.is_thermal || scene.compositing.method != MethodChoice::direct) return;
+  const AppearanceSettings& look = scene.appearance;
+  const LampSpread spread{.sigma_px = layers.sigma_px, .glare = look.glare, .glare_px = look.glare_px};
+  for (const LampImage& lamp : lamp_images(scene, moment, layers.placed, lens.camera().lens)) {
+    LampLayer made = lamp_layer(lamp, spread, {{0, 0}, scene.footage.size_px});
+    if (made.layer.empty()) continue;
+    made.layer = without_hidden(scene, moment, made.layer, layers.placed.distance_m(), lens);
+    if (made.layer.empty()) continue;
+    layers.lamp_truths.push_back({lamp.name, lamp.pixel, lamp.share, made.brightest});
+    layers.lamps.push_back(std::move(made));
+  }
+}
+
 // Fills `motion_blurred` and `blurred`; the latter stays empty where the layer is too faint to be seen.
 void blur(const Scene& scene, const ColorInfo& footage, int bit_depth, IntruderLayers& layers) {
   const cv::Rect image({0, 0}, scene.footage.size_px);
@@ -188,6 +204,7 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
                              .motion_blur_px = far_to_near[i].motion_px,
                              .visibility_m = has_haze ? scene.appearance.haze.visibility_m : std::nullopt};
     if (scene.earth) truth.place = scene.earth->place_of(moment.world_from_camera * truth.position_m);
+    truth.lights = far_to_near[i].lamp_truths;
     truth.has_contrail = !far_to_near[i].contrail.empty();
     truth.is_distractor = scene.intruders[static_cast<std::size_t>(truth.id)].is_distractor;
     truths.push_back(std::move(truth));
@@ -248,6 +265,7 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     layers.op_counts.pixels_warped += layers.warped.rect.area();
   }
   add_contrail(scene, moment, background, lens, layers);
+  add_lamps(scene, moment, lens, layers);
   layers.op_counts.lens_evaluations += lens.evaluations() - evaluations_before;
   return layers;
 }

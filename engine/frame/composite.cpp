@@ -19,9 +19,8 @@
 #include "base/image.h"
 #include "base/pose.h"
 #include "compositor/blend.h"
-#include "compositor/blur.h"
 #include "compositor/classic.h"
-#include "compositor/float_patch.h"
+#include "frame/post_blend_stages.h"
 #include "frame/render_plan.h"
 #include "video/color_space.h"
 
@@ -106,31 +105,33 @@ std::string stage_name(const std::string& name, const IntruderLayers& layers, co
   return scene.intruders.size() == 1 ? name : fmt::format("{}_{}", layers.placed.id, name);
 }
 
-void composite_direct(ComposedFrame& composed, const Scene& scene, const Layer& layer) {
-  composed.op_counts.pixels_blended += blend_over(composed.image, layer, scene.compositing.blend);
+void composite_direct(ComposedFrame& composed, const Scene& scene, const Layer& layer, BlendChoice space) {
+  composed.op_counts.pixels_blended += blend_over(composed.image, layer, space);
   add_to_mask(composed.mask, scene.footage.size_px, layer.rect, layer.color);
 }
 
 // With the stages that follow blending, in code values. The mask has what they rewrite beyond the layer.
-void composite_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const Layer& layer, int intruder,
-                                      int frame, const StageDone& done) {
-  const Rewritten rewritten = blend_with_post_blend_stages(composed, scene, layer, intruder, frame, done);
+void composite_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const Layer& layer,
+                                      BlendChoice space, int intruder, int frame, const StageDone& done) {
+  const Rewritten rewritten = blend_with_post_blend_stages(composed, scene, layer, space, intruder, frame, done);
   add_to_mask(composed.mask, scene.footage.size_px, layer.rect, layer.color);
   cv::Mat mask = composed.mask(rewritten.rect);
   cv::max(mask, rewritten.changed & 1, mask);
   composed.op_counts.pixels_blended += cv::countNonZero(rewritten.changed);
 }
 
-// An intruder's contrail and the intruder itself, the farther one first.
+// An intruder's contrail and the intruder itself, the farther one first, and its lights, which add to the light that is
+// there whatever is mixed elsewhere.
 void composite_intruder(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int frame,
                         bool keep) {
-  const auto blend = [&](const Layer& layer, const StageDone& done) {
+  const auto blend_in = [&](BlendChoice space, const Layer& layer, const StageDone& done) {
     if (layer.empty()) return;
     if (has_post_blend_stages(scene))
-      composite_with_post_blend_stages(composed, scene, layer, layers.placed.id, frame, done);
+      composite_with_post_blend_stages(composed, scene, layer, space, layers.placed.id, frame, done);
     else
-      composite_direct(composed, scene, layer);
+      composite_direct(composed, scene, layer, space);
   };
+  const auto blend = [&](const Layer& layer, const StageDone& done) { blend_in(scene.compositing.blend, layer, done); };
   const auto keep_stage = [&](const std::string& name) {
     composed.stages.push_back({stage_name(name, layers, scene), bgr_of(composed.image)});
   };
@@ -138,6 +139,8 @@ void composite_intruder(ComposedFrame& composed, const Scene& scene, const Intru
   blend(layers.occluded, keep ? StageDone(keep_stage) : StageDone());
   if (layers.contrail_is_nearer) blend(layers.contrail, {});
   if (keep && !layers.contrail.empty()) keep_stage("contrail");
+  for (const LampLayer& lamp : layers.lamps) blend_in(BlendChoice::linear, lamp.layer, {});
+  if (keep && !layers.lamps.empty()) keep_stage("lights");
 }
 
 void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const IntruderLayers& layers,
@@ -276,7 +279,7 @@ ComposedFrame composited(Frame background, const Scene& scene, int frame,
       codec_match_for(composed.image, scene, frame, compositing_camera(scene).lens, far_to_near);
   if (keep && direct) composed.stages.push_back({"input1", bgr_of(composed.image)});
   for (const IntruderLayers& layers : far_to_near) {
-    if (layers.views.empty() && layers.contrail.empty()) continue;
+    if (layers.views.empty() && layers.contrail.empty() && layers.lamps.empty()) continue;
     if (direct) {
       if (keep && !layers.views.empty()) keep_direct_stages(composed.stages, scene, layers, composed.image.color);
       composite_intruder(composed, scene, layers, frame, keep);
@@ -299,103 +302,6 @@ ComposedFrame composited(Frame background, const Scene& scene, int frame,
   return composed;
 }
 
-namespace {
-
-std::int64_t samples_of(const FloatPatch& patch, int first_plane, int end_plane) {
-  std::int64_t count = 0;
-  for (int plane = first_plane; plane < std::min(end_plane, patch.plane_count()); ++plane)
-    count += patch.planes[static_cast<std::size_t>(plane)].rect.area();
-  return count;
-}
-
-// The stages in their order, each with the operations that it takes.
-class PostBlendStages {
- public:
-  PostBlendStages(FloatPatch& patch, ComposedFrame& composed, const StageDone& done)
-      : patch_(patch), composed_(composed), done_(done) {}
-
-  void sharpened(double amount, double sigma_px) {
-    if (amount == 0) return;
-    sharpen(patch_, amount, sigma_px);
-    composed_.op_counts.samples_filtered += samples_of(patch_, 0, 1);
-    tell("sharpened");
-  }
-
-  // The camera's enhancement of local contrast: what a warm thing adds to the mean around it is taken away there.
-  void with_halo(double amount, double sigma_px) {
-    if (amount == 0) return;
-    const PatchPlane& plane = patch_.planes[0];
-    const cv::Mat added = plane.after - plane.before;
-    cv::Mat mean;
-    const cv::Mat kernel = sampled_gaussian(sigma_px, blur_margin_px(sigma_px));
-    cv::sepFilter2D(added, mean, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_CONSTANT);
-    for (int i = 0; i < (patch_.layout == PixelLayout::rgb ? 3 : 1); ++i)
-      add_change(patch_.planes[static_cast<std::size_t>(i)], -amount * mean);
-    composed_.op_counts.samples_filtered += samples_of(patch_, 0, 1);
-    tell("halo");
-  }
-
-  void with_chroma_blur(double sigma_samples) {
-    if (sigma_samples == 0 || patch_.plane_count() == 1) return;
-    blur_chroma(patch_, sigma_samples);
-    composed_.op_counts.samples_filtered += samples_of(patch_, patch_.layout == PixelLayout::rgb ? 0 : 1, 3);
-    tell("chroma_blur");
-  }
-
-  void with_grain(const GrainSettings& grain, int number, int intruder) {
-    if (grain.is_none()) return;
-    composed_.op_counts.samples_of_noise += add_grain(patch_, grain, number, intruder);
-    tell("grain");
-  }
-
- private:
-  void tell(const char* name) {
-    if (!done_) return;
-    (void)write_patch(patch_, composed_.image);
-    done_(name);
-  }
-
-  FloatPatch& patch_;
-  ComposedFrame& composed_;
-  const StageDone& done_;
-};
-
-}  // namespace
-
-namespace {
-
-double halo_of(const Scene& scene) {
-  return scene.is_thermal ? scene.appearance.thermal.halo : 0;
-}
-
-}  // namespace
-
-int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout) {
-  const AppearanceSettings& appearance = scene.appearance;
-  return std::max({sharpening_margin_px(appearance.sharpening, appearance.sharpening_px),
-                   chroma_blur_margin_px(layout, appearance.chroma_blur_px),
-                   halo_of(scene) > 0 ? blur_margin_px(appearance.thermal.halo_px) : 0});
-}
-
-bool has_post_blend_stages(const Scene& scene) {
-  const AppearanceSettings& appearance = scene.appearance;
-  return appearance.sharpening > 0 || appearance.chroma_blur_px > 0 || !appearance.grain.is_none() ||
-         halo_of(scene) > 0;
-}
-
-Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const Layer& layer, int intruder,
-                                       int number, const StageDone& done) {
-  const AppearanceSettings& look = scene.appearance;
-  FloatPatch patch = blended_patch(composed.image, layer, scene.compositing.blend,
-                                   post_blend_stages_margin_px(scene, composed.image.layout), scene.own_body);
-  PostBlendStages stages(patch, composed, done);
-  stages.with_halo(halo_of(scene), look.thermal.halo_px);
-  stages.sharpened(look.sharpening, look.sharpening_px);
-  stages.with_chroma_blur(look.chroma_blur_px);
-  stages.with_grain(look.grain, number, intruder);
-  return {patch.planes[0].rect, write_patch(patch, composed.image)};
-}
-
 std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& scene, int frame, const Lens& lens,
                                           const std::vector<IntruderLayers>& layers) {
   const CodecMatchSettings& settings = scene.appearance.codec;
@@ -411,8 +317,10 @@ std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& 
       if (settings.predicted_frames > 0)
         earlier_px.emplace_back(std::min(settings.predicted_frames, frame), cv::Point2d(0, 0));
     }
-    if (intruder.occluded.empty()) continue;
-    reaches.push_back(grown(intruder.occluded.rect, margin_px) & image);
+    cv::Rect own = intruder.occluded.empty() ? cv::Rect() : intruder.occluded.rect;
+    for (const LampLayer& lamp : intruder.lamps) own |= lamp.layer.rect;
+    if (own.empty()) continue;
+    reaches.push_back(grown(own, margin_px) & image);
     if (settings.predicted_frames > 0)
       earlier_px.push_back(earlier_places(scene, frame, intruder.placed, lens, settings.predicted_frames));
   }

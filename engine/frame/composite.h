@@ -33,29 +33,6 @@ namespace sigs {
 [[nodiscard]] cv::Mat occluder_seen_from(const Pose<frame::World, frame::Camera>& world_from_camera,
                                          const Occluder& occluder, LensTable& lens, const cv::Rect& rect);
 
-// Whether anything follows the blending: the halo of a thermal camera, sharpening, chroma blur, grain.
-[[nodiscard]] bool has_post_blend_stages(const Scene& scene);
-
-// How far these stages carry a change beyond the layer, px.
-[[nodiscard]] int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout);
-
-// Called with the name of each stage that is not left out, when the frame holds its result.
-using StageDone = std::function<void(const std::string& name)>;
-
-// Blends a layer of an intruder onto the frame, and then, on what that changes in code values and before it is
-// rounded: sharpening, chroma blur, grain. Only samples within the layer and the reach of these stages are
-// rewritten; those that the own body hides wholly keep their bits. Gives back which pixels are rewritten (write_patch):
-// CV_8UC1, 255 or 0, over `rect`.
-//   layer   within the image
-//   intruder, number  the intruder's number, and that of the frame in the footage, for the grain
-//   done    may be empty; otherwise every stage is written into the frame on its way
-struct Rewritten {
-  cv::Rect rect;
-  cv::Mat changed;
-};
-[[nodiscard]] Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const Layer& layer,
-                                                     int intruder, int number, const StageDone& done);
-
 // The codec match of a frame as the scene's settings (appearance.codec) ask for it, to be made before the layers are
 // blended and applied after; nothing where there is none to be done: it is not asked for, the method is not direct, the
 // footage has more than 8 bits, its codec keeps every sample, or no intruder reaches the image.

@@ -15,6 +15,7 @@
 #include "camera/virtual_camera.h"
 #include "compositor/blur.h"
 #include "compositor/warp.h"
+#include "frame/aircraft_lights.h"
 #include "frame/composed_frame.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
@@ -39,9 +40,11 @@ struct IntruderLayers {
   Layer blurred;                         // clipped to the image; empty where too faint to change any sample
   Layer occluded;  // without what own body and occluder hide; shares its samples where they hide nothing
   Layer contrail;  // clipped to the image, without what is hidden; empty: none
-  bool contrail_is_nearer = false;  // than the aircraft
-  double whole_area_px = 0;         // of the silhouette, the part outside the image included
-  double draw_s = 0;                // seconds of OpenGL
+  bool contrail_is_nearer = false;     // than the aircraft
+  std::vector<LampLayer> lamps;        // the aircraft's lights, clipped to the image, without what is hidden
+  std::vector<LampTruth> lamp_truths;  // one for each of them
+  double whole_area_px = 0;            // of the silhouette, the part outside the image included
+  double draw_s = 0;                   // seconds of OpenGL
   OpCounts op_counts;
 };
 

@@ -83,12 +83,24 @@ void add_encounter_json(JsonObject& object, const IntruderTruth& truth) {
   object.add("encounter", encounter);
 }
 
+void add_lights_json(JsonObject& object, const IntruderTruth& truth) {
+  std::vector<std::string> lights;
+  for (const LampTruth& lamp : truth.lights) {
+    JsonObject light;
+    light.add_text("name", lamp.name);
+    light.add(light_numbers(lamp));
+    lights.push_back(light.text());
+  }
+  if (!lights.empty()) object.add("lights", "[" + listed(lights, ",") + "]");
+}
+
 std::string intruder_json(const IntruderTruth& truth, const LabelSequence& sequence) {
   JsonObject object;
   object.add("id", truth.id);
   object.add_text("name", truth.name);
   object.add_text("category", labelled_intruder(sequence, truth.id).category);
   if (truth.is_distractor) object.add_text("role", "distractor");
+  if (truth.has_contrail) object.add("contrail", true);
   object.add("in_picture", truth.in_image);
   object.add("visible_fraction", truth.visible_fraction);
   object.add_text("horizon", name_of(truth.horizon));
@@ -99,6 +111,7 @@ std::string intruder_json(const IntruderTruth& truth, const LabelSequence& seque
   add_numbers_json(object, "box", box_numbers(truth));
   add_numbers_json(object, "silhouette", silhouette_numbers(truth));
   add_numbers_json(object, "appearance", appearance_numbers(truth));
+  add_lights_json(object, truth);
   add_encounter_json(object, truth);
   return object.text();
 }

@@ -159,6 +159,10 @@ LabelNumbers appearance_numbers(const IntruderTruth& truth) {
   return numbers;
 }
 
+LabelNumbers light_numbers(const LampTruth& lamp) {
+  return {{"x", lamp.pixel.x}, {"y", lamp.pixel.y}, {"share", lamp.share}, {"brightest", lamp.brightest}};
+}
+
 LabelNumbers encounter_numbers(const EncounterTruth& now) {
   return {{"range_rate_mps", now.range_rate_mps},
           {"closing_speed_mps", now.closing_speed_mps},

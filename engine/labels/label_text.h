@@ -78,7 +78,8 @@ using LabelNumbers = std::vector<LabelNumber>;
 [[nodiscard]] LabelNumbers box_numbers(const IntruderTruth& truth);  // visible, with pixels; empty: there is none
 [[nodiscard]] LabelNumbers silhouette_numbers(const IntruderTruth& truth);  // amodal box; empty: there is none
 [[nodiscard]] LabelNumbers appearance_numbers(
-    const IntruderTruth& truth);                                          // visibility_m comes last, where it is known
+    const IntruderTruth& truth);  // visibility_m comes last, where it is known
+[[nodiscard]] LabelNumbers light_numbers(const LampTruth& lamp);
 [[nodiscard]] LabelNumbers encounter_numbers(const EncounterTruth& now);  // the last may be infinite
 
 // The columns of one frame, and their values: position and attitude in the world, sources, deviation and place. Those

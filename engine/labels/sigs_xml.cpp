@@ -71,6 +71,11 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   add_numbers(node, "box", box_numbers(truth));
   add_numbers(node, "silhouette", silhouette_numbers(truth));
   add_numbers(node, "appearance", appearance_numbers(truth));
+  for (const LampTruth& lamp : truth.lights) {
+    pugi::xml_node light = node.append_child("light");
+    light.append_attribute("name") = lamp.name.c_str();
+    set_all(light, light_numbers(lamp));
+  }
   add_encounter(node, truth);
 }
 

@@ -10,49 +10,13 @@
 
 #include "base/nesting.h"
 #include "base/text.h"
+#include "project/field_list.h"
 #include "project/json.h"
 #include "project/places.h"
 
 namespace sigs {
 
 namespace {
-
-constexpr double kFarthest_m = 1e8;  // farther than any aircraft; beyond it even double metres lose their millimetres
-
-template <class Enum>
-Choice choice_of(Enum& value, std::vector<std::string_view> names) {
-  return {.names = std::move(names),
-          .get = [&value] { return static_cast<int>(value); },
-          .set = [&value](int index) { value = static_cast<Enum>(index); }};
-}
-
-// Collects fields under a common beginning of their keys.
-class FieldList {
- public:
-  FieldList(std::vector<Field>& fields, std::string prefix) : fields_(fields), prefix_(std::move(prefix)) {}
-
-  Field& add(std::string_view key, FieldValue value, std::string_view unit, std::string_view help) {
-    return fields_.emplace_back(
-        Field{.key = prefix_ + std::string(key), .value = std::move(value), .unit = unit, .help = help});
-  }
-
-  void number(std::string_view key, FieldValue value, std::string_view unit, double minimum, double maximum,
-              std::string_view help) {
-    Field& field = add(key, std::move(value), unit, help);
-    field.minimum = minimum;
-    field.maximum = maximum;
-  }
-
-  void path(std::string_view key, std::string& value, bool required, std::string_view help) {
-    Field& field = add(key, &value, "", help);
-    field.is_path = true;
-    field.required = required;
-  }
-
- private:
-  std::vector<Field>& fields_;
-  std::string prefix_;
-};
 
 void add_footage(FieldList list, FootageSettings& footage) {
   list.path("video", footage.video, true,
@@ -80,23 +44,6 @@ void add_footage(FieldList list, FootageSettings& footage) {
             "image of the footage's size, white where the UAV's own body hides the intruder; empty: none");
   list.number("max_substituted_percent", &footage.max_substituted_percent, "%", 0, 100,
               "how many of the exported frames may be damaged, an intact one is used instead; more are an error");
-}
-
-void add_contrail(FieldList list, ContrailSettings& contrail) {
-  list.number("strands", &contrail.strands, "", 0, 4, "trails of ice behind a jet, one for each engine; 0: none");
-  list.number("length_m", &contrail.length_m, "m", 1, 1e6, "how far behind the aircraft nothing of it is left");
-  list.number("width_m", &contrail.width_m, "m", 0.01, 1000, "of a strand where it begins");
-  list.number("spread_mps", &contrail.spread_mps, "m/s", 0, 100, "how fast a strand widens: a quarter of its width");
-  list.number("opacity", &contrail.opacity, "", 0, 1, "of a strand where it begins, seen from the side");
-  list.number("brightness", &contrail.brightness, "", 0, 10, "1: as bright as a white surface squarely in the sun");
-}
-
-void add_heat(FieldList list, HeatSettings& heat) {
-  list.number("skin", &heat.skin, "code", 0, 10'000, "thermal: how much warmer than the sky its skin looks");
-  list.number("engine", &heat.engine, "code", 0, 10'000, "the same of engines, nacelles and cowls");
-  list.number("exhaust", &heat.exhaust, "code", 0, 10'000, "of exhausts and nozzles");
-  list.number("glass", &heat.glass, "code", 0, 10'000, "of glass, which is opaque to heat");
-  list.number("rotor", &heat.rotor, "code", 0, 10'000, "of blades");
 }
 
 void add_own_body(FieldList list, OwnBodySettings& own_body) {
@@ -161,97 +108,6 @@ void add_geo(FieldList list, GeoSettings& geo) {
               "of world X, from true north to the right; null: the camera's at frame 0 by its log");
 }
 
-void add_light(FieldList list, LightSettings& light) {
-  list.add("kind", choice_of(light.kind, {"point", "sun"}), "",
-           "point: the paper's lamp and ambient light; sun: parallel light, sky and ground");
-  list.number("position_m", &light.position_m, "m", -1e12, 1e12,
-              "where the light is, in the world; it shines every way");
-  list.number("color", &light.color, "", 0, 100, "red, green, blue in linear light; 1: white faces become white");
-  list.number("ambient", &light.ambient, "", 0, 1, "share of the light that comes from everywhere");
-  list.number("sun.azimuth_deg", &light.sun.azimuth_deg, "deg", -360, 360,
-              "sun: from world X to the right; null: by time and place of the camera's log");
-  list.number("sun.elevation_deg", &light.sun.elevation_deg, "deg", -90, 90,
-              "sun: above the horizon; null: by time and place of the camera's log");
-  list.number("sky_color", &light.sky_color, "", 0, 100, "sun: light of the whole sky on a face that looks up");
-  list.number("ground_color", &light.ground_color, "", 0, 100, "sun: light of the ground on a face that looks down");
-  list.number("exposure", &light.exposure, "", 0, 1000, "sun: factor of all light");
-}
-
-void add_model(FieldList list, ModelSettings& model) {
-  list.path("file", model.file, true, "the aircraft: a Wavefront OBJ file");
-  list.add("forward", &model.forward, "", "axis of the file that points out of the nose: +x -x +y -y +z -z");
-  list.add("up", &model.up, "", "axis of the file that points up");
-  list.number("scale", &model.scale, "m", 1e-9, 1e9, "metres a unit of the file");
-  list.number("length_m", &model.length_m, "m", 0, 1e6, "wanted length from nose to tail; 0: scale says");
-  list.add("anchor", choice_of(model.anchor, {"origin", "bounds"}), "",
-           "reference point that flies along the trajectory: the file's origin or the centre of its bounds");
-}
-
-void add_trajectory(FieldList list, TrajectoryPlan& plan) {
-  list.add("spline", choice_of(plan.spline, {"interpolating", "approximating"}), "",
-           "through the waypoints, or the paper's uniform B-spline that takes them as control points");
-  list.add("timing", choice_of(plan.timing, {"frames", "constant_speed"}), "",
-           "at each waypoint in its frame, or along the same curve at one speed");
-  list.add(
-      "attitude", choice_of(plan.attitude, {"path", "helicopter", "multirotor", "balloon"}), "",
-      "path: nose along the path, as airplanes fly; the others: heading apart from it, tilted by the thrust; level");
-  list.add("bank", choice_of(plan.bank, {"coordinated", "level"}), "", "bank as in a coordinated turn, or wings level");
-  list.number("bank_limit_deg", &plan.bank_limit_deg, "deg", 0, 90, "steepest bank");
-}
-
-void add_place(FieldList& list, PlaceSettings& place) {
-  list.number("latitude_deg", &place.latitude_deg, "deg", -90, 90, "instead of position_m: where on the Earth, WGS-84");
-  list.number("longitude_deg", &place.longitude_deg, "deg", -180, 180, "with latitude_deg");
-  list.number("height_m", &place.height_m, "m", -1e4, 1e8, "with latitude_deg: above the ellipsoid");
-}
-
-void add_compositing(FieldList list, CompositingSettings& compositing) {
-  list.add("method", choice_of(compositing.method, {"direct", "classic", "plain"}), "",
-           "direct: layer through the lens; classic: the paper's section 3.2; plain: keyed paste");
-  list.add("blend", choice_of(compositing.blend, {"linear", "display"}), "",
-           "mix light, or mix code values as the paper does (direct only)");
-  list.number("blur_px_per_m", &compositing.blur_px_per_m, "px/m", 0, 10,
-              "Gaussian blur: sigma a metre of distance; null: 0.002 with classic, else 0");
-  list.number("supersampling", &compositing.supersampling, "", 1, 8, "drawn pixels an image pixel, each way");
-}
-
-void add_appearance(FieldList list, AppearanceSettings& appearance) {
-  list.number("psf_sigma_px", &appearance.psf_sigma_px, "px", 0, 20, "sigma of the lens' and the sensor's blur");
-  list.number("sharpening", &appearance.sharpening, "", 0, 5, "the camera's own: how much of the detail is added");
-  list.number("sharpening_px", &appearance.sharpening_px, "px", 0.2, 20, "sigma of the blur that detail is told by");
-  list.number("chroma_blur_px", &appearance.chroma_blur_px, "px", 0, 20,
-              "blur of the colours alone, in samples of the chroma planes");
-  list.number("black", &appearance.black, "", 0, 1, "linear light that is added to all of the intruder: flare");
-  list.number("saturation", &appearance.saturation, "", 0, 4, "of the intruder's colours; 1: as painted");
-  GrainSettings& grain = appearance.grain;
-  list.number("grain.sd_dark", &grain.sd_dark, "code", 0, 64, "noise of luma where the image is black");
-  list.number("grain.sd_bright", &grain.sd_bright, "code", 0, 64, "noise of luma where the image is white");
-  list.number("grain.sd_chroma", &grain.sd_chroma, "code", 0, 64, "noise of chroma");
-  list.number("grain.correlation_length_px", &grain.correlation_length_px, "px", 0, 10,
-              "sigma over which neighbours share noise; 0: none");
-  list.number("grain.temporal_correlation", &grain.temporal_correlation, "", 0, 0.99,
-              "correlation of the noise from frame to frame");
-  list.number("grain.seed", &grain.seed, "", 0, 2e9, "another number gives other noise of the same kind");
-  HazeSettings& haze = appearance.haze;
-  list.number("haze.visibility_m", &haze.visibility_m, "m", 0.1, 1e7,
-              "distance at which 5 % of the contrast is left; null: clear air");
-  list.add("haze.airlight", choice_of(haze.airlight, {"behind", "color"}), "",
-           "colour of the haze: as the footage is around the intruder, or airlight_color");
-  list.number("haze.airlight_color", &haze.airlight_color, "", 0, 100, "red, green, blue in linear light");
-  ThermalSettings& thermal = appearance.thermal;
-  list.number("thermal.sky", &thermal.sky, "code", 0, 255, "thermal: code value of the clear sky");
-  list.add("thermal.hot", choice_of(thermal.hot, {"white", "black"}), "", "thermal: how what is warm is shown");
-  list.number("thermal.halo", &thermal.halo, "", 0, 5,
-              "thermal: how much the camera takes away of the mean around each place; 0: no halo");
-  list.number("thermal.halo_px", &thermal.halo_px, "px", 0.2, 100, "thermal: sigma of the blur that this mean is of");
-  list.add("codec.match", choice_of(appearance.codec.match, {"none", "footage", "h264", "mjpeg"}), "",
-           "codec that the image around the intruder goes through once; footage: its own");
-  list.number("codec.quantiser", &appearance.codec.quantiser, "", 0, 100,
-              "QP of H.264, 0 to 51, or quality of MJPEG in percent; null: as the footage's stream says");
-  list.number("codec.predicted_frames", &appearance.codec.predicted_frames, "", 0, 16,
-              "frames before this one from which H.264 and MPEG carry what they left");
-}
-
 void add_output(FieldList list, ExportSettings& output) {
   list.add("video.codec",
            choice_of(output.codec, {"ffv1", "h264", "hevc", "av1", "mjpeg", "png", "tiff", "jpeg", "raw"}), "",
@@ -295,30 +151,8 @@ std::vector<Field> fields_of(Project& project) {
   add_camera(FieldList(fields, "camera."), project.camera);
   add_geo(FieldList(fields, "geo."), project.geo);
   add_light(FieldList(fields, "light."), project.light);
-  for (std::size_t i = 0; i < project.intruders.size(); ++i) {
-    IntruderSettings& intruder = project.intruders[i];
-    const std::string prefix = fmt::format("intruders[{}].", i);
-    FieldList(fields, prefix).add("name", &intruder.name, "", "what the annotations call it");
-    FieldList(fields, prefix).add("category", &intruder.category, "", "what kind of thing labels call it").required =
-        true;
-    FieldList(fields, prefix)
-        .add("role", choice_of(intruder.role, {"intruder", "distractor"}), "",
-             "distractor: what detectors should not report, such as a bird; evaluation counts it as no intruder");
-    add_model(FieldList(fields, prefix + "model."), intruder.model);
-    add_contrail(FieldList(fields, prefix + "contrail."), intruder.contrail);
-    add_heat(FieldList(fields, prefix + "heat."), intruder.heat);
-    add_trajectory(FieldList(fields, prefix + "trajectory."), intruder.trajectory);
-    for (std::size_t j = 0; j < intruder.trajectory.waypoints.size(); ++j) {
-      WaypointSettings& waypoint = intruder.trajectory.waypoints[j];
-      FieldList list(fields, fmt::format("{}trajectory.waypoints[{}].", prefix, j));
-      list.number("frame", &waypoint.frame, "frame", -1e9, 1e9, "frame at which it is passed; none: spread evenly");
-      list.number(
-          "heading_deg", &waypoint.heading_deg, "deg", -360, 360,
-          "of the nose, from world X to the right; null: between those of others, else the path's; not of path");
-      list.number("position_m", &waypoint.position_m, "m", -kFarthest_m, kFarthest_m, "where, in the world");
-      if (waypoint.place) add_place(list, *waypoint.place);
-    }
-  }
+  for (std::size_t i = 0; i < project.intruders.size(); ++i)
+    add_intruder(fields, fmt::format("intruders[{}].", i), project.intruders[i]);
   add_compositing(FieldList(fields, "compositing."), project.compositing);
   add_appearance(FieldList(fields, "appearance."), project.appearance);
   add_output(FieldList(fields, "export."), project.output);

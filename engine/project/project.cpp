@@ -16,6 +16,12 @@ std::vector<std::string> categories_of(const Project& project) {
   return categories;
 }
 
+LampSettings usual_lights(const std::string& category) {
+  if (category == "drone") return {.position_cd = 2, .strobe_cd = 25, .flash_s = 0.1};
+  if (category == "helicopter") return {.position_cd = 40, .strobe_cd = 200, .beacon_cd = 150, .flash_s = 0.05};
+  return {.position_cd = 60, .strobe_cd = 400, .beacon_cd = 150, .flashes_per_minute = 55};
+}
+
 AttitudeKind attitude_of_category(const std::string& category) {
   if (category == "helicopter") return AttitudeKind::helicopter;
   if (category == "drone") return AttitudeKind::multirotor;

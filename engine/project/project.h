@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/pose.h"
+#include "project/look_settings.h"
 #include "spline/trajectory.h"
 #include "video/video_writer.h"
 
@@ -155,6 +156,7 @@ struct LightSettings {
   glm::dvec3 sky_color{0.25, 0.3, 0.38};      // with the sun: what the whole sky gives a face that looks up
   glm::dvec3 ground_color{0.12, 0.12, 0.10};  // with the sun: what the ground gives a face that looks down
   double exposure = 1;                        // with the sun: factor of all light
+  std::optional<double> white_cdpm2;          // luminance that the footage shows as white; none: by a sunny day
 
   [[nodiscard]] bool operator==(const LightSettings&) const = default;
 };
@@ -218,6 +220,21 @@ struct ContrailSettings {
   [[nodiscard]] bool operator==(const ContrailSettings&) const = default;
 };
 
+// The lights that an aircraft shows (docs/aircraft-lights.md). Intensities of 0: it shows none.
+struct LampSettings {
+  double position_cd = 0;          // of red and green straight ahead; the white one astern has half
+  double strobe_cd = 0;            // effective intensity of the white flashes at wing tips and tail
+  double beacon_cd = 0;            // likewise of the red ones above and below
+  double landing_cd = 0;           // of the beam's middle
+  double landing_beam_deg = 12;    // its full width at half of the intensity
+  double flashes_per_minute = 60;  // of strobes and beacons, by turns
+  double flash_s = 0.001;          // how long one flash lasts
+  double phase = 0;                // of the first strobe's flash at time 0, in flashes
+
+  [[nodiscard]] bool is_dark() const { return position_cd <= 0 && strobe_cd <= 0 && beacon_cd <= 0 && landing_cd <= 0; }
+  [[nodiscard]] bool operator==(const LampSettings&) const = default;
+};
+
 // How much warmer than the clear sky the parts of an aircraft look to a thermal camera, in 8-bit code values before
 // they clip (docs/thermal.md). Which part a surface belongs to is told by its material.
 struct HeatSettings {
@@ -241,6 +258,7 @@ struct IntruderSettings {
   RoleChoice role = RoleChoice::intruder;
   ModelSettings model;
   ContrailSettings contrail;
+  LampSettings lights;
   HeatSettings heat;  // used with Spectrum::thermal
   TrajectoryPlan trajectory;
   std::string unknown_json;
@@ -248,104 +266,11 @@ struct IntruderSettings {
   [[nodiscard]] bool operator==(const IntruderSettings&) const = default;
 };
 
+// The lights that aircraft of a category mostly have at night; docs/aircraft-lights.md has the numbers.
+[[nodiscard]] LampSettings usual_lights(const std::string& category);
+
 // How things of a category fly: "helicopter", "drone" as a multirotor, "balloon"; all others along their path.
 [[nodiscard]] AttitudeKind attitude_of_category(const std::string& category);
-
-// How the intruder gets into the image: directly through the lens, by section 3.2 of the paper, or by a keyed paste;
-// and whether light is mixed, which adds as in the lens, or code values, as the paper does. No project states `heat`:
-// code values as sRGB has them whatever the footage's curve, since they stand for heat, and none clips before the
-// stages that follow.
-enum class MethodChoice { direct, classic, plain };
-enum class BlendChoice { linear, display, heat };
-
-// The blur by distance with which SIGS follows the paper, which gives no number: sigma 2 px at 1 km.
-inline constexpr double kPaperBlur_px_per_m = 0.002;
-
-// How layers become part of the image. blur_px_per_m: standard deviation of the Gaussian blur for each metre of
-// distance, none: blur_by_distance_px_per_m(); supersampling: rendered pixels for each image pixel, along each axis.
-struct CompositingSettings {
-  MethodChoice method = MethodChoice::direct;
-  BlendChoice blend = BlendChoice::linear;
-  std::optional<double> blur_px_per_m;
-  int supersampling = 3;
-
-  [[nodiscard]] bool operator==(const CompositingSettings&) const = default;
-};
-
-// As the settings state it, else by the method: the paper's for `classic`; 0 for `direct`, since lenses blur what is
-// far no more than what is near (AppearanceSettings::psf_sigma_px).
-[[nodiscard]] inline double blur_by_distance_px_per_m(const CompositingSettings& compositing) {
-  return compositing.blur_px_per_m.value_or(compositing.method == MethodChoice::classic ? kPaperBlur_px_per_m : 0.0);
-}
-
-// Random noise of the footage, in 8-bit code values, as the codec left it. Its variance is linear in brightness.
-struct GrainSettings {
-  double sd_dark = 0;    // standard deviation of luma where the image is black
-  double sd_bright = 0;  // where it is white
-  double sd_chroma = 0;  // of both chroma planes
-  double correlation_length_px =
-      0;  // sigma of the Gaussian that neighbouring pixels share noise by; 0: each has its own
-  double temporal_correlation = 0;  // correlation from one frame to the next, 0..1
-  int seed = 1;
-
-  [[nodiscard]] bool is_none() const { return sd_dark == 0 && sd_bright == 0 && sd_chroma == 0; }
-  [[nodiscard]] bool operator==(const GrainSettings&) const = default;
-};
-
-// Where the haze's colour comes from: the footage around the intruder, or a colour that is given.
-enum class AirlightChoice { behind, color };
-
-// Haze in front of the intruder (Koschmieder): contrast falls by exp(-3 r / visibility_m).
-struct HazeSettings {
-  std::optional<double> visibility_m;  // at which 5 % of the contrast is left; none: clear
-  AirlightChoice airlight = AirlightChoice::behind;
-  glm::dvec3 airlight_color{0.6, 0.65, 0.7};  // linear light
-
-  [[nodiscard]] bool operator==(const HazeSettings&) const = default;
-};
-
-// One generation of compression that the image around the intruder goes through: none, the footage's own codec, or one
-// that is named.
-enum class CodecMatchChoice { none, footage, h264, mjpeg };
-
-struct CodecMatchSettings {
-  CodecMatchChoice match = CodecMatchChoice::none;
-  int predicted_frames = 0;         // images before this one that H.264 or MPEG has predicted from one another, 0..16
-  std::optional<double> quantiser;  // QP of H.264 (0..51) or percent of JPEG's table; none: as the stream says
-
-  [[nodiscard]] bool operator==(const CodecMatchSettings&) const = default;
-};
-
-// Which end of the scale things that are warm have.
-enum class HotChoice { white, black };
-
-// Of thermal footage: its scale, and the camera's enhancement of local contrast, by which a warm thing darkens what is
-// around it.
-struct ThermalSettings {
-  double sky = 96;  // 8-bit code value of the clear sky
-  HotChoice hot = HotChoice::white;
-  double halo = 0.35;   // how much of the surroundings' mean is taken away, 0..5
-  double halo_px = 12;  // sigma of the Gaussian that this mean is taken by
-
-  [[nodiscard]] bool operator==(const ThermalSettings&) const = default;
-};
-
-// How the footage looks, and so how an intruder in it has to look (method direct). Each part but the point
-// spread is left out at its default.
-struct AppearanceSettings {
-  double psf_sigma_px = 0.45;  // sigma of the lens' and the sensor's Gaussian
-  double sharpening = 0;       // of the camera: how much of the detail is added, 0..5
-  double sharpening_px = 1;    // sigma of the Gaussian that detail is told by
-  double chroma_blur_px = 0;   // sigma of the Gaussian over the samples of the chroma planes
-  double black = 0;            // linear light that the footage's black stands for: flare of the lens
-  double saturation = 1;       // of the intruder's colours
-  GrainSettings grain;
-  HazeSettings haze;
-  ThermalSettings thermal;  // used with Spectrum::thermal
-  CodecMatchSettings codec;
-
-  [[nodiscard]] bool operator==(const AppearanceSettings&) const = default;
-};
 
 // Formats of the exported video and masks; automatic: the container that suits the codec.
 enum class ContainerChoice { automatic, mkv, mp4, avi, nut, y4m };

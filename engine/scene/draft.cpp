@@ -180,6 +180,7 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
     add_intruder(scene, clean.intruders[i].name, model, drafted_trajectory(project, clean, i, draft));
     scene.intruders.back().is_distractor = clean.intruders[i].role == RoleChoice::distractor;
     scene.intruders.back().contrail = clean.intruders[i].contrail;
+    scene.intruders.back().lights = clean.intruders[i].lights;
   }
   scene.issues = plausibility_issues(clean, scene, draft.intruder_of_project);
   // A field with a problem is not reported as implausible too.

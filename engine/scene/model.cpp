@@ -119,11 +119,37 @@ std::vector<glm::vec3> outermost_points(const std::vector<glm::vec3>& points) {
   return outermost;
 }
 
+LampPlaces lamp_places(const Mesh& mesh) {
+  LampPlaces places;
+  bool is_first = true;
+  const auto take = [&](const glm::vec3& p) {
+    const auto farther = [&](glm::vec3& place, int axis, float sign) {
+      if (is_first || sign * p[axis] > sign * place[axis]) place = p;
+    };
+    farther(places.left, 1, -1);
+    farther(places.right, 1, 1);
+    farther(places.tail, 0, -1);
+    farther(places.nose, 0, 1);
+    farther(places.top, 2, -1);
+    farther(places.bottom, 2, 1);
+    is_first = false;
+  };
+  for (const bool with_rotors : {false, true}) {
+    if (!is_first) break;  // rotors count where there is nothing else
+    for (const MeshPart& part : mesh.parts)
+      if (with_rotors || !mesh.materials[static_cast<std::size_t>(part.material)].rotor)
+        for (std::uint32_t i = 0; i < part.index_count; ++i)
+          take(mesh.vertices[mesh.indices[part.first_index + i]].position_m);
+  }
+  return places;
+}
+
 Model model_of(Mesh mesh) {
   Model model{.mesh = std::move(mesh)};
   model.points_m = measuring_points(model.mesh);
   model.outermost_m = outermost_points(model.points_m);
   model.shape = shape_of(model.mesh);
+  model.lamps = lamp_places(model.mesh);
   return model;
 }
 

@@ -9,12 +9,19 @@
 
 namespace sigs {
 
+// Where an aircraft has its lights, by its shape: the ends of all that is no rotor. Body axes, metres.
+struct LampPlaces {
+  glm::vec3 left{0, 0, 0}, right{0, 0, 0}, tail{0, 0, 0}, top{0, 0, 0}, bottom{0, 0, 0}, nose{0, 0, 0};
+};
+[[nodiscard]] LampPlaces lamp_places(const Mesh& mesh);
+
 // The mesh of an aircraft and the points by which its extent in the image is measured. Body axes, metres.
 struct Model {
   Mesh mesh;
   std::vector<glm::vec3> points_m;     // measuring_points(mesh)
   std::vector<glm::vec3> outermost_m;  // outermost_points(points_m)
   ModelShape shape;                    // shape_of(mesh)
+  LampPlaces lamps;                    // lamp_places(mesh)
 };
 
 // The mesh with its measuring points and shape. It has triangles.

@@ -62,6 +62,7 @@ Result<Scene> open_valid_scene(const Project& project, const FootageShape& foota
     add_intruder(scene, project.intruders[i].name, *model, *trajectory);
     scene.intruders.back().is_distractor = project.intruders[i].role == RoleChoice::distractor;
     scene.intruders.back().contrail = project.intruders[i].contrail;
+    scene.intruders.back().lights = project.intruders[i].lights;
   }
   scene.issues = plausibility_issues(project, scene);
   return scene;

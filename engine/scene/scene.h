@@ -46,7 +46,8 @@ struct SceneLight {
   std::optional<double> sun_elevation_rad = {};  // above the horizon, as it is seen; likewise (scene/scene_light.h)
   glm::dvec3 sky_color{0, 0, 0};
   glm::dvec3 ground_color{0, 0, 0};
-  double exposure = 1;  // factor of sun, sky and ground
+  double exposure = 1;                     // factor of sun, sky and ground
+  std::optional<double> white_cdpm2 = {};  // LightSettings::white_cdpm2
 };
 
 struct SceneIntruder {
@@ -55,6 +56,7 @@ struct SceneIntruder {
   Trajectory trajectory;
   bool is_distractor = false;  // RoleChoice::distractor
   ContrailSettings contrail = {};
+  LampSettings lights = {};
 };
 
 // Attitude of the aircraft that carries the camera, at one moment. The identity: wings level, nose along world X.

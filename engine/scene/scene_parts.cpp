@@ -105,7 +105,8 @@ SceneLight light_of(const LightSettings& light) {
           .sun_elevation_rad = rad_of_deg(light.sun.elevation_deg),
           .sky_color = light.sky_color,
           .ground_color = light.ground_color,
-          .exposure = light.exposure};
+          .exposure = light.exposure,
+          .white_cdpm2 = light.white_cdpm2};
 }
 
 // A scene that a thermal camera sees: surfaces send out what their materials say, from every side alike (heat.h), and

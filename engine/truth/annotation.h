@@ -54,6 +54,14 @@ struct ImageFormation {
   std::optional<double> visibility_m = {};  // at which haze leaves 5 % of the contrast; none: clear air
 };
 
+// One of an intruder's lights that adds to the image (docs/aircraft-lights.md).
+struct LampTruth {
+  std::string name;        // "left", "right", "tail", "strobe left", ..., "beacon top", "beacon bottom", "landing"
+  glm::dvec2 pixel{0, 0};  // where it is seen
+  double share = 1;        // of the exposure during which it is on
+  double brightest = 0;    // linear light that it adds to the pixel it adds most to; 1: white
+};
+
 // Well clear of an intruder at one time, for one volume.
 struct WellClearTruth {
   std::string volume;  // its name, "dwc-en-route"
@@ -94,6 +102,7 @@ struct IntruderTruth {
   ImageFormation image_formation = {};
   std::optional<EncounterTruth> encounter = {};  // none where it was not asked for
   bool has_contrail = false;                     // some of its contrail is in the image; no box or mask has it
+  std::vector<LampTruth> lights = {};            // those that are on and bright enough to change the image
   bool is_distractor = false;                    // what detectors should not report, such as a bird
 };
 

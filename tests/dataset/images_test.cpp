@@ -190,6 +190,29 @@ TEST_CASE("recipes draw a contrail by aircraft, where it flies high enough") {
   CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].contrail.strands: must lie between 0 and 4"));
 }
 
+TEST_CASE("recipes draw the heat of an aircraft's parts, and the halo of a thermal camera") {
+  nlohmann::ordered_json recipe =
+      image_recipe({{"images", 12}, {"appearance", {{"thermal.halo", {{"uniform", {0.1, 0.6}}}}}}});
+  recipe["backgrounds"][0]["footage"]["spectrum"] = "thermal";
+  recipe["aircraft"][0]["heat"] = {{"skin", {{"uniform", {60, 300}}}}, {"engine", 700}};
+  std::set<double> skins;
+  for (const PlannedVideo& image : RecipeFolder().plan(recipe).videos) {
+    CHECK(image.project.footage.spectrum == Spectrum::thermal);
+    const HeatSettings& heat = image.project.intruders.front().heat;
+    CHECK(heat.skin >= 60);
+    CHECK(heat.skin <= 300);
+    CHECK(heat.engine == 700);
+    CHECK(heat.glass == HeatSettings{}.glass);
+    CHECK(image.sampled.at("heat.skin") == heat.skin);
+    CHECK(image.project.appearance.thermal.halo <= 0.6);
+    CHECK(image.sampled.contains("appearance.thermal.halo"));
+    skins.insert(heat.skin);
+  }
+  CHECK(skins.size() == 12);
+  recipe["aircraft"][0]["heat"] = {{"skin", -5}};
+  CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].heat.skin: must lie between 0 and 10000"));
+}
+
 TEST_CASE("what is wrong with a group of images is named") {
   const RecipeFolder folder;
   const auto error = [&](const nlohmann::ordered_json& group) { return folder.error(image_recipe(group)); };

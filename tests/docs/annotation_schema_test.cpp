@@ -60,7 +60,9 @@ IntruderTruth visible_intruder(int id) {
                                       .time_to_closest_approach_s = 1e15,
                                       .time_to_coaltitude_s = std::numeric_limits<double>::infinity(),
                                       .of_volumes = {{"dwc-en-route", true, 17.25, 100},
-                                                     {"nmac", false, std::numeric_limits<double>::infinity(), 0}}}};
+                                                     {"nmac", false, std::numeric_limits<double>::infinity(), 0}}},
+          .has_contrail = true,
+          .lights = {{"strobe left", {20.25, 12.5}, 0.125, 3.5}, {"tail", {-0.5, 12}, 1, 0.01}}};
 }
 
 IntruderTruth invisible_intruder(int id) {
@@ -122,6 +124,10 @@ const std::vector<Change> kBroken{
     {"<silhouette x=\"-1000000\" y=\"0\" width=\"2000000\"", "<silhouette x=\"-1000000\" y=\"0\" width=\"-1\""},
     {"id=\"1\"", "id=\"0\""},
     {" name=\"airliner", " title=\"airliner"},
+    {"contrail=\"true\"", "contrail=\"yes\""},
+    {"<light name=\"tail\"", "<light title=\"tail\""},
+    {"share=\"0.125\"", "share=\"1.125\""},
+    {"brightest=\"3.5\"", "brightest=\"-3.5\""},
     {"<well_clear ", "<well-clear "},
     {" range_rate_mps=\"-61.5\"", ""},
     {"range_rate_mps=\"-61.5\"", "range_rate_mps=\"-6.15e1\""},

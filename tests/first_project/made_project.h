@@ -39,16 +39,17 @@ inline const FirstProjectNote& note_on(const FirstProject& made, const std::stri
   std::abort();
 }
 
-// Grey images of a slope of brightness with white noise of a known standard deviation, in code values.
+// Grey images of a slope of brightness with white noise of a known standard deviation, in code values; larger than a
+// thermal camera's.
 inline std::filesystem::path noisy_images(const TemporaryFolder& folder, double sd) {
   const std::filesystem::path images = folder / "noisy";
   std::filesystem::create_directory(images);
   cv::RNG random(7);
   for (int n = 0; n < 12; ++n) {
-    cv::Mat1f image(240, 320), noise(240, 320);
+    cv::Mat1f image(240, 660), noise(240, 660);
     random.fill(noise, cv::RNG::NORMAL, 0, sd);
     for (int y = 0; y < image.rows; ++y)
-      for (int x = 0; x < image.cols; ++x) image(y, x) = 60 + 0.4F * static_cast<float>(x) + noise(y, x);
+      for (int x = 0; x < image.cols; ++x) image(y, x) = 60 + 0.2F * static_cast<float>(x) + noise(y, x);
     cv::Mat codes;
     image.convertTo(codes, CV_8U);
     cv::imwrite((images / fmt::format("{:03}.png", n)).string(), codes);

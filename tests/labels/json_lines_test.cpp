@@ -36,6 +36,9 @@ IntruderTruth everything(int id, const std::string& name) {
   truth.detectability = Detectability{-0.4123456789, 0.447, 7.25};
   truth.image_formation = {.blur_px = 0.45, .motion_blur_px = 1.5, .visibility_m = 20000};
   truth.is_distractor = id == 1;
+  truth.has_contrail = id == 1;
+  if (id == 1)
+    truth.lights = {{"left", {20.12345678, 7}, 1, 0.25}, {"strobe left", {20.12345678, 7}, 0.3333333333, 12}};
   truth.encounter = EncounterTruth{.range_rate_mps = -61.23456789,
                                    .closing_speed_mps = 61.23456789,
                                    .bearing_rad = rad_of_deg(-12.5),
@@ -67,7 +70,7 @@ void collect(const pugi::xml_node& node, const std::string& path, Values& values
   std::map<std::string, int> numbers;
   for (const pugi::xml_node child : node.children()) {
     const std::string name = child.name();
-    const bool is_listed = name == "intruder" || name == "well_clear";
+    const bool is_listed = name == "intruder" || name == "well_clear" || name == "light";
     const std::string number = is_listed ? std::to_string(numbers[name]++) + "." : "";
     collect(child, path + name + "." + number, values);
   }
@@ -78,7 +81,9 @@ void collect(const nlohmann::json& json, const std::string& path, Values& values
   for (const auto& [key, value] : json.items()) {
     if (value.is_array())
       for (std::size_t i = 0; i < value.size(); ++i)
-        collect(value[i], path + (key == "intruders" ? "intruder" : key) + "." + std::to_string(i) + ".", values);
+        collect(value[i],
+                path + (key.ends_with('s') ? key.substr(0, key.size() - 1) : key) + "." + std::to_string(i) + ".",
+                values);
     else if (value.is_object())
       collect(value, path + key + ".", values);
     else

@@ -76,8 +76,11 @@ void draw_found(const ViewContext& context, const Appearance& appearance) {
   context.ui_probe.note_item("inspector/found in the footage");
 }
 
-RowOptions look_of(const Field& field, const CompositingSettings& compositing, const HazeSettings& haze) {
+RowOptions look_of(const Field& field, const Project& project) {
+  const CompositingSettings& compositing = project.compositing;
+  const HazeSettings& haze = project.appearance.haze;
   RowOptions look;
+  look.is_hidden = field.key.starts_with("appearance.thermal.") && project.footage.spectrum != Spectrum::thermal;
   if (compositing.method != MethodChoice::direct) look.off_because = "Counts for the direct method alone.";
   if (field.key != "appearance.haze.airlight_color") return look;
   look.is_color = true;
@@ -119,8 +122,7 @@ void AppearanceBlock::draw(const ViewContext& context, FieldRows& rows) {
   if (context.appearance != nullptr) draw_match(context, *context.appearance);
   ImGui::Spacing();
   const Project& project = context.project();
-  rows.rows("appearance.",
-            [&](const Field& field) { return look_of(field, project.compositing, project.appearance.haze); });
+  rows.rows("appearance.", [&](const Field& field) { return look_of(field, project); });
 }
 
 }  // namespace sigs::editor

@@ -185,8 +185,11 @@ void FieldRows::row(std::string_view key, const RowOptions& look) {
 }
 
 void FieldRows::rows(std::string_view prefix, const std::function<RowOptions(const Field&)>& look_of) {
-  for (const Field& field : sheet_.fields())
-    if (field.key.starts_with(prefix)) row(field.key, look_of ? look_of(field) : RowOptions());
+  for (const Field& field : sheet_.fields()) {
+    if (!field.key.starts_with(prefix)) continue;
+    const RowOptions look = look_of ? look_of(field) : RowOptions();
+    if (!look.is_hidden) row(field.key, look);
+  }
 }
 
 void FieldRows::problem_lines(std::string_view key) {

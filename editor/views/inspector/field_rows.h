@@ -25,6 +25,7 @@ struct RowOptions {
   // The value of an optional number when it is switched on.
   std::optional<double> suggested;
   bool is_color = false;
+  bool is_hidden = false;  // rows() passes over it
 };
 
 // A text that is being typed becomes the field's value when it is finished.

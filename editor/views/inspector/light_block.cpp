@@ -64,10 +64,11 @@ bool slider(FieldRows& rows, const char* label, double& value, double low, doubl
   return moved;
 }
 
-constexpr std::array<const char*, 4> kPointKeys{"light.kind", "light.position_m", "light.color", "light.ambient"};
+constexpr std::array<const char*, 5> kPointKeys{"light.kind", "light.position_m", "light.color", "light.ambient",
+                                                "light.white_cdpm2"};
 constexpr std::array<const char*, 3> kSunKeys{"light.kind", "light.sun.azimuth_deg", "light.sun.elevation_deg"};
-constexpr std::array<const char*, 4> kSunColorKeys{"light.color", "light.sky_color", "light.ground_color",
-                                                   "light.exposure"};
+constexpr std::array<const char*, 5> kSunColorKeys{"light.color", "light.sky_color", "light.ground_color",
+                                                   "light.exposure", "light.white_cdpm2"};
 
 RowOptions look_of_light(std::string_view key) {
   RowOptions look;
@@ -154,6 +155,9 @@ void LightBlock::draw_lit_like(const ViewContext& context) {
 }
 
 void LightBlock::draw(const ViewContext& context, FieldRows& rows) {
+  if (context.project().footage.spectrum == Spectrum::thermal)
+    return note(
+        "The footage is thermal: what flies in it is shown by its heat (in the block of the intruder), not lit.");
   draw_lit_like(context);
   if (context.project().light.kind == LightKind::sun) {
     for (const char* const key : kSunKeys) rows.row(key, look_of_light(key));

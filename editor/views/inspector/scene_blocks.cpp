@@ -234,6 +234,15 @@ void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {
     if (settings.contrail.strands == 0 && !field.key.ends_with("strands")) look.off_because = "It has no contrail.";
     return look;
   });
+  if (context.project().footage.spectrum == Spectrum::thermal) return rows.rows(key + ".heat.");
+  if (context.ui_probe.noted(ImGui::Button(settings.lights.is_dark() ? "Lights on" : "Lights off"), "inspector/lights",
+                             "Position lights, strobes and beacons as aircraft of this category have them; seen at "
+                             "dusk and by night. White is, in the block Light, says how dark it is."))
+    context.edits.change(settings.lights.is_dark() ? "lights on" : "lights off", [=](Project& project) {
+      IntruderSettings& changed = project.intruders[static_cast<std::size_t>(*intruder)];
+      changed.lights = changed.lights.is_dark() ? usual_lights(changed.category) : LampSettings{};
+    });
+  if (!settings.lights.is_dark()) rows.rows(key + ".lights.");
 }
 
 namespace {

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "frame/post_blend_stages.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+
+#include "compositor/blend.h"
+#include "compositor/blur.h"
+#include "compositor/float_patch.h"
+
+namespace sigs {
+
+namespace {
+
+std::int64_t samples_of(const FloatPatch& patch, int first_plane, int end_plane) {
+  std::int64_t count = 0;
+  for (int plane = first_plane; plane < std::min(end_plane, patch.plane_count()); ++plane)
+    count += patch.planes[static_cast<std::size_t>(plane)].rect.area();
+  return count;
+}
+
+// The stages in their order, each with the operations that it takes.
+class PostBlendStages {
+ public:
+  PostBlendStages(FloatPatch& patch, ComposedFrame& composed, const StageDone& done)
+      : patch_(patch), composed_(composed), done_(done) {}
+
+  void sharpened(double amount, double sigma_px) {
+    if (amount == 0) return;
+    sharpen(patch_, amount, sigma_px);
+    composed_.op_counts.samples_filtered += samples_of(patch_, 0, 1);
+    tell("sharpened");
+  }
+
+  // The camera's enhancement of local contrast: what a warm thing adds to the mean around it is taken away there.
+  void with_halo(double amount, double sigma_px) {
+    if (amount == 0) return;
+    const PatchPlane& plane = patch_.planes[0];
+    const cv::Mat added = plane.after - plane.before;
+    cv::Mat mean;
+    const cv::Mat kernel = sampled_gaussian(sigma_px, blur_margin_px(sigma_px));
+    cv::sepFilter2D(added, mean, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_CONSTANT);
+    for (int i = 0; i < (patch_.layout == PixelLayout::rgb ? 3 : 1); ++i)
+      add_change(patch_.planes[static_cast<std::size_t>(i)], -amount * mean);
+    composed_.op_counts.samples_filtered += samples_of(patch_, 0, 1);
+    tell("halo");
+  }
+
+  void with_chroma_blur(double sigma_samples) {
+    if (sigma_samples == 0 || patch_.plane_count() == 1) return;
+    blur_chroma(patch_, sigma_samples);
+    composed_.op_counts.samples_filtered += samples_of(patch_, patch_.layout == PixelLayout::rgb ? 0 : 1, 3);
+    tell("chroma_blur");
+  }
+
+  void with_grain(const GrainSettings& grain, int number, int intruder) {
+    if (grain.is_none()) return;
+    composed_.op_counts.samples_of_noise += add_grain(patch_, grain, number, intruder);
+    tell("grain");
+  }
+
+ private:
+  void tell(const char* name) {
+    if (!done_) return;
+    (void)write_patch(patch_, composed_.image);
+    done_(name);
+  }
+
+  FloatPatch& patch_;
+  ComposedFrame& composed_;
+  const StageDone& done_;
+};
+
+}  // namespace
+
+namespace {
+
+double halo_of(const Scene& scene) {
+  return scene.is_thermal ? scene.appearance.thermal.halo : 0;
+}
+
+}  // namespace
+
+int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout) {
+  const AppearanceSettings& appearance = scene.appearance;
+  return std::max({sharpening_margin_px(appearance.sharpening, appearance.sharpening_px),
+                   chroma_blur_margin_px(layout, appearance.chroma_blur_px),
+                   halo_of(scene) > 0 ? blur_margin_px(appearance.thermal.halo_px) : 0});
+}
+
+bool has_post_blend_stages(const Scene& scene) {
+  const AppearanceSettings& appearance = scene.appearance;
+  return appearance.sharpening > 0 || appearance.chroma_blur_px > 0 || !appearance.grain.is_none() ||
+         halo_of(scene) > 0;
+}
+
+Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& scene, const Layer& layer,
+                                       BlendChoice space, int intruder, int number, const StageDone& done) {
+  const AppearanceSettings& look = scene.appearance;
+  FloatPatch patch = blended_patch(composed.image, layer, space,
+                                   post_blend_stages_margin_px(scene, composed.image.layout), scene.own_body);
+  PostBlendStages stages(patch, composed, done);
+  stages.with_halo(halo_of(scene), look.thermal.halo_px);
+  stages.sharpened(look.sharpening, look.sharpening_px);
+  stages.with_chroma_blur(look.chroma_blur_px);
+  stages.with_grain(look.grain, number, intruder);
+  return {patch.planes[0].rect, write_patch(patch, composed.image)};
+}
+
+}  // namespace sigs
