@@ -135,7 +135,7 @@ std::string advice_on_guess(std::string_view key) {
 }
 
 bool is_common(std::string_view key) {
-  constexpr std::array<std::string_view, 37> kCommon{
+  constexpr std::array<std::string_view, 41> kCommon{
       "name",
       "footage.video",
       "footage.first_frame",
@@ -166,6 +166,10 @@ bool is_common(std::string_view key) {
       "model.length_m",
       "contrail.strands",
       "heat.skin",
+      "lights.position_cd",
+      "lights.strobe_cd",
+      "lights.beacon_cd",
+      "lights.landing_cd",
       "trajectory.timing",
       "trajectory.attitude",
       "compositing.method",

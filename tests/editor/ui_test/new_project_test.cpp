@@ -132,6 +132,16 @@ TEST_CASE("a project that the command line made lists its guesses, and its model
   CHECK(changed["intruders"][0]["category"] == "helicopter");
   CHECK(changed["intruders"][0]["trajectory"]["attitude"] == "helicopter");
   CHECK(fs::exists(ui_test.folder() / "flights/helicopter/helicopter.obj"));
+  // Lights on and off again.
+  const auto strobe = [&] { return ui_test.saved(project)["intruders"][0]["lights"]["strobe_cd"]; };
+  const double inspector_x = editor.place("inspector/filter").center_x();
+  editor.wheel(inspector_x, 500, -5);  // they stand below the image of the model
+  ui_test.edit([&] { editor.click("inspector/lights"); });
+  CHECK(strobe() == 200);
+  ui_test.image("lights");
+  ui_test.edit([&] { editor.click("inspector/lights"); });
+  CHECK(strobe() == 0);
+  editor.wheel(inspector_x, 500, 30);
   // It has a heading of its own, which is typed, and left to the path again.
   editor.click("inspector/Intruders");
   editor.settle();
@@ -146,7 +156,7 @@ TEST_CASE("a project that the command line made lists its guesses, and its model
   ui_test.image("heading");
   ui_test.edit([&] { editor.click("inspector/waypoint 1/heading", 3); });
   CHECK(heading().is_null());
-  for (int i = 0; i < 3; ++i) ui_test.edit([&] { editor.key("ctrl+z"); });
+  for (int i = 0; i < 5; ++i) ui_test.edit([&] { editor.key("ctrl+z"); });
   CHECK(ui_test.saved(project)["intruders"][0]["trajectory"]["attitude"] == "path");
   CHECK(ui_test.saved(project)["intruders"][0]["model"]["file"] == "light-aircraft/light-aircraft.obj");
   editor.key("ctrl+q");
