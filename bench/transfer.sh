@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Whether detectors trained on inserted aircraft find real ones: bench/transfer/README.md. Takes some 75 minutes of two cores.
 #   bench/transfer.sh [FOLDER] [BUILD] [CLIPS]
+#   bench/transfer.sh /tmp/transfer-thermal build/release ../shared/data/thermal
 # default: /tmp/transfer (what is there is kept), build/release, ../shared/data/track. Needs python3-torch, python3-numpy
 # and python3-pil.
 set -euo pipefail

@@ -4,6 +4,7 @@
     transfer.py make   FOLDER SIGS CLIPS     projects, recipes and datasets of all arms, as far as they are missing
     transfer.py train  FOLDER ARM SEED       one detector, and what it finds in the test clips
     transfer.py report FOLDER                the table
+    transfer.py bright FOLDER                how bright aircraft are before the sky in the training images of each arm
 """
 import json
 import pathlib
@@ -355,6 +356,43 @@ def report(folder):
                 print(row_of(arm, runs, half, others))
 
 
+def brightness_of(folder, name):
+    """Of each aircraft of 12 px or more before an even sky: 95th percentile of its luma less that of the sky, and
+    whether a fiftieth of it is at 235 or more."""
+    from train_detector import Images
+
+    labels, root = labels_of(folder, name)
+    images = Images(labels, root, name == "real", lambda image: True)
+    found = []
+    for pixels, boxes in zip(images.pixels, images.boxes):
+        luma = np.asarray(pixels, float) @ [0.299, 0.587, 0.114]
+        for x, y, width, height in boxes:
+            if name == "real":  # drawn with a margin
+                x, y, width, height = x + 6, y + 6, width - 12, height - 12
+            left, top, right, bottom = int(x) - 4, int(y) - 4, int(x + width) + 4, int(y + height) + 4
+            if max(width, height) < 12 or min(width, height) < 4 or left < 0 or top < 0:
+                continue
+            part = luma[top:bottom, left:right]
+            if part.shape != (bottom - top, right - left):
+                continue
+            inner = np.zeros(part.shape, bool)
+            inner[3:-3, 3:-3] = True
+            sky = np.median(part[~inner])
+            sd = 1.48 * np.median(np.abs(part[~inner] - sky))
+            off = np.abs(part - sky) > max(6, 5 * sd)
+            if sd <= 6 and off.sum() >= 10:
+                found.append((np.percentile(part[off] - sky, 95), np.mean(part[off] >= 235) > 0.02))
+    return np.array(found)
+
+
+def bright(folder):
+    for arm in arms_of(made_of(folder)):
+        found = brightness_of(folder, arm)
+        more = " ".join(f"{q:.0f}" for q in np.percentile(found[:, 0], [10, 25, 50, 75, 90]))
+        print(f"{arm}: {len(found)} aircraft; brighter than the sky: {np.mean(found[:, 0] > 5):.2f}, clipped: "
+              f"{np.mean(found[:, 1]):.2f}; percentiles 10 to 90 of by how much: {more}")
+
+
 def main():
     command, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     if command == "make":
@@ -365,6 +403,8 @@ def main():
         for seed in SEEDS:
             for arm in list(arms_of(made_of(folder))) + list(MIXED):
                 print(f"{arm}\t{seed}")
+    elif command == "bright":
+        bright(folder)
     else:
         report(folder)
 

@@ -131,6 +131,8 @@ constexpr int kThermalWidth_px = 640, kThermalHeight_px = 512;
 constexpr double kNight_code = 25;       // of 8 bits: half of the footage is darker by night
 constexpr double kNightWhite_cdpm2 = 5;  // f/2, 1/30 s, ISO 3200: 120 N^2 / (S t)
 constexpr double kWhiteOverNight = 3;    // light of a white surface over that of what is there
+// Of 12 clips of thermal cameras (docs/thermal.md): a sharp core, and a glow of two fifths of the light.
+constexpr double kThermalSpread_px = 0.35, kThermalGlow = 0.4, kThermalGlow_px = 1.8;
 constexpr double kHaloOfWidth = 0.0375;  // sigma of the halo over the image's width: 12 px in 320
 
 // Display codes of 8 bits: the median of what is sky in a frame, kWarmShare of what is not, the median of all.
@@ -193,6 +195,11 @@ FirstProjectNote set_thermal(const Brightness& seen, int width_px, Project& proj
   project.light = {};
   project.appearance.black = 0;
   project.appearance.haze = {};
+  if (project.appearance.psf_sigma_px == AppearanceSettings{}.psf_sigma_px) {  // not seen: as in other thermal clips
+    project.appearance.psf_sigma_px = kThermalSpread_px;
+    project.appearance.sharpening = -kThermalGlow;
+    project.appearance.sharpening_px = kThermalGlow_px;
+  }
   project.appearance.thermal.sky = std::round(median(seen.has_both() ? seen.skies : seen.all));
   project.appearance.thermal.halo_px = std::round(kHaloOfWidth * width_px * 10) / 10;
   FirstProjectNote note{.field = "footage.spectrum", .is_guess = true};

@@ -91,7 +91,7 @@ int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout) {
 
 bool has_post_blend_stages(const Scene& scene) {
   const AppearanceSettings& appearance = scene.appearance;
-  return appearance.sharpening > 0 || appearance.chroma_blur_px > 0 || !appearance.grain.is_none() ||
+  return appearance.sharpening != 0 || appearance.chroma_blur_px > 0 || !appearance.grain.is_none() ||
          halo_of(scene) > 0;
 }
 

@@ -34,7 +34,8 @@ void add_compositing(FieldList list, CompositingSettings& compositing) {
 
 void add_appearance(FieldList list, AppearanceSettings& appearance) {
   list.number("psf_sigma_px", &appearance.psf_sigma_px, "px", 0, 20, "sigma of the lens' and the sensor's blur");
-  list.number("sharpening", &appearance.sharpening, "", 0, 5, "the camera's own: how much of the detail is added");
+  list.number("sharpening", &appearance.sharpening, "", -0.9, 5,
+              "the camera's own: how much of the detail is added; below 0 taken away, as a lens that glows does");
   list.number("sharpening_px", &appearance.sharpening_px, "px", 0.2, 20, "sigma of the blur that detail is told by");
   list.number("chroma_blur_px", &appearance.chroma_blur_px, "px", 0, 20,
               "blur of the colours alone, in samples of the chroma planes");

@@ -238,11 +238,11 @@ struct LampSettings {
 // How much warmer than the clear sky the parts of an aircraft look to a thermal camera, in 8-bit code values before
 // they clip (docs/thermal.md). Which part a surface belongs to is told by its material.
 struct HeatSettings {
-  double skin = 200;
-  double engine = 300;
-  double exhaust = 400;
-  double glass = 150;
-  double rotor = 100;
+  double skin = 260;
+  double engine = 360;
+  double exhaust = 460;
+  double glass = 210;
+  double rotor = 160;
 
   [[nodiscard]] bool operator==(const HeatSettings&) const = default;
 };
