@@ -294,7 +294,7 @@ TEST_CASE("gray footage is thermal where its ground is brighter than its sky; sm
   CHECK(warm.project.footage.spectrum == Spectrum::thermal);
   CHECK(warm.project.appearance.thermal.sky == doctest::Approx(70).epsilon(0.02));
   CHECK(warm.project.appearance.thermal.halo_px == doctest::Approx(30));  // 12 px in 320
-  CHECK(warm.project.appearance.sharpening < 0);  // a glow
+  CHECK(warm.project.appearance.sharpening < 0);                          // a glow
   CHECK(note_on(warm, "footage.spectrum").is_guess);
   CHECK(std::none_of(warm.notes.begin(), warm.notes.end(),
                      [](const FirstProjectNote& note) { return note.field.starts_with("light."); }));

@@ -63,7 +63,8 @@ void check_box(const Compared& result, double extent_px) {
 
 TEST_CASE("blurred aircraft agree with ray tracing through the real lens") {
   for (const Place& place : places())
-    for (const char* model : {kAirlinerModel, kLightAircraftModel}) {  // the latter with windows and a propeller of glass
+    for (const char* model :
+         {kAirlinerModel, kLightAircraftModel}) {  // the latter with windows and a propeller of glass
       if (place.lens != pinhole_lens() && model == kAirlinerModel) continue;
       Sight sight = sight_of(model, place, 60);
       sight.sigma_px = 2;

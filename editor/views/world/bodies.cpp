@@ -267,6 +267,7 @@ glm::dvec2 light_mark(const WorldCanvas& canvas, const glm::dvec3& light_m) {
 }
 
 void draw_light(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered) {
+  if (world.context.project().footage.spectrum == Spectrum::thermal) return;  // nothing is lit
   const glm::dvec3 light_m = shown_light_m(world);
   const bool is_sun = world.context.project().light.kind == LightKind::sun;
   const bool is_selected = world.context.document.selection().kind == Selected::light;

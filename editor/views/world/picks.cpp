@@ -56,8 +56,10 @@ Offers things_offered(const WorldCanvas& canvas, const WorldContext& world) {
   for (const WorldBody& body : world.moment.bodies)
     offers.add({Selected::intruder, body.intruder, 0}, canvas, body.world_from_body.translation_m);
   offers.add({Selected::camera, 0, 0}, canvas, world.moment.world_from_camera.translation_m);
-  offers.what.push_back({Selected::light, 0, 0});
-  offers.points.push_back({light_mark(canvas, shown_light_m(world)), 1e9});
+  if (world.context.project().footage.spectrum == Spectrum::visible) {
+    offers.what.push_back({Selected::light, 0, 0});
+    offers.points.push_back({light_mark(canvas, shown_light_m(world)), 1e9});
+  }
   return offers;
 }
 
