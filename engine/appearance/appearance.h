@@ -77,7 +77,7 @@ struct AppearanceQuantity {
 // Makes intruders look like the footage: sets `appearance` and, where it was found, `light` of a project, and switches
 // off compositing.blur_px_per_m, the paper's blur, in place of which the point spread stands. What is not known gets
 // its estimate's default. Values are rounded to three digits and held in their settings' ranges. The grain's seed
-// stays.
+// stays. So do, of a thermal project, light, black and haze, and a blur that the footage does not show.
 void apply(const Appearance& appearance, Project& project);
 
 // The keys of the settings that apply() writes, in the order of the project file.

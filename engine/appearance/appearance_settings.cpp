@@ -196,7 +196,23 @@ std::vector<std::string> applied_settings(const Appearance& appearance) {
   return keys;
 }
 
+namespace {
+
+// To a thermal camera nothing is lit or hazy, and where its blur is not seen, that of other thermal cameras stays.
+void keep_thermal(const Project& before, bool blur_is_known, Project& project) {
+  project.light = before.light;
+  project.appearance.black = before.appearance.black;
+  project.appearance.haze = before.appearance.haze;
+  if (blur_is_known) return;
+  project.appearance.psf_sigma_px = before.appearance.psf_sigma_px;
+  project.appearance.sharpening = before.appearance.sharpening;
+  project.appearance.sharpening_px = before.appearance.sharpening_px;
+}
+
+}  // namespace
+
 void apply(const Appearance& appearance, Project& project) {
+  const Project before = project;
   project.compositing.blur_px_per_m = 0;
   for (const Field& field : fields_of(project))
     for (const AppearanceQuantity& quantity : quantities_of(appearance))
@@ -212,6 +228,8 @@ void apply(const Appearance& appearance, Project& project) {
   project.appearance.codec.match =
       is_lossless_codec(appearance.footage.codec) ? CodecMatchChoice::none : CodecMatchChoice::footage;
   project.appearance.codec.predicted_frames = appearance.codec.predicts ? kPredictedFrames : 0;
+  if (before.footage.spectrum == Spectrum::thermal)
+    keep_thermal(before, appearance.point_spread.sigma_px.is_known, project);
   hold_in_ranges(project);
 }
 

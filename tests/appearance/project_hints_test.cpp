@@ -114,6 +114,30 @@ TEST_CASE("a direction by time and place is left to the project, frame by frame"
   CHECK_FALSE(project.light.sun.elevation_deg);
 }
 
+TEST_CASE("to a thermal project the footage's light and haze mean nothing, and a blur that is not seen stays") {
+  Appearance found = LoggedFlight(utc_line(kUtc_s), 0).found();
+  for (Estimate& part : found.surroundings.light.sky_color) part = {.value = 0.3, .sd = 0.1, .is_known = true};
+  found.surroundings.tone.black = {.value = 0.1, .sd = 0.01, .is_known = true};
+  Project project;
+  project.footage.spectrum = Spectrum::thermal;
+  project.appearance.psf_sigma_px = 0.35;
+  project.appearance.sharpening = -0.4;
+  const Project before = project;
+  found.point_spread.sigma_px = {.value = 0.9, .sd = 0.1, .is_known = false};
+  apply(found, project);
+  CHECK(project.light == before.light);
+  CHECK(project.appearance.black == 0);
+  CHECK(project.appearance.psf_sigma_px == 0.35);
+  CHECK(project.appearance.sharpening == -0.4);
+  found.point_spread.sigma_px.is_known = true;
+  apply(found, project);
+  CHECK(project.appearance.psf_sigma_px == 0.9);
+  CHECK(project.light == before.light);
+  project.footage.spectrum = Spectrum::visible;
+  apply(found, project);
+  CHECK(project.appearance.black == 0.1);
+}
+
 TEST_CASE("while the footage is taken the sun moves, which its deviation has") {
   const SunEstimate sun = Sun().finish(
       GivenSun{.to_sun_in_world = {1, 0, -1}, .azimuth_range_rad = rad_of_deg(60), .elevation_range_rad = 0});
