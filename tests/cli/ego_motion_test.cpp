@@ -159,11 +159,12 @@ TEST_CASE("every command that takes footage in images takes its times") {
   const std::string project = (folder / "p.json").string();
   const Run matched = run_sigs("init " + images + times + " --out " + project);
   REQUIRE_MESSAGE(matched.status == 0, matched.err);
-  // Noise shows no haze and no lens: one line, which names where the reasons are. The images keep their samples: PNG.
-  CHECK(matched.err.find("appearance.haze.visibility_m: the footage does not show them") != std::string::npos);
+  // Noise shows no lens and no colours: one line, which names where the reasons are. The images keep their samples:
+  // PNG.
+  CHECK(matched.err.find("appearance.chroma_blur_px: the footage does not show them") != std::string::npos);
   CHECK(matched.err.find("p.notes.txt says why") != std::string::npos);
   CHECK(matched.err.find("found: appearance.codec.match: none") != std::string::npos);
-  CHECK(matched.err.find("images: is gray") != std::string::npos);
+  CHECK(matched.err.find("guessed: footage.spectrum: thermal: the footage is gray and as small") != std::string::npos);
   CHECK(read_project(project)->project.footage.timestamps == "times.txt");
   CHECK(run_sigs("appearance " + project + " --frame-rate 10").status == 64);
   CHECK(run_sigs("ego-motion --into " + project + times).status == 64);
