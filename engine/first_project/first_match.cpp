@@ -128,7 +128,8 @@ constexpr double kMinSkyShare = 0.08, kMaxSkyShare = 0.9;  // beyond them sky or
 constexpr double kWarmShare = 0.75;  // quantile of the ground that is brighter than the sky, the camera's halo left out
 constexpr double kWarmGround_codes = 5;  // by so much
 constexpr int kThermalWidth_px = 640, kThermalHeight_px = 512;
-constexpr double kNight_code = 25;       // of 8 bits: half of the footage is darker by night
+constexpr double kNight_code = 25;  // of 8 bits: half of the footage is darker by night
+constexpr double kNightExposure_s = 1.0 / 30;
 constexpr double kNightWhite_cdpm2 = 5;  // f/2, 1/30 s, ISO 3200: 120 N^2 / (S t)
 constexpr double kWhiteOverNight = 3;    // light of a white surface over that of what is there
 // Of 12 clips of thermal cameras (docs/thermal.md): a sharp core, and a glow of two fifths of the light.
@@ -212,7 +213,7 @@ FirstProjectNote set_thermal(const Brightness& seen, int width_px, Project& proj
   return note;
 }
 
-FirstProjectNote set_night(double code, Project& project) {
+FirstProjectNote set_night(double code, const Scene& scene, Project& project) {
   const double light = kWhiteOverNight * linear_of_display(static_cast<float>(code / 255));
   project.light = {.color = glm::dvec3(light), .ambient = 1, .white_cdpm2 = kNightWhite_cdpm2};
   FirstProjectNote note{.field = "light.white_cdpm2", .is_guess = true};
@@ -220,6 +221,10 @@ FirstProjectNote set_night(double code, Project& project) {
       "{} cd/m2 are white: by night, as the footage is as dark as code {:.0f}; the intruder is as "
       "dark and shows its lights (intruders[].lights)",
       kNightWhite_cdpm2, code);
+  if (scene.motion.exposures.empty()) {
+    project.camera.exposure_s = std::round(1000 * std::min(kNightExposure_s, scene.footage.frame_interval_s)) / 1000;
+    note.text += fmt::format("; the shutter is taken to be open for {} s", *project.camera.exposure_s);
+  }
   note.remedy = "set it by aperture, exposure and sensitivity (docs/aircraft-lights.md)";
   return note;
 }
@@ -236,7 +241,7 @@ Result<std::optional<FirstProjectNote>> set_dark_or_thermal(FrameSource& footage
   const bool is_warm = seen->has_both() ? median(seen->differences) >= kWarmGround_codes : is_small;
   if (project.appearance.saturation == 0 && is_warm) return set_thermal(*seen, size_px.width, project);
   const double code = median(seen->all);
-  return code < kNight_code ? std::optional(set_night(code, project)) : std::nullopt;
+  return code < kNight_code ? std::optional(set_night(code, scene, project)) : std::nullopt;
 }
 
 namespace {
