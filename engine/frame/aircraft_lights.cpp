@@ -47,8 +47,8 @@ constexpr std::array<AngleFactor, 5> kPositionAhead{{{0, 1}, {10, 1}, {20, 0.75}
 constexpr std::array<AngleFactor, 6> kFlashUpDown{{{0, 1}, {5, 1}, {10, 0.6}, {20, 0.2}, {30, 0.1}, {75, 0.05}}};
 constexpr double kTailOfAhead = 0.5;
 constexpr double kSector_deg = 110;  // from ahead to where the tail light takes over
-// Lights of one side fade over so much of the other one: else nobody straight ahead, between them, would see either.
-// 25.1395 leaves the first 10 degrees free.
+// Lights of one side fade over so much of the other one: else nobody straight ahead, between them, would see either,
+// nor a beacon who is level with the aircraft. 25.1395 leaves the first 10 degrees free.
 constexpr double kOverlap_deg = 3;
 
 const char* name_of(Lamp::Kind kind) {
@@ -183,9 +183,9 @@ double intensity_cd(const Lamp& lamp, const LampSettings& settings, const glm::d
     case Kind::strobe_tail:
       return is_ahead ? 0 : settings.strobe_cd * flash_cd;
     case Kind::beacon_top:
-      return up_deg >= 0 ? settings.beacon_cd * flash_cd : 0;
+      return std::clamp(1 + up_deg / kOverlap_deg, 0.0, 1.0) * settings.beacon_cd * flash_cd;
     case Kind::beacon_bottom:
-      return up_deg <= 0 ? settings.beacon_cd * flash_cd : 0;
+      return std::clamp(1 - up_deg / kOverlap_deg, 0.0, 1.0) * settings.beacon_cd * flash_cd;
     case Kind::landing:
       break;
   }

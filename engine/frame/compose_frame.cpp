@@ -108,11 +108,11 @@ Layer without_hidden(const Scene& scene, const SceneMoment& moment, const Layer&
   return occluded_by(free, occluder_seen_from(moment.world_from_camera, scene.occluder, lens, free.rect));
 }
 
-// Fills `contrail`: through haze, blurred by the lens.
+// Fills `contrail`: through haze, blurred by the lens. How warm ice looks is not modelled.
 void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* background, LensTable& lens,
                   IntruderLayers& layers) {
   const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(layers.placed.id)];
-  if (intruder.contrail.strands == 0 || scene.compositing.method != MethodChoice::direct) return;
+  if (intruder.contrail.strands == 0 || scene.is_thermal || scene.compositing.method != MethodChoice::direct) return;
   const cv::Rect image({0, 0}, scene.footage.size_px);
   const double distance_m = layers.placed.distance_m();
   const std::vector<TrailStrand> strands = contrail_strands(scene, moment, layers.placed, lens.camera().lens);

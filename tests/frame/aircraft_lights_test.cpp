@@ -91,21 +91,30 @@ TEST_CASE("off the axis a pinhole's pixel sees less: cos^3 of the solid angle") 
   for (const double right_m : {0.0, 400.0, 900.0}) {
     Scenario scenario(kNightImage);
     prepare_night(scenario, {2000, right_m, -150});
-    scenario.project.intruders[0].lights.beacon_cd = 100;
-    scenario.project.intruders[0].lights.flashes_per_minute = 6000;
-    scenario.project.intruders[0].lights.flash_s = 0.01;  // always on
+    scenario.project.intruders[0].lights.landing_cd = 100;
+    scenario.project.intruders[0].lights.landing_beam_deg = 180;
     const Scene scene = scenario.opened();
-    const SceneMoment moment = scene_at(scene, 1);
-    for (const LampImage& lamp : lamps_seen(scene)) {
-      const bool is_top = std::string(lamp.name) == "beacon top";
-      const LampPlaces& places = scene.intruders[0].model->lamps;
-      const glm::dvec3 p = moment.intruders[0].camera_from_body * glm::dvec3(is_top ? places.top : places.bottom);
-      const double distance2 = glm::dot(p, p), cosine = p.x / std::sqrt(distance2);
-      const double solid_angle = cosine * cosine * cosine * kPixel_rad * kPixel_rad;
-      const double lux = 100 * (0.2 + 0.01) / 0.01 / distance2;  // seen from ahead, so that the angle's factor is 1
-      CHECK(lamp.light[0] == doctest::Approx(4.7037 * lux / (5 * solid_angle)).epsilon(1e-4));
-      CHECK(lamp.light[1] == 0);
-    }
+    const glm::dvec3 p =
+        scene_at(scene, 1).intruders[0].camera_from_body * glm::dvec3(scene.intruders[0].model->lamps.nose);
+    const double distance2 = glm::dot(p, p), cosine = p.x / std::sqrt(distance2);
+    const double solid_angle = cosine * cosine * cosine * kPixel_rad * kPixel_rad;
+    const double off_deg = std::acos(cosine) * 180 / std::numbers::pi;  // it flies along the camera's axis
+    const double lux = 100 * std::exp2(-std::pow(off_deg / 90, 2)) / distance2;
+    const std::vector<LampImage> seen = lamps_seen(scene);
+    REQUIRE(seen.size() == 1);
+    CHECK(seen[0].light[1] == doctest::Approx(lux / (5 * solid_angle)).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("who is level with the aircraft sees both beacons") {
+  Scenario scenario(kNightImage);
+  prepare_night(scenario);
+  scenario.project.intruders[0].lights = {.beacon_cd = 100, .flashes_per_minute = 6000, .flash_s = 0.01};
+  const std::vector<LampImage> seen = lamps_seen(scenario.opened());
+  REQUIRE(seen.size() == 2);
+  for (const LampImage& lamp : seen) {
+    CHECK(lamp.light[0] > 0);
+    CHECK(lamp.light[1] == 0);  // red
   }
 }
 
@@ -146,8 +155,8 @@ TEST_CASE("sectors and angles have at least what 14 CFR 25 asks for, and nothing
     CHECK(intensity(Kind::right, 5, -up) == doctest::Approx(intensity(Kind::right, 5, up)));
     CHECK(intensity(Kind::strobe_right, 5, up) / burst >= flash * kAlmost);
     CHECK(intensity(Kind::beacon_top, 5, up) / burst >= flash * kAlmost);
-    if (up > 0) CHECK(intensity(Kind::beacon_bottom, 5, up) == 0);
-    if (up > 0) CHECK(intensity(Kind::beacon_top, 5, -up) == 0);
+    if (up > 3) CHECK(intensity(Kind::beacon_bottom, 5, up) == 0);
+    if (up > 3) CHECK(intensity(Kind::beacon_top, 5, -up) == 0);
   }
   const LampSettings beam{.landing_cd = 1000, .landing_beam_deg = 12};
   CHECK(intensity_cd({.kind = Kind::landing}, beam, towards(0, 0)) == doctest::Approx(1000));

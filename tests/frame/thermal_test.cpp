@@ -112,6 +112,20 @@ TEST_CASE("heat has no effect in footage by light, nor light in thermal footage"
   CHECK(same_planes(image(), visible));
 }
 
+TEST_CASE("a thermal camera's scene has no contrail, of which the heat is not known") {
+  Scenario scenario(kHeatImage);
+  add_block(scenario);
+  IntruderSettings& jet = scenario.project.intruders[0];
+  jet.trajectory.waypoints = {{.frame = 0, .position_m = {60, -40, -150}}, {.frame = 2, .position_m = {60, 40, -150}}};
+  const Frame without = composed(scenario).image;
+  jet.contrail.strands = 2;
+  const ComposedFrame with = composed(scenario);
+  CHECK(same_planes(with.image, without));
+  CHECK_FALSE(with.truth.intruders[0].has_contrail);
+  scenario.project.footage.spectrum = Spectrum::visible;
+  CHECK(composed(scenario).truth.intruders[0].has_contrail);
+}
+
 TEST_CASE("warm is dark where the camera shows it so, and the halo is bright") {
   Scenario scenario(kHeatImage);
   add_block(scenario);

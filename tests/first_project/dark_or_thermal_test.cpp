@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// First projects of footage that is not lit by day.
+#include <algorithm>
+#include <opencv2/core.hpp>
+
+#include "made_project.h"
+
+namespace sigs {
+
+using test::made_and_opened;
+using test::note_on;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Gray images of a sky that ends at a level skyline above a textured ground, codes of each.
+fs::path sky_over_ground(const test::TemporaryFolder& folder, const std::string& name, const cv::Size& size, int sky,
+                         int ground) {
+  const fs::path images = folder / name;
+  fs::create_directory(images);
+  cv::RNG random(3);
+  cv::Mat1f texture(size);
+  random.fill(texture, cv::RNG::NORMAL, 0, 12);
+  cv::Mat1f image(size, static_cast<float>(sky));
+  const int skyline = size.height * 2 / 3;
+  for (int y = skyline; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) image(y, x) = static_cast<float>(ground) + texture(y, x);
+  cv::Mat codes;
+  image.convertTo(codes, CV_8U);
+  for (int n = 0; n < 4; ++n) cv::imwrite((images / fmt::format("{:03}.png", n)).string(), codes);
+  return images;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "gray footage is thermal where its ground is brighter than its sky, or where it is small and shows none; dark "
+    "footage is by night") {
+  const test::TemporaryFolder folder;
+  const auto made_of = [&](const std::string& name, const cv::Size& size, int sky, int ground) {
+    const fs::path images = sky_over_ground(folder, name, size, sky, ground);
+    return made_and_opened({.video = images, .timing = {.frame_rate_hz = 25}, .out = folder / (name + ".json")});
+  };
+  const FirstProject warm = made_of("warm", {800, 600}, 70, 180);
+  CHECK(warm.project.footage.spectrum == Spectrum::thermal);
+  CHECK(warm.project.appearance.thermal.sky == doctest::Approx(70).epsilon(0.02));
+  CHECK(warm.project.appearance.thermal.halo_px == doctest::Approx(30));  // 12 px in 320
+  CHECK(warm.project.appearance.sharpening < 0);                          // a glow
+  CHECK(note_on(warm, "footage.spectrum").is_guess);
+  CHECK(std::none_of(warm.notes.begin(), warm.notes.end(),
+                     [](const FirstProjectNote& note) { return note.field.starts_with("light."); }));
+  CHECK(made_of("day", {800, 600}, 180, 70).project.footage.spectrum == Spectrum::visible);
+  CHECK(made_of("small", {320, 256}, 90, 90).project.footage.spectrum == Spectrum::thermal);
+  CHECK(made_of("small-day", {320, 256}, 180, 70).project.footage.spectrum == Spectrum::visible);
+  CHECK(made_of("large", {800, 600}, 90, 90).project.footage.spectrum == Spectrum::visible);
+  CHECK(made_of("dim", {800, 600}, 60, 20).project.intruders.front().lights.is_dark());
+
+  const FirstProject night = made_of("night", {800, 600}, 16, 6);
+  CHECK(night.project.footage.spectrum == Spectrum::visible);
+  CHECK(note_on(night, "light.white_cdpm2").is_guess);
+  CHECK(night.project.light.white_cdpm2 == 5);
+  CHECK(night.project.camera.exposure_s == doctest::Approx(0.033));  // 25 frames a second leave room for it
+  CHECK(night.project.light.color.x < 0.05);                         // as dark as the footage
+  CHECK(night.project.intruders.front().lights == usual_lights("airplane"));
+}
+
+}  // namespace sigs
