@@ -9,6 +9,7 @@
 
 #include "base/pose.h"
 #include "compositor/haze.h"
+#include "frame/render_plan.h"
 #include "render/rotor_view.h"
 
 namespace sigs {
@@ -98,26 +99,20 @@ struct SeenPoint {
 
 std::optional<SeenPoint> seen(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
                               const Lens& lens, const glm::dvec3& place_m) {
-  constexpr int kSteps = 4;
-  const double last_row = scene.footage.size_px.height - 1;
   SeenPoint point;
-  const auto look = [&](double since_s) {
+  const std::optional<SeenInRow> in_row = seen_in_row(scene, [&](double row_s) -> std::optional<glm::dvec2> {
     const Pose<frame::Camera, frame::Body> pose =
-        since_s == 0 ? placed.camera_from_body
-                     : camera_from_body_at(scene, static_cast<std::size_t>(placed.id), moment.time_s + since_s);
-    point.since_s = since_s;
+        row_s == 0 ? placed.camera_from_body
+                   : camera_from_body_at(scene, static_cast<std::size_t>(placed.id), moment.time_s + row_s);
     point.p_in_camera = pose * place_m;
     const double distance_m = glm::length(point.p_in_camera);
-    const std::optional<glm::dvec2> pixel = distance_m > 0 ? lens.pixel(point.p_in_camera) : std::nullopt;
-    if (!pixel) return false;
-    point.pixel = *pixel;
+    if (!(distance_m > 0)) return std::nullopt;
     point.to_camera_in_body = glm::conjugate(pose.rotation) * (-point.p_in_camera / distance_m);
-    return true;
-  };
-  if (!look(0)) return std::nullopt;
-  if (!(scene.motion.readout_s > 0) || !(last_row > 0)) return point;
-  for (int step = 0; step < kSteps; ++step)
-    if (!look(scene.motion.readout_s * (std::clamp(point.pixel.y / last_row, 0.0, 1.0) - 0.5))) return std::nullopt;
+    return lens.pixel(point.p_in_camera);
+  });
+  if (!in_row) return std::nullopt;
+  point.pixel = in_row->pixel;
+  point.since_s = in_row->row_s;
   return point;
 }
 

@@ -17,16 +17,10 @@ namespace {
 // Where the reference point appears in a frame that is taken since_s after the moment.
 std::optional<glm::dvec2> pixel_at(const Scene& scene, const SceneMoment& moment, std::size_t intruder,
                                    const Lens& lens, double since_s) {
-  constexpr int kSteps = 4;  // each takes the error times the share of the readout that the point moves by: 1e-2
-  const double last_row = scene.footage.size_px.height - 1;
-  const auto seen_at = [&](double row_s) {
+  const std::optional<SeenInRow> seen = seen_in_row(scene, [&](double row_s) {
     return lens.pixel(camera_from_body_at(scene, intruder, moment.time_s + since_s + row_s).translation_m);
-  };
-  std::optional<glm::dvec2> pixel = seen_at(0);
-  if (!(scene.motion.readout_s > 0) || !(last_row > 0)) return pixel;
-  for (int step = 0; step < kSteps && pixel; ++step)
-    pixel = seen_at(scene.motion.readout_s * (std::clamp(pixel->y / last_row, 0.0, 1.0) - 0.5));
-  return pixel;
+  });
+  return seen ? std::optional(seen->pixel) : std::nullopt;
 }
 
 constexpr int kMaxViewSize_px = 4096;  // some 300 MB; the image of a nearer intruder is rendered coarser
@@ -151,6 +145,20 @@ void count_rendering(OpCounts& counts, const RenderCounts& before, const RenderC
 }
 
 }  // namespace
+
+std::optional<SeenInRow> seen_in_row(const Scene& scene,
+                                     const std::function<std::optional<glm::dvec2>(double row_s)>& pixel_at) {
+  constexpr int kSteps = 4;  // each takes the error times the share of the readout that the point moves by: 1e-2
+  const double last_row = scene.footage.size_px.height - 1;
+  std::optional<glm::dvec2> pixel = pixel_at(0);
+  double row_s = 0;
+  if (scene.motion.readout_s > 0 && last_row > 0)
+    for (int step = 0; step < kSteps && pixel; ++step) {
+      row_s = scene.motion.readout_s * (std::clamp(pixel->y / last_row, 0.0, 1.0) - 0.5);
+      pixel = pixel_at(row_s);
+    }
+  return pixel ? std::optional(SeenInRow{*pixel, row_s}) : std::nullopt;
+}
 
 glm::dvec2 motion_during_exposure(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
                                   const Lens& lens) {

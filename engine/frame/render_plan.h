@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -23,6 +24,17 @@
 #include "truth/measure.h"
 
 namespace sigs {
+
+// Where something that moves is seen, and how long after the frame's time the row opens in which it is.
+struct SeenInRow {
+  glm::dvec2 pixel{0, 0};
+  double row_s = 0;
+};
+
+//   pixel_at  where it has its image so long after the frame's time; none: nowhere
+// None: it has no image. With a global shutter it is asked for once, at 0.
+[[nodiscard]] std::optional<SeenInRow> seen_in_row(
+    const Scene& scene, const std::function<std::optional<glm::dvec2>(double row_s)>& pixel_at);
 
 // One intruder of one frame on its way from the mesh to the image. Each member is filled by one stage, in this order.
 struct IntruderLayers {
