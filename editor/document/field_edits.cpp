@@ -33,6 +33,7 @@ std::string word_for_none(std::string_view key) {
   if (key.starts_with("light.sun.")) return "by time and place";
   if (key == "appearance.codec.quantiser") return "the stream's";
   if (key == "appearance.haze.visibility_m") return "clear air";
+  if (key == "footage.cloud_distance_m") return "hide nothing";
   return key.starts_with("camera.attitude_deg.") ? "not set" : "none";
 }
 

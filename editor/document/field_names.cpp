@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 78> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 80> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
@@ -28,6 +28,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 78> kNames{{
     {"footage.occluder_mask", "Occluder"},
     {"footage.occluder_frame", "Occluder frame"},
     {"footage.occluder_distance_m", "Its distance"},
+    {"footage.cloud_distance_m", "Clouds from"},
+    {"footage.cloud_depth_m", "Their depth"},
     {"appearance.psf_sigma_px", "Blur"},
     {"appearance.sharpening", "Sharpening"},
     {"appearance.sharpening_px", "Sharpening radius"},
@@ -135,7 +137,7 @@ std::string advice_on_guess(std::string_view key) {
 }
 
 bool is_common(std::string_view key) {
-  constexpr std::array<std::string_view, 41> kCommon{
+  constexpr std::array<std::string_view, 43> kCommon{
       "name",
       "footage.video",
       "footage.first_frame",
@@ -143,6 +145,8 @@ bool is_common(std::string_view key) {
       "footage.calibration",
       "footage.spectrum",
       "footage.own_body_mask",
+      "footage.occluder_mask",
+      "footage.cloud_distance_m",
       "own_body.method",
       "own_body.soft_edge_px",
       "camera.position_m",

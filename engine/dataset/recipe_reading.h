@@ -80,9 +80,10 @@ void read_splits(RecipeNode& recipe_node, Recipe& recipe);
 
 // A group's "appearance": { "haze.visibility_m": QUANTITY, ... } or "camera": numbers of the project below that
 // section, within their limits, by their keys in the project. Those that `settings` (KEY=VALUE given beside the recipe)
-// set are left out.
+// set are left out; left_out are no keys there.
 [[nodiscard]] std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
-                                                           const std::vector<std::string>& settings);
+                                                           const std::vector<std::string>& settings,
+                                                           const std::vector<std::string>& left_out = {});
 
 // Numbers of a section of the project in a node, by their keys there ("intruders[0].contrail.strands" of the node's
 // "strands"), within their limits, without those that `settings` set and those named in left_out.

@@ -101,12 +101,13 @@ std::map<std::string, Quantity> numbers_in(RecipeNode& node, const std::string& 
 }
 
 std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
-                                             const std::vector<std::string>& settings) {
+                                             const std::vector<std::string>& settings,
+                                             const std::vector<std::string>& left_out) {
   const Json* const json = group.value(section);
   if (json == nullptr) return {};
   const Json renamed = with_current_keys(*json, section, group);
   RecipeNode node(renamed, group.key_of(section), group.log());
-  std::map<std::string, Quantity> numbers = numbers_in(node, section, settings, {});
+  std::map<std::string, Quantity> numbers = numbers_in(node, section, settings, left_out);
   node.done();
   return numbers;
 }
@@ -302,6 +303,10 @@ void check_sampled_name(const VideoGroup& group, RecipeNode& node) {
     node.log().wrong(node.key_of("name"), "is the same for " + std::to_string(group.count) + " videos; add {number}");
 }
 
+// Numbers of the footage that belong to the clip, or that the group states itself.
+const std::vector<std::string> kOfTheClip{"frame_rate", "first_frame", "last_frame", "occluder_frame",
+                                          "max_substituted_percent"};
+
 VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<std::string>& settings) {
   VideoGroup group;
   read_count(node, group);
@@ -312,6 +317,7 @@ VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<s
   group.lights = read_lights(node, settings);
   group.numbers = read_numbers(node, "appearance", settings);
   group.numbers.merge(read_numbers(node, "camera", settings));
+  group.numbers.merge(read_numbers(node, "footage", settings, kOfTheClip));
   group.others = read_others(node, recipe);
   group.name = node.text("name").value_or(standard_name(group));
   group.frames = node.whole("frames", 1, kMaxFrames);

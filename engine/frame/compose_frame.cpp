@@ -15,6 +15,7 @@
 #include "compositor/blur.h"
 #include "compositor/haze.h"
 #include "compositor/warp.h"
+#include "frame/cloud_cover.h"
 #include "frame/composite.h"
 #include "frame/contrail.h"
 #include "frame/render_plan.h"
@@ -189,6 +190,13 @@ std::optional<Detectability> detectability_in(const Frame& image, const Intruder
                        scene.own_body, luminance_of_code(image));
 }
 
+// What they hide, over the whole image.
+Stage clouds_stage(const CloudMap& clouds, const Scene& scene) {
+  Stage stage{.name = "clouds", .image = {}};
+  clouds.part({{0, 0}, scene.footage.size_px}).opacity.convertTo(stage.image, CV_8U, 255);
+  return stage;
+}
+
 // The truth of every intruder, by id: what is measured in the composed image, and what the scene says.
 std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment& moment, const ComposedFrame& composed,
                                            const std::vector<IntruderLayers>& far_to_near,
@@ -205,6 +213,7 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
                              .visibility_m = has_haze ? scene.appearance.haze.visibility_m : std::nullopt};
     if (scene.earth) truth.place = scene.earth->place_of(moment.world_from_camera * truth.position_m);
     truth.lights = far_to_near[i].lamp_truths;
+    truth.clouds = far_to_near[i].clouds;
     truth.has_contrail = !far_to_near[i].contrail.empty();
     truth.is_distractor = scene.intruders[static_cast<std::size_t>(truth.id)].is_distractor;
     truths.push_back(std::move(truth));
@@ -281,8 +290,12 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
     if (!layers) return fail(layers.error());
     far_to_near.push_back(std::move(*layers));
   }
+  const std::optional<CloudMap> clouds = clouds_of(scene, background, far_to_near, stages);
+  hide_behind_clouds(scene, clouds ? &*clouds : nullptr, far_to_near);
   const std::vector<FootageLuma> footage_luma = footage_luma_of(background, far_to_near);
   ComposedFrame composed = composited(std::move(background), scene, frame, far_to_near, context, stages);
+  if (clouds && stages == Stages::keep)
+    composed.stages.insert(composed.stages.begin() + 1, clouds_stage(*clouds, scene));
   composed.truth =
       truth_of(scene, moment, frame, composed, intruder_truths(scene, moment, composed, far_to_near, footage_luma));
   for (const IntruderLayers& layers : far_to_near) {

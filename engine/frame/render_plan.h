@@ -50,11 +50,12 @@ struct IntruderLayers {
   Layer hazed;                           // in the footage's tones, behind haze; shares its samples where both are off
   Layer motion_blurred;                  // blurred by its motion; likewise
   Layer blurred;                         // clipped to the image; empty where too faint to change any sample
-  Layer occluded;  // without what own body and occluder hide; shares its samples where they hide nothing
+  Layer occluded;  // without what own body, occluder and clouds hide; shares its samples where they hide nothing
   Layer contrail;  // clipped to the image, without what is hidden; empty: none
   bool contrail_is_nearer = false;     // than the aircraft
   std::vector<LampLayer> lamps;        // the aircraft's lights, clipped to the image, without what is hidden
   std::vector<LampTruth> lamp_truths;  // one for each of them
+  std::optional<CloudTruth> clouds;    // none: the scene has no clouds that hide anything
   double whole_area_px = 0;            // of the silhouette, the part outside the image included
   double draw_s = 0;                   // seconds of OpenGL
   OpCounts op_counts;

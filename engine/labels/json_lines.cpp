@@ -112,6 +112,7 @@ std::string intruder_json(const IntruderTruth& truth, const LabelSequence& seque
   add_numbers_json(object, "silhouette", silhouette_numbers(truth));
   add_numbers_json(object, "appearance", appearance_numbers(truth));
   add_lights_json(object, truth);
+  add_numbers_json(object, "clouds", cloud_numbers(truth));
   add_encounter_json(object, truth);
   return object.text();
 }

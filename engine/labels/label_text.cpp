@@ -163,6 +163,11 @@ LabelNumbers light_numbers(const LampTruth& lamp) {
   return {{"x", lamp.pixel.x}, {"y", lamp.pixel.y}, {"share", lamp.share}, {"brightest", lamp.brightest}};
 }
 
+LabelNumbers cloud_numbers(const IntruderTruth& truth) {
+  if (!truth.clouds) return {};
+  return {{"hidden", truth.clouds->hidden}, {"assumed_distance_m", truth.clouds->assumed_distance_m}};
+}
+
 LabelNumbers encounter_numbers(const EncounterTruth& now) {
   return {{"range_rate_mps", now.range_rate_mps},
           {"closing_speed_mps", now.closing_speed_mps},

@@ -80,6 +80,7 @@ using LabelNumbers = std::vector<LabelNumber>;
 [[nodiscard]] LabelNumbers appearance_numbers(
     const IntruderTruth& truth);  // visibility_m comes last, where it is known
 [[nodiscard]] LabelNumbers light_numbers(const LampTruth& lamp);
+[[nodiscard]] LabelNumbers cloud_numbers(const IntruderTruth& truth);     // empty: the project's clouds hide nothing
 [[nodiscard]] LabelNumbers encounter_numbers(const EncounterTruth& now);  // the last may be infinite
 
 // The columns of one frame, and their values: position and attitude in the world, sources, deviation and place. Those

@@ -76,6 +76,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
     light.append_attribute("name") = lamp.name.c_str();
     set_all(light, light_numbers(lamp));
   }
+  add_numbers(node, "clouds", cloud_numbers(truth));
   add_encounter(node, truth);
 }
 

@@ -38,6 +38,10 @@ void add_footage(FieldList list, FootageSettings& footage) {
               "frame that the occluder mask was made of; elsewhere it follows the camera's motion");
   list.number("occluder_distance_m", &footage.occluder_distance_m, "m", 0, 1e7,
               "how far the occluder is; nearer intruders are before it; 0: none is");
+  list.number("cloud_distance_m", &footage.cloud_distance_m, "m", 0, 1e7,
+              "how far the footage's clouds are, which hide what is farther; assumed; null: they hide nothing");
+  list.number("cloud_depth_m", &footage.cloud_depth_m, "m", 0, 1e6,
+              "how deep into the clouds they hide as much as they do at all");
   list.path("real_aircraft", footage.real_aircraft, false,
             "CSV (frame,label,x,y,w,h) with boxes of real aircraft in the footage, which labels ignore; empty: none");
   list.path("own_body_mask", footage.own_body_mask, false,

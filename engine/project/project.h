@@ -38,7 +38,11 @@ struct FootageSettings {
   std::string occluder_mask;
   int occluder_frame = 0;          // the frame that the mask was made of, counted from 0
   double occluder_distance_m = 0;  // intruders nearer than this are before it; 0: none is
-  std::string real_aircraft;       // file with the boxes of aircraft that the footage itself shows; empty: none
+  // From which distance on the footage's clouds hide intruders; none: they hide none. It is assumed: no camera tells
+  // it.
+  std::optional<double> cloud_distance_m;
+  double cloud_depth_m = 200;  // from there, over which they become as thick as they look
+  std::string real_aircraft;   // file with the boxes of aircraft that the footage itself shows; empty: none
   Spectrum spectrum = Spectrum::visible;
   LensModelChoice lens_model = LensModelChoice::automatic;
   double max_substituted_percent = 1;  // of the exported frames; more damaged ones are an error

@@ -111,6 +111,19 @@ struct Occluder {
   }
 };
 
+// The clouds that the footage shows, which hide what is farther away. Their distance is assumed.
+struct Clouds {
+  double distance_m = 0;  // from the camera to where they begin
+  double depth_m = 0;     // over which they become as thick as they look
+
+  // The share of the clouds' depth before what is this far away, 0..1.
+  [[nodiscard]] double depth_before(double intruder_distance_m) const {
+    const double in_them_m = intruder_distance_m - distance_m;
+    if (!(in_them_m > 0)) return 0;
+    return in_them_m < depth_m ? in_them_m / depth_m : 1;
+  }
+};
+
 // A project with everything that it names opened and checked. It does not change after it has been opened.
 struct Scene {
   Camera camera;
@@ -120,6 +133,7 @@ struct Scene {
   std::vector<SceneIntruder> intruders;              // in the project's order
   cv::Mat own_body;  // CV_32FC1 of the footage's size, 0..1: 1 where the own body hides everything; empty: no mask
   Occluder occluder;
+  std::optional<Clouds> clouds = {};
   BoxesByFrame real_aircraft = {};  // that the footage itself shows
   CompositingSettings compositing;
   AppearanceSettings appearance;

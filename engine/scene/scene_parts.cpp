@@ -128,6 +128,8 @@ Scene bare_scene(const Project& project, const FootageShape& footage) {
               .footage = footage,
               .horizon_is_known = knows_horizon(project.camera)};
   if (project.footage.spectrum == Spectrum::thermal) see_heat(scene);
+  if (const std::optional<double> distance_m = project.footage.cloud_distance_m)
+    scene.clouds = Clouds{.distance_m = *distance_m, .depth_m = project.footage.cloud_depth_m};
   return scene;
 }
 

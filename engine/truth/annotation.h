@@ -62,6 +62,12 @@ struct LampTruth {
   double brightest = 0;    // linear light that it adds to the pixel it adds most to; 1: white
 };
 
+// What the footage's clouds do to an intruder.
+struct CloudTruth {
+  double hidden = 0;              // of its coverage that own body and occluder leave, 0..1
+  double assumed_distance_m = 0;  // of the clouds: no camera tells it
+};
+
 // Well clear of an intruder at one time, for one volume.
 struct WellClearTruth {
   std::string volume;  // its name, "dwc-en-route"
@@ -103,6 +109,7 @@ struct IntruderTruth {
   std::optional<EncounterTruth> encounter = {};  // none where it was not asked for
   bool has_contrail = false;                     // some of its contrail is in the image; no box or mask has it
   std::vector<LampTruth> lights = {};            // those that are on and bright enough to change the image
+  std::optional<CloudTruth> clouds = {};         // none where the project's clouds hide nothing
   bool is_distractor = false;                    // what detectors should not report, such as a bird
 };
 

@@ -190,6 +190,24 @@ TEST_CASE("recipes draw a contrail by aircraft, where it flies high enough") {
   CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].contrail.strands: must lie between 0 and 4"));
 }
 
+TEST_CASE("recipes draw how far the footage's clouds are, and nothing else of the clip") {
+  nlohmann::ordered_json recipe = image_recipe(
+      {{"images", 12}, {"footage", {{"cloud_distance_m", {{"uniform", {500, 4000}}}}, {"cloud_depth_m", 50}}}});
+  std::set<double> distances_m;
+  for (const PlannedVideo& image : RecipeFolder().plan(recipe).videos) {
+    REQUIRE(image.project.footage.cloud_distance_m);
+    distances_m.insert(*image.project.footage.cloud_distance_m);
+    CHECK(image.sampled.at("footage.cloud_distance_m") == *image.project.footage.cloud_distance_m);
+    CHECK(image.project.footage.cloud_depth_m == 50);
+  }
+  CHECK(distances_m.size() == 12);
+  CHECK(*distances_m.begin() >= 500);
+  CHECK(*distances_m.rbegin() <= 4000);
+  for (const PlannedVideo& image :
+       RecipeFolder().plan(image_recipe({{"images", 12}, {"footage", {{"frame_rate", 3}}}})).videos)
+    CHECK_FALSE(image.project.footage.frame_rate_hz);  // it is the clip's; a warning says so
+}
+
 TEST_CASE("recipes draw the heat of an aircraft's parts, and the halo of a thermal camera") {
   nlohmann::ordered_json recipe =
       image_recipe({{"images", 12}, {"appearance", {{"thermal.halo", {{"uniform", {0.1, 0.6}}}}}}});

@@ -46,6 +46,14 @@ void draw_own_body(const ViewContext& context, FieldRows& rows) {
     context.edits.ask(ShowOwnBody{});
   note("What else hides intruders: trees and hills, as a mask of one frame.");
   rows.rows("footage.occluder_");
+  note("Clouds in the footage, found in each frame. How far they are is yours to say.");
+  rows.rows("footage.cloud_", [&](const Field& field) {
+    RowOptions look;
+    look.suggested = 2000;
+    if (field.key == "footage.cloud_depth_m" && !context.project().footage.cloud_distance_m)
+      look.off_because = "Counts where clouds hide intruders.";
+    return look;
+  });
 }
 
 void draw_compositing(const ViewContext& context, FieldRows& rows) {

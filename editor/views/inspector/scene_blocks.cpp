@@ -139,7 +139,8 @@ void draw_inputs(const ViewContext& context, FieldRows& rows) {
   last.suggested = scene != nullptr ? double(scene->draft.scene.footage.times_s.size()) - 1 : 0;
   for (const Field& field : rows.sheet().fields()) {
     if (!field.key.starts_with("footage.") || field.key == "footage.video") continue;
-    if (field.key.starts_with("footage.occluder_")) continue;  // with the own body
+    if (field.key.starts_with("footage.occluder_") || field.key.starts_with("footage.cloud_"))
+      continue;  // with the own body
     rows.row(field.key, field.key == "footage.last_frame" ? last : RowOptions());
     if (field.key == "footage.calibration" && scene != nullptr && !rows.problems().contains(field.key))
       note(lens_text(scene->draft.scene.camera));

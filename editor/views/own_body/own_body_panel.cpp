@@ -10,6 +10,7 @@
 
 #include "editor/views/export_view.h"
 #include "editor/views/inspector/field_rows.h"
+#include "editor/views/viewport/overlays.h"
 #include "editor/widgets/dialog.h"
 
 namespace sigs::editor {
@@ -126,6 +127,10 @@ bool OwnBodyPanel::draw_start_from(const ViewContext& context, OwnBodySession& s
   }
   if (context.ui_probe.noted(flow.button("File...", "A mask in a file"), "own body/start from file"))
     session.ask_start_from_file(context.project());
+  if (const cv::Mat clouds = clouds_of_frame(context);
+      !clouds.empty() && context.ui_probe.noted(flow.button("Clouds", "Those that are found in the frame shown"),
+                                                "own body/start from clouds"))
+    session.start_from_clouds(clouds);
   if (context.ui_probe.noted(flow.button("Empty", "Nothing is masked"), "own body/clear")) session.start_from_empty();
   if (session.edge_waits()) {
     note("The soft edge counts for strokes from now on. This mask has the edge that it had.");
@@ -184,6 +189,11 @@ void OwnBodyPanel::draw_file(const ViewContext& context, OwnBodySession& session
   if (context.ui_probe.noted(wide_button("Save as...", false, !session.painting().empty()), "own body/save",
                              "A PNG of 8 bits, of the footage's size: 255 is own body"))
     session.ask_save_as(project);
+  if (context.ui_probe.noted(
+          wide_button("Use as occluder...", false, session.fits() && !session.painting().empty()), "own body/occluder",
+          "Not the own body, but what stands in the world: trees, hills or clouds as this frame shows them. Saves the "
+          "mask; it hides what is farther than \"Its distance\", and follows the camera's motion"))
+    session.ask_use_as_occluder(project, context.document.playhead());
 }
 
 bool OwnBodyPanel::draw(const ViewContext& context, OwnBodySession& session) {

@@ -23,9 +23,12 @@ cv::Mat bytes_of(const cv::Mat& share) {
   return mask;
 }
 
-fs::path project_mask_file(const Project& project) {
-  const std::string& named = project.footage.own_body_mask;
+fs::path file_named(const Project& project, const std::string& named) {
   return named.empty() ? fs::path() : fs::absolute(resolved(project, named)).lexically_normal();
+}
+
+fs::path project_mask_file(const Project& project) {
+  return file_named(project, project.footage.own_body_mask);
 }
 
 // A soft edge is centred on the border.
@@ -41,6 +44,9 @@ bool is_png(const fs::path& path) {
 cv::Mat with_edge(const cv::Mat& mask, double has_px, double wanted_px) {
   return has_px == wanted_px ? mask : soft_edged(hard(mask), wanted_px);
 }
+
+// Where a painting comes from.
+constexpr const char* kOfClouds = "clouds of a frame";
 
 }  // namespace
 
@@ -168,8 +174,7 @@ void OwnBodySession::take_soft_edge(double edge_px) {
 }
 
 void OwnBodySession::feather() {
-  const auto origin = origin_.find(painting_.whole_state());
-  const std::string name = origin == origin_.end() ? std::string() : origin->second;
+  const std::string name = origin_of_whole();
   replace(soft_edged(hard(painting_.mask()), edge_px_), "soft edge", name);
 }
 
@@ -196,6 +201,11 @@ void OwnBodySession::start_from_empty() {
   if (!painting_.empty()) replace(cv::Mat::zeros(painting_.mask().size(), CV_8UC1), "clear", "");
 }
 
+std::string OwnBodySession::origin_of_whole() const {
+  const auto found = origin_.find(painting_.whole_state());
+  return found == origin_.end() ? std::string() : found->second;
+}
+
 bool OwnBodySession::could_start_from_project(const Project& project) const {
   return fits() && project_mask_.size() == footage_px_ && !project_mask_file(project).empty();
 }
@@ -209,6 +219,11 @@ void OwnBodySession::start_from_project(const Project& project) {
     replace(mask, "the project's mask", "from " + file.filename().string());
   painting_.mark_saved();
   remember_file(file, file_is_own_ && file == file_);
+}
+
+void OwnBodySession::start_from_clouds(const cv::Mat& opacity) {
+  if (opacity.size() == painting_.mask().size() && opacity.type() == CV_8UC1)
+    replace(opacity.clone(), "clouds", kOfClouds);
 }
 
 void OwnBodySession::ask_start_from_file(const Project& project) {
@@ -236,14 +251,15 @@ bool OwnBodySession::is_used(const Project& project) const {
 std::string OwnBodySession::mask_text(const Project& project) const {
   const std::string name = file_.filename().string();
   if (is_used(project)) return name + ", used in the project";
+  if (unsaved() == 0 && !file_.empty() && file_ == file_named(project, project.footage.occluder_mask))
+    return name + ", the project's occluder";
   if (unsaved() == 0) return name.empty() ? "Nothing painted" : name + ", not used in the project";
   // Nothing but strokes lies between the file and this.
   if (!name.empty() && painting_.whole_state() == file_whole_) return name + ", changed, not saved";
-  const auto found = origin_.find(painting_.whole_state());
-  const std::string origin = found == origin_.end() ? std::string() : found->second;
-  if (painting_.whole_state() == 0) return origin + ", not saved";
-  if (origin.empty()) return painting_.has_strokes() ? "painted, not saved" : "emptied, not saved";
-  return origin + (painting_.has_strokes() ? ", painted on, not saved" : ", not saved");
+  const std::string from = origin_of_whole();
+  if (painting_.whole_state() == 0) return from + ", not saved";
+  if (from.empty()) return painting_.has_strokes() ? "painted, not saved" : "emptied, not saved";
+  return from + (painting_.has_strokes() ? ", painted on, not saved" : ", not saved");
 }
 
 bool OwnBodySession::write(const fs::path& path) {
@@ -291,6 +307,21 @@ void OwnBodySession::ask_save_and_use(const Project& project, std::function<void
   ask_save(has_own ? file_ : new_mask_file(project), [this, next = std::move(next)] {
     name_in_project();
     if (next) next();
+  });
+}
+
+void OwnBodySession::ask_use_as_occluder(const Project& project, int frame) {
+  ask_save(new_file_beside(project, "_occluder", ".png"), [this, frame] {
+    const bool has_clouds = origin_of_whole() == kOfClouds;
+    edits_.change("use occluder", [file = file_, frame, has_clouds](Project& changed) {
+      FootageSettings& footage = changed.footage;
+      footage.occluder_mask = path_in_project(changed, file);
+      footage.occluder_frame = frame;
+      if (footage.occluder_distance_m == 0) footage.occluder_distance_m = footage.cloud_distance_m.value_or(0);
+      if (has_clouds) footage.cloud_distance_m.reset();
+    });
+    edits_.ask(ShowMessage{file_.filename().string() + " hides what is farther away" +
+                           (has_clouds ? ", in place of the clouds that are found" : "")});
   });
 }
 

@@ -59,6 +59,8 @@ class OwnBodySession {
   void start_from_project(const Project& project);
   [[nodiscard]] bool could_start_from_project(const Project& project) const;
   void ask_start_from_file(const Project& project);
+  //   opacity  of a frame's clouds: CV_8UC1 of the footage's size
+  void start_from_clouds(const cv::Mat& opacity);
   // The edge of the settings for the whole mask.
   void feather();
   // The settings ask for another edge than the mask has, which was not only found.
@@ -83,6 +85,10 @@ class OwnBodySession {
   void use(const Project& project);
   // Proposes a name that is not taken. next: once the edit that uses it is queued.
   void ask_save_and_use(const Project& project, std::function<void()> next = {});
+  // The project's occluder is the painting, made of this frame, under a name that is asked for. An occluder without a
+  // distance gets that of the project's clouds, where it states one; painted clouds take the place of those that are
+  // found.
+  void ask_use_as_occluder(const Project& project, int frame);
   // Before the painting is left behind: the same, or only saved where it does not fit the footage.
   void ask_keep(const Project& project, std::function<void()> next);
   // The same, into the file that the project names already: only after the person has agreed.
@@ -102,6 +108,7 @@ class OwnBodySession {
   void remember_file(const std::filesystem::path& file, bool written_here);
   void begin(const cv::Mat& mask, std::string origin);
   void measure_share();
+  [[nodiscard]] std::string origin_of_whole() const;  // of the painting
 
   Edits& edits_;
   OwnBodyJob job_;

@@ -24,6 +24,7 @@ struct Words {
 
 constexpr std::array kWords{
     Words{"input1", "Input 1", "The footage"},
+    Words{"clouds", "Clouds", "Opacity of the clouds that are found in the footage"},
     Words{"input2", "Input 2", "The intruder before pure green, as a camera without distortion sees it"},
     Words{"a", "A: undistorted", "Input 1 without the lens' distortion"},
     Words{"b", "B: keyed", "Input 2 keyed into A"},
@@ -38,7 +39,7 @@ constexpr std::array kWords{
     Words{"hazed", "Hazed", "With the footage's black and saturation, behind haze"},
     Words{"motion_blurred", "Motion blur", "Blurred by its motion while the shutter is open"},
     Words{"blurred", "Blurred", "Blurred as the lens does at the intruder's distance"},
-    Words{"occluded", "Occluded", "Without what the own body hides"},
+    Words{"occluded", "Occluded", "Without what own body, occluder and clouds hide"},
     Words{"sharpened", "Sharpened", "The frame with the intruder, sharpened as the footage's camera does"},
     Words{"chroma_blur", "Chroma blur", "Its colours spread over the chroma planes as the footage's are"},
     Words{"grain", "Grain", "With noise of the footage's kind"},

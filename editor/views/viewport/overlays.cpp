@@ -138,14 +138,23 @@ void draw_lines(const ImageCanvas& canvas, const std::vector<PixelLine>& lines, 
 
 }  // namespace
 
-void OwnBodyTint::draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& own_body) {
-  if (own_body.empty() || own_body.type() != CV_32FC1) return;
-  if (made_for_.data != own_body.data) {
-    made_for_ = own_body;
+void MaskTint::draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& mask) {
+  if (mask.empty() || (mask.type() != CV_32FC1 && mask.type() != CV_8UC1)) return;
+  if (made_for_.data != mask.data) {
+    made_for_ = mask;
     // Other memory: textures know images by it.
-    tint_ = tinted(own_body, ImGui::ColorConvertU32ToFloat4(color::kOwnBody).w);
+    tint_ = tinted(mask, ImGui::ColorConvertU32ToFloat4(color::kOwnBody).w);
   }
   draw_image(canvas.draw, textures, tint_, canvas.view, canvas.rect);
+}
+
+cv::Mat clouds_of_frame(const ViewContext& context) {
+  if (!context.project().footage.cloud_distance_m) return {};
+  context.needs.stages = true;
+  const PreviewImage* const image = context.shown.staged.get();
+  if (image == nullptr) return {};
+  const auto found = std::ranges::find(image->stages, "clouds", &Stage::name);
+  return found != image->stages.end() ? found->image : cv::Mat();
 }
 
 void draw_image_grid(const ImageCanvas& canvas, ImageGrid grid) {

@@ -24,17 +24,21 @@ struct OverlayChoice {
   ImageGrid grid = ImageGrid::none;
 };
 
-// The own body's mask as a tint, made once for each mask.
-class OwnBodyTint {
+// A mask of what hides intruders as a tint, made once for each mask.
+class MaskTint {
  public:
-  // own_body: CV_32FC1, 0..1, of the image's size; draws nothing where it is empty.
-  void draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& own_body);
+  // mask: CV_32FC1, 0..1, or CV_8UC1, of the image's size; draws nothing where it is empty.
+  void draw(const ImageCanvas& canvas, Textures& textures, const cv::Mat& mask);
 
  private:
-  // CV_32FC1; kept, so that its address stays its own.
+  // Kept, so that its address stays its own.
   cv::Mat made_for_;
   cv::Mat tint_;
 };
+
+// The opacity of the clouds of the frame that is shown: CV_8UC1. Empty: the project's clouds hide nothing, or it is not
+// made yet; it is asked for.
+[[nodiscard]] cv::Mat clouds_of_frame(const ViewContext& context);
 
 void draw_image_grid(const ImageCanvas& canvas, ImageGrid grid);
 

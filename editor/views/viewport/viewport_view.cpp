@@ -103,6 +103,7 @@ void ViewportView::draw_overlays(const ViewContext& context, const ImageCanvas& 
   const FootageCamera* const eye = tool != nullptr ? &tool->eye : nullptr;
   if (overlays_.own_body && context.shown.scene)
     own_body_.draw(canvas, context.textures, context.shown.scene->draft.scene.own_body);
+  if (overlays_.own_body) clouds_.draw(canvas, context.textures, clouds_of_frame(context));
   draw_pixel_grid(canvas);
   const PreviewImage* const image = context.shown.image.get();
   draw_pixel_values(canvas, watched_image(context, footage_alone_), dv(ImGui::GetMousePos()));
@@ -346,7 +347,9 @@ void draw_viewport_toolbar(const ViewportSwitches& switches) {
            "ends to tilt it. Numbers: headings against true north where it is known, else against world X; the "
            "circle with wings: where the camera flies to"},
           overlays.horizon),
-      toggle_item({"own body", Icon::own_body, "Own body", "The mask of the aircraft that carries the camera"},
+      toggle_item({"own body", Icon::own_body, "Own body",
+                   "What hides intruders: the mask of the aircraft that carries the camera, and clouds where the "
+                   "project says how far they are"},
                   overlays.own_body),
       {.button = {.id = "grid",
                   .icon = Icon::grid,

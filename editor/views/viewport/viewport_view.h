@@ -143,7 +143,8 @@ class ViewportView {
   // Zoom and place of the image.
   ZoomableImage look_;
   OverlayChoice overlays_;
-  OwnBodyTint own_body_;
+  MaskTint own_body_;
+  MaskTint clouds_;
   PathOverlay path_;
   WaypointMarks marks_;
   WaypointTool tool_;

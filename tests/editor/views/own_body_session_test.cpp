@@ -250,3 +250,25 @@ TEST_CASE("painting can start from a file, whose size has to be the footage's") 
   b.session.painting().undo();
   CHECK(is_same(b.session.painting().mask(), disk(12)));
 }
+
+TEST_CASE("clouds of a frame are a step of the painting, and a painting becomes the project's occluder of a frame") {
+  MaskFixture b;
+  b.update();
+  b.session.start_from_clouds(disk(20));
+  CHECK(is_same(b.session.painting().mask(), disk(20)));
+  CHECK(b.session.painting().undo_name() == "clouds");
+  b.session.start_from_clouds(cv::Mat::ones(3, 3, CV_8UC1));  // of another size
+  CHECK(is_same(b.session.painting().mask(), disk(20)));
+  b.document.apply(ChangeProject{"clouds", [](Project& p) { p.footage.cloud_distance_m = 900; }, {}});
+  b.session.ask_use_as_occluder(b.document.project(), 17);
+  REQUIRE(b.choose(b.folder / "clouds.png"));
+  b.update();
+  const FootageSettings& footage = b.document.project().footage;
+  CHECK(footage.occluder_mask == "clouds.png");
+  CHECK(footage.occluder_frame == 17);
+  CHECK(footage.occluder_distance_m == 900);
+  CHECK_FALSE(footage.cloud_distance_m);  // painted clouds take their place
+  CHECK(footage.own_body_mask.empty());
+  CHECK(b.session.mask_text(b.document.project()) == "clouds.png, the project's occluder");
+  CHECK(is_same(cv::imread((b.folder / "clouds.png").string(), cv::IMREAD_UNCHANGED), disk(20)));
+}
