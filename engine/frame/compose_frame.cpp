@@ -36,14 +36,6 @@ struct FootageLuma {
   cv::Mat luma;  // CV_8UC1 over rect, of its own
 };
 
-cv::Mat luma_of_part(const Frame& frame, const cv::Rect& rect) {
-  Frame part = frame;
-  part.planes[0] = frame.planes[0](rect);
-  if (frame.layout == PixelLayout::rgb)
-    for (std::size_t plane = 1; plane < 3; ++plane) part.planes[plane] = frame.planes[plane](rect);
-  return luma_of(part);
-}
-
 // Of a grey with this luma. RGB's luma has full range, as its map has.
 LuminanceOfCode luminance_of_code(const Frame& frame) {
   const CodeToRgb map = code_to_rgb(frame.layout, frame.color);
@@ -59,8 +51,10 @@ LuminanceOfCode luminance_of_code(const Frame& frame) {
 std::vector<FootageLuma> footage_luma_of(const Frame& footage, const std::vector<IntruderLayers>& far_to_near) {
   std::vector<FootageLuma> all(far_to_near.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (far_to_near[i].occluded.empty()) continue;
-    const cv::Rect rect = background_rect(far_to_near[i].occluded.rect, footage.size_px());
+    cv::Rect own = far_to_near[i].occluded.empty() ? cv::Rect() : far_to_near[i].occluded.rect;
+    for (const LampLayer& lamp : far_to_near[i].lamps) own |= lamp.layer.rect;
+    if (own.empty()) continue;
+    const cv::Rect rect = background_rect(own, footage.size_px());
     all[i] = {rect, luma_of_part(footage, rect).clone()};
   }
   return all;
@@ -181,6 +175,33 @@ std::vector<MeasuredLayers> measured_layers(const Scene& scene, const std::vecto
   return all;
 }
 
+// Where the body changes nothing, what is visible are the pixels that its lights change.
+void see_lights(const ComposedFrame& composed, const IntruderLayers& layers, const FootageLuma& behind,
+                IntruderTruth& truth) {
+  constexpr double kLeast_codes = 1;  // in the mean: a body that changes less is not seen
+  constexpr int kSeen_codes = 2;      // of a pixel that lights change, beyond rounding
+  if (layers.lamps.empty() || behind.luma.empty()) return;
+  const auto change = composed.body_changes.find(truth.id);
+  if (change != composed.body_changes.end() && change->second >= kLeast_codes) return;
+  cv::Mat lit = cv::Mat::zeros(behind.rect.size(), CV_8UC1);
+  for (const LampLayer& lamp : layers.lamps) {
+    cv::Mat opacity;
+    cv::extractChannel(lamp.layer.color, opacity, 3);
+    const cv::Mat part = lit(lamp.layer.rect - behind.rect.tl());
+    cv::bitwise_or(part, opacity > 0, part);
+  }
+  cv::Mat changed;
+  cv::absdiff(luma_of_part(composed.image, behind.rect), behind.luma, changed);
+  lit &= changed >= kSeen_codes;
+  const cv::Rect box = cv::boundingRect(lit);
+  if (box.empty()) return;
+  truth.lights_alone = true;
+  truth.visible_box = box + behind.rect.tl();
+  truth.visible = lit(box).clone();
+  truth.visible_pixels = cv::countNonZero(truth.visible);
+  if (truth.visible_fraction == 0) truth.visible_fraction = truth.inside_fraction;  // too dark, not hidden
+}
+
 // How well an intruder that can be seen stands out in the image.
 std::optional<Detectability> detectability_in(const Frame& image, const IntruderTruth& truth, const FootageLuma& behind,
                                               const Scene& scene) {
@@ -207,6 +228,7 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
   std::vector<IntruderTruth> truths;
   for (std::size_t i = 0; i < all.size(); ++i) {
     IntruderTruth truth = measured(all[i], std::span(all).subspan(i + 1), composed.mask, up);
+    see_lights(composed, far_to_near[i], footage_luma[i], truth);
     truth.detectability = detectability_in(composed.image, truth, footage_luma[i], scene);
     truth.image_formation = {.blur_px = far_to_near[i].sigma_px,
                              .motion_blur_px = far_to_near[i].motion_px,

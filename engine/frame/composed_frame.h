@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -77,6 +78,9 @@ struct ComposedFrame {
   cv::Mat mask;
   FrameTruth truth;
   std::vector<Stage> stages;  // empty unless asked for
+  // By how many codes of 8 bits an intruder's body, without its lights, changes luma in the mean, weighted by its
+  // coverage; by id, of those that have lights in the image.
+  std::map<int, double> body_changes;
   FrameTimes times;
   OpCounts op_counts;
 };

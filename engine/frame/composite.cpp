@@ -120,6 +120,15 @@ void composite_with_post_blend_stages(ComposedFrame& composed, const Scene& scen
   composed.op_counts.pixels_blended += cv::countNonZero(rewritten.changed);
 }
 
+// The mean of what a layer's blending changes luma by, weighted by its coverage.
+double luma_change(const cv::Mat& before, const cv::Mat& after, const Layer& layer) {
+  const double covered = cv::sum(layer.coverage)[0];
+  if (!(covered > 0)) return 0;
+  cv::Mat change;
+  cv::subtract(after, before, change, cv::noArray(), CV_32F);
+  return std::abs(change.dot(layer.coverage)) / covered;
+}
+
 // An intruder's contrail and the intruder itself, the farther one first, and its lights, which add to the light that is
 // there whatever is mixed elsewhere.
 void composite_intruder(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int frame,
@@ -136,7 +145,12 @@ void composite_intruder(ComposedFrame& composed, const Scene& scene, const Intru
     composed.stages.push_back({stage_name(name, layers, scene), bgr_of(composed.image)});
   };
   if (!layers.contrail_is_nearer) blend(layers.contrail, {});
+  const bool is_watched = !layers.lamps.empty() && !layers.occluded.empty();
+  const cv::Mat before = is_watched ? luma_of_part(composed.image, layers.occluded.rect).clone() : cv::Mat();
   blend(layers.occluded, keep ? StageDone(keep_stage) : StageDone());
+  if (is_watched)
+    composed.body_changes[layers.placed.id] =
+        luma_change(before, luma_of_part(composed.image, layers.occluded.rect), layers.occluded);
   if (layers.contrail_is_nearer) blend(layers.contrail, {});
   if (keep && !layers.contrail.empty()) keep_stage("contrail");
   for (const LampLayer& lamp : layers.lamps) blend_in(BlendChoice::linear, lamp.layer, {});

@@ -161,6 +161,7 @@ class CocoLabels : public LabelWriter {
       annotation["segmentation"] = rle_of(intruder.visible, *intruder.visible_box, sequence_.footage.size_px);
     annotation["iscrowd"] = 0;
     if (intruder.is_distractor) annotation["distractor"] = true;
+    if (intruder.lights_alone) annotation["lights_alone"] = true;
     if (intruder.has_contrail) annotation["contrail"] = true;
     annotation["video_id"] = kVideoId;
     annotation["track_id"] = intruder.id;

@@ -100,6 +100,7 @@ std::string intruder_json(const IntruderTruth& truth, const LabelSequence& seque
   object.add_text("name", truth.name);
   object.add_text("category", labelled_intruder(sequence, truth.id).category);
   if (truth.is_distractor) object.add_text("role", "distractor");
+  if (truth.lights_alone) object.add("lights_alone", true);
   if (truth.has_contrail) object.add("contrail", true);
   object.add("in_picture", truth.in_image);
   object.add("visible_fraction", truth.visible_fraction);

@@ -60,6 +60,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   node.append_attribute("id") = truth.id;
   node.append_attribute("name") = xml_text(truth.name).c_str();
   if (truth.is_distractor) node.append_attribute("role") = "distractor";
+  if (truth.lights_alone) node.append_attribute("lights_alone") = true;
   if (truth.has_contrail) node.append_attribute("contrail") = true;
   node.append_attribute("in_picture") = truth.in_image;
   set(node, "visible_fraction", truth.visible_fraction);

@@ -109,8 +109,9 @@ struct IntruderTruth {
   std::optional<EncounterTruth> encounter = {};  // none where it was not asked for
   bool has_contrail = false;                     // some of its contrail is in the image; no box or mask has it
   std::vector<LampTruth> lights = {};            // those that are on and bright enough to change the image
-  std::optional<CloudTruth> clouds = {};         // none where the project's clouds hide nothing
-  bool is_distractor = false;                    // what detectors should not report, such as a bird
+  bool lights_alone = false;              // its body changes nothing: what is visible, box included, is its lights
+  std::optional<CloudTruth> clouds = {};  // none where the project's clouds hide nothing
+  bool is_distractor = false;             // what detectors should not report, such as a bird
 };
 
 // What the frames are counted in, and which of them a set of labels holds.

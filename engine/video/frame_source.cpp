@@ -248,6 +248,14 @@ cv::Mat luma_of(const Frame& footage) {
   return luma;
 }
 
+cv::Mat luma_of_part(const Frame& frame, const cv::Rect& rect) {
+  Frame part = frame;
+  part.planes[0] = frame.planes[0](rect);
+  if (frame.layout == PixelLayout::rgb)
+    for (std::size_t plane = 1; plane < 3; ++plane) part.planes[plane] = frame.planes[plane](rect);
+  return luma_of(part);
+}
+
 LumaStream::LumaStream(FrameSource& footage, const FrameSteps& steps) : ahead_(kFramesAhead) {
   Result<std::thread> thread = started_thread([this, &footage, steps] { decode(footage, steps); },
                                               [this](const Error& error) { give_up(error); });

@@ -84,6 +84,8 @@ class FrameSource {
 // samples are shared where it has 8 bits. Of RGB: the weighted sum of ITU-R BT.709, full range, with weights rounded to
 // 1/256.
 [[nodiscard]] cv::Mat luma_of(const Frame& frame);
+// Over a part of the frame alone, which lies within it.
+[[nodiscard]] cv::Mat luma_of_part(const Frame& frame, const cv::Rect& rect);
 
 // The frames of the footage that are used: first, first + every, ..., `count` of them.
 struct FrameSteps {

@@ -244,8 +244,6 @@ TEST_CASE("lights add to the image: nothing is hidden by them, the own body hide
       if (std::hypot(x - 159.5, y - 119.5) > 40) CHECK(more == 0);
     }
   CHECK(brighter > 10);
-  // Boxes and visible pixels are those of the body.
-  CHECK(lit.truth.intruders[0].visible_box == dark.truth.intruders[0].visible_box);
 
   Scene hidden = scenario.opened();
   hidden.own_body = cv::Mat::ones(kNightImage, CV_32FC1);
@@ -277,6 +275,37 @@ TEST_CASE("a lamp's light is all within its layer, however sharp, wide or bright
   CHECK(lamp_layer({"tail", {200, 150}, {1e-6, 1e-6, 1e-6}, 1}, {.sigma_px = 0.45}, bounds).layer.empty());
   CHECK(lamp_layer({"tail", {-500, 150}, {1, 1, 1}, 1}, {.sigma_px = 0.45}, bounds).layer.empty());
   CHECK(lamp_layer({"tail", {1e12, 1e12}, {1, 1, 1}, 1}, {.sigma_px = 0.45}, bounds).layer.empty());
+}
+
+TEST_CASE("an aircraft that is seen by its lights alone has their box, and says so") {
+  Scenario scenario(kNightImage);
+  prepare_night(scenario);
+  const Frame night = gray_frame(0);  // as black as the body
+  CHECK_FALSE(composed(scenario.opened(), 1, night).truth.intruders[0].lights_alone);
+  scenario.project.intruders[0].lights = {.position_cd = 400};
+  const ComposedFrame lit = composed(scenario.opened(), 1, night);
+  const IntruderTruth& truth = lit.truth.intruders[0];
+  CHECK(truth.lights_alone);
+  REQUIRE(truth.visible_box);
+  // All pixels of two codes or more.
+  const cv::Mat bright = lit.image.planes[0] >= 2;
+  CHECK(*truth.visible_box == cv::boundingRect(bright));
+  CHECK(truth.visible_pixels == cv::countNonZero(bright));
+  CHECK(truth.visible_fraction == truth.inside_fraction);
+  CHECK(truth.detectability);
+  // Before a sky that is brighter than it the body is seen: boxes and visible pixels are its own.
+  Scenario near(kNightImage);
+  prepare_night(near, {200, 0, -150});
+  const ComposedFrame dark = composed(near.opened(), 1, gray_frame(60));
+  near.project.intruders[0].lights = {.position_cd = 4};
+  const ComposedFrame dusk = composed(near.opened(), 1, gray_frame(60));
+  CHECK(dusk.truth.intruders[0].lights.size() == 2);
+  CHECK_FALSE(dusk.truth.intruders[0].lights_alone);
+  CHECK(dusk.truth.intruders[0].visible_box == dark.truth.intruders[0].visible_box);
+  CHECK(dusk.truth.intruders[0].visible_pixels == dark.truth.intruders[0].visible_pixels);
+  // Too faint to be seen.
+  scenario.project.intruders[0].lights = {.position_cd = 1e-6};
+  CHECK_FALSE(composed(scenario.opened(), 1, night).truth.intruders[0].lights_alone);
 }
 
 TEST_CASE("behind the camera, at 1e7 m and in thermal footage no light is seen") {
