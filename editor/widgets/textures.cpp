@@ -133,4 +133,12 @@ cv::Mat reduced_copy(const cv::Mat& image, int divisor) {
   return reduced;
 }
 
+void draw_brighter(ImDrawList& draw, const ImVec2& low, const ImVec2& high, int doublings) {
+  if (doublings < 1) return;
+  // White times what is there, added to what is there.
+  draw.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glBlendFunc(GL_DST_COLOR, GL_ONE); }, nullptr);
+  for (int i = 0; i < doublings; ++i) draw.AddRectFilled(low, high, IM_COL32_WHITE);
+  draw.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+}
+
 }  // namespace sigs::editor

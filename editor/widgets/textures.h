@@ -86,4 +86,7 @@ class Textures {
 // Its size: rounded up.
 [[nodiscard]] cv::Size reduced_size(const cv::Size& image_px, int divisor);
 
+// What was drawn there so far becomes twice as bright, so many times; what is drawn later does not.
+void draw_brighter(ImDrawList& draw, const ImVec2& low, const ImVec2& high, int doublings);
+
 }  // namespace sigs::editor

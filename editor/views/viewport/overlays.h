@@ -22,6 +22,9 @@ struct OverlayChoice {
   bool horizon = false;
   bool own_body = false;
   ImageGrid grid = ImageGrid::none;
+  int doublings = 0;  // of the image's brightness, for the eye alone; up to kMaxDoublings
+
+  static constexpr int kMaxDoublings = 4;
 };
 
 // A mask of what hides intruders as a tint, made once for each mask.

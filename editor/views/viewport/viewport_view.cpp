@@ -2,6 +2,7 @@
 #include "editor/views/viewport/viewport_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "editor/views/results/results_view.h"
@@ -89,6 +90,7 @@ void ViewportView::draw_image_layers(const ViewContext& context, const ImageCanv
     draw_image(canvas.draw, context.textures, image->bgr, canvas.view, canvas.rect);
   if (canvas.image_px.empty() || (image == nullptr && context.shown.busy)) draw_opening(canvas.rect, context);
   wipe_.draw_footage(canvas, context, footage_alone_);
+  draw_brighter(canvas.draw, im(whole.low), im(whole.high), overlays_.doublings);
   canvas.draw.PopClipRect();
 }
 
@@ -279,6 +281,9 @@ ImageGrid next(ImageGrid grid) {
   return grid == ImageGrid::thirds ? ImageGrid::eighths : ImageGrid::none;
 }
 
+constexpr std::array<const char*, OverlayChoice::kMaxDoublings + 1> kGains{"Gain", "Gain x2", "Gain x4", "Gain x8",
+                                                                           "Gain x16"};
+
 const char* label_of(ImageGrid grid) {
   if (grid == ImageGrid::none) return "Grid";
   return grid == ImageGrid::thirds ? "Grid 3 x 3" : "Grid 8 x 6";
@@ -357,6 +362,13 @@ void draw_viewport_toolbar(const ViewportSwitches& switches) {
                   .tooltip = "Lines across the image: thirds, 8 x 6, none",
                   .on = overlays.grid != ImageGrid::none},
        .clicked = [&overlays] { overlays.grid = next(overlays.grid); }},
+      {.button = {.id = "gain",
+                  .label = kGains[static_cast<std::size_t>(overlays.doublings)],
+                  .tooltip =
+                      "Shows dark footage brighter: twice, 4, 8 and 16 times. For the eye alone: nothing that is "
+                      "exported changes",
+                  .on = overlays.doublings > 0},
+       .clicked = [&overlays] { overlays.doublings = (overlays.doublings + 1) % (OverlayChoice::kMaxDoublings + 1); }},
       {.is_gap = true},
       {.button = {.id = "wipe",
                   .icon = Icon::wipe,
