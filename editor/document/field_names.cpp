@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 80> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 81> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
@@ -57,6 +57,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 80> kNames{{
     {"lights.flash_s", "Length of a flash"},
     {"lights.phase", "Phase of flashes"},
     {"light.white_cdpm2", "White is"},
+    {"light.ground_shadow", "Shadow on ground"},
     {"appearance.glare", "Glare of lights"},
     {"appearance.glare_px", "Glare radius"},
     {"appearance.codec.match", "Codec"},

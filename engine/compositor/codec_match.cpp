@@ -177,7 +177,9 @@ std::int64_t CodecMatch::apply(Frame& frame, cv::Mat& mask, const cv::Mat& own_b
       for (int column = 0; column < patch.blocks.width; ++column)
         coding.quantisers.at<short>(row, column) =
             static_cast<short>(quantisers_.at(patch.blocks.x + column, patch.blocks.y + row));
-    const Frame coded = recompressed_after(cut_out(frame, patch.blocks), patch.footage, coding, patch.earlier_px);
+    const Frame opacity{.layout = PixelLayout::gray, .planes = {mask}};
+    const Frame coded = recompressed_after(cut_out(frame, patch.blocks), patch.footage, coding, patch.earlier_px,
+                                           cut_out(opacity, patch.blocks).planes[0]);
     put_back(frame, mask, patch, coded, own_body);
     count += static_cast<std::int64_t>(coded.planes[0].total() * (1 + patch.earlier_px.size()));
   }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "base/ensure.h"
@@ -258,16 +259,34 @@ cv::Point2d in_samples(cv::Point2d shift_px, cv::Size step) {
   return {shift_px.x / step.width, shift_px.y / step.height};
 }
 
-// The image in which the target was somewhere else.
-Frame earlier(const Frame& patch, const Frame& before, cv::Point2d shift_px) {
+// The target's opacity in the samples of a plane, 0..1.
+cv::Mat1f opacity_of_plane(const cv::Mat& opacity, const cv::Mat& plane) {
+  cv::Mat small = opacity;
+  if (opacity.size() != plane.size()) cv::resize(opacity, small, plane.size(), 0, 0, cv::INTER_AREA);
+  cv::Mat1f share;
+  small.convertTo(share, CV_32F, 1.0 / 255);
+  return share;
+}
+
+// The image in which the target was somewhere else: what it adds to the background that it leaves is moved, and so is
+// what it leaves of the background.
+Frame earlier(const Frame& patch, const Frame& before, const cv::Mat& opacity, cv::Point2d shift_px) {
   Frame image = cloned(before);
   for (int i = 0; i < patch.plane_count(); ++i) {
     const auto which = static_cast<std::size_t>(i);
+    const cv::Point2d shift = in_samples(shift_px, step_of(patch, i));
     const cv::Mat1f background = floats(before.planes[which]);
-    cv::Mat1f difference = floats(patch.planes[which]);
-    difference -= background;
-    cv::Mat1f sum = moved(difference, in_samples(shift_px, step_of(patch, i)), cubic);
+    const cv::Mat1f share = opacity_of_plane(opacity, before.planes[which]);
+    cv::Mat1f added;
+    cv::multiply(background, share, added);
+    added += floats(patch.planes[which]);
+    added -= background;
+    cv::Mat1f there = moved(share, shift, cubic);
+    cv::min(cv::max(there, 0.0F), 1.0F, there);
+    cv::Mat1f sum = moved(added, shift, cubic);
     sum += background;
+    cv::multiply(background, there, there);
+    sum -= there;
     image.planes[which] = codes(sum);
   }
   return image;
@@ -291,24 +310,41 @@ std::int64_t difference_of(const cv::Mat& a, const cv::Mat& b, const cv::Rect& b
   return sum;
 }
 
-// What a macroblock each is predicted from: the decoded image before, as it is or moved.
-Frame prediction_of(const Frame& image, const Frame& decoded, cv::Point2d motion_px) {
+void copy_macroblock(const Frame& from, cv::Point at, Frame& to) {
+  for (int i = 0; i < to.plane_count(); ++i) {
+    const cv::Size step = step_of(to, i);
+    const cv::Rect part(at.x / step.width, at.y / step.height, kBlock_px / step.width, kBlock_px / step.height);
+    const auto which = static_cast<std::size_t>(i);
+    from.planes[which](part).copyTo(to.planes[which](part));
+  }
+}
+
+// What an encoder pays for a reference elsewhere, in the sum of luma's differences that it saves by it: some bits, each
+// worth 0.4 quantiser steps (x264's lambda). How many: so that traces before sky and before ground are about x264's.
+std::int64_t price_of_reference(const PatchCoding& coding, cv::Point macroblock) {
+  constexpr double kBits = 32, kStepsOfBit = 0.4;
+  const int quantiser = coding.quantisers.at<short>(macroblock);
+  const double step = coding.kind == QuantiserKind::h264 ? std::exp2((quantiser - 4) / 6.0) : 2.0 * quantiser;
+  return std::llround(kBits * kStepsOfBit * step);
+}
+
+// What a macroblock each is predicted from: the decoded image before, as it is or moved; or the background, which
+// stands for what a search elsewhere in that image finds.
+Frame prediction_of(const Frame& image, const Frame& decoded, const Frame& before, const PatchCoding& coding,
+                    cv::Point2d motion_px) {
   const cv::Point2d quarters(std::round(4 * motion_px.x) / 4, std::round(4 * motion_px.y) / 4);
   Frame prediction = cloned(decoded);
-  if (quarters == cv::Point2d(0, 0)) return prediction;
-  const Frame other = compensated(decoded, quarters);
+  const Frame other = quarters == cv::Point2d(0, 0) ? decoded : compensated(decoded, quarters);
   for (int y = 0; y < image.planes[0].rows; y += kBlock_px)
     for (int x = 0; x < image.planes[0].cols; x += kBlock_px) {
       const cv::Rect block(x, y, kBlock_px, kBlock_px);
-      if (difference_of(image.planes[0], other.planes[0], block) >=
-          difference_of(image.planes[0], decoded.planes[0], block))
-        continue;
-      for (int i = 0; i < image.plane_count(); ++i) {
-        const cv::Size step = step_of(image, i);
-        const cv::Rect part(x / step.width, y / step.height, kBlock_px / step.width, kBlock_px / step.height);
-        const auto which = static_cast<std::size_t>(i);
-        other.planes[which](part).copyTo(prediction.planes[which](part));
-      }
+      const auto off = [&](const Frame& from) { return difference_of(image.planes[0], from.planes[0], block); };
+      const bool is_moved = off(other) < off(decoded);
+      const std::int64_t price = price_of_reference(coding, {x / kBlock_px, y / kBlock_px});
+      if (off(before) + price < std::min(off(other), off(decoded)))
+        copy_macroblock(before, block.tl(), prediction);
+      else if (is_moved)
+        copy_macroblock(other, block.tl(), prediction);
     }
   return prediction;
 }
@@ -334,17 +370,18 @@ bool can_be_followed(cv::Point2d earlier_px) {
 }
 
 Frame recompressed_after(const Frame& patch, const Frame& before, const PatchCoding& coding,
-                         std::span<const cv::Point2d> earlier_px) {
+                         std::span<const cv::Point2d> earlier_px, const cv::Mat& opacity) {
   ENSURE(patch.layout == before.layout && patch.size_px() == before.size_px());
+  ENSURE(opacity.size() == patch.size_px());
   const auto far_one = std::find_if_not(earlier_px.begin(), earlier_px.end(), can_be_followed);
   const auto count = static_cast<std::size_t>(far_one - earlier_px.begin());
   const bool predicts = coding.kind == QuantiserKind::h264 || coding.kind == QuantiserKind::mpeg;
   if (count == 0 || !predicts) return recompressed(patch, before, coding);
-  Frame decoded = recompressed(earlier(patch, before, earlier_px[count - 1]), before, coding);
+  Frame decoded = recompressed(earlier(patch, before, opacity, earlier_px[count - 1]), before, coding);
   for (std::size_t k = count; k-- > 0;) {
     const cv::Point2d now = k == 0 ? cv::Point2d(0, 0) : earlier_px[k - 1];
-    const Frame image = k == 0 ? patch : earlier(patch, before, now);
-    decoded = recompressed(image, prediction_of(image, decoded, now - earlier_px[k]), coding);
+    const Frame image = k == 0 ? patch : earlier(patch, before, opacity, now);
+    decoded = recompressed(image, prediction_of(image, decoded, before, coding, now - earlier_px[k]), coding);
   }
   return decoded;
 }

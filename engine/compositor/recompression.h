@@ -37,14 +37,16 @@ inline constexpr double kMaxCarriedMotion_px = 48;
 
 // What remains of a patch whose codec predicts each image from the decoded one before it, after some images: detail
 // that was coded once is moved on, and what it left where it was before stays where the quantiser does not see it.
-// The images before this one are not needed: in each of them what the patch differs by from `before` is taken to have
-// been somewhere else on the same background.
+// The images before this one are not needed: in each of them what the patch adds to `before` is taken to have been
+// somewhere else on the same background.
 //   earlier_px  where it was one image earlier against where it is now, two images earlier, ...; ends at the first that
 //               is farther than kMaxCarriedMotion_px. Empty: recompressed(patch, before, coding)
+//   opacity  CV_8UC1 of the patch's luma: 255 where nothing of `before` is left
 // The first of these images is predicted from `before`; each macroblock of a later one from the one before it, in the
 // same place or moved by what the motion is between the two in quarters of a pixel (H.264's interpolation of luma, a
-// bilinear one of chroma), whichever is nearer to it in luma. jpeg and none predict nothing: recompressed() alone.
+// bilinear one of chroma), whichever is nearer to it in luma; or from `before`, where that is so much nearer that an
+// encoder would look for ground like it elsewhere. jpeg and none predict nothing: recompressed() alone.
 [[nodiscard]] Frame recompressed_after(const Frame& patch, const Frame& before, const PatchCoding& coding,
-                                       std::span<const cv::Point2d> earlier_px);
+                                       std::span<const cv::Point2d> earlier_px, const cv::Mat& opacity);
 
 }  // namespace sigs

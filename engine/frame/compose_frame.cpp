@@ -18,6 +18,7 @@
 #include "frame/cloud_cover.h"
 #include "frame/composite.h"
 #include "frame/contrail.h"
+#include "frame/ground_shadow.h"
 #include "frame/render_plan.h"
 #include "scene/scene.h"
 #include "scene/scene_at.h"
@@ -135,6 +136,14 @@ void add_lamps(const Scene& scene, const SceneMoment& moment, LensTable& lens, I
   }
 }
 
+// Fills `shadow`. A thermal camera sees none.
+void add_shadow(const Scene& scene, const SceneMoment& moment, LensTable& lens, IntruderLayers& layers) {
+  if (scene.is_thermal || scene.compositing.method != MethodChoice::direct) return;
+  const GroundShadow shadow = ground_shadow(scene, moment, layers.placed, lens.camera().lens,
+                                            scene.appearance.psf_sigma_px, {{0, 0}, scene.footage.size_px});
+  if (!shadow.layer.empty()) layers.shadow = without_hidden(scene, moment, shadow.layer, shadow.distance_m, lens);
+}
+
 // Fills `motion_blurred` and `blurred`; the latter stays empty where the layer is too faint to be seen.
 void blur(const Scene& scene, const ColorInfo& footage, int bit_depth, IntruderLayers& layers) {
   const cv::Rect image({0, 0}, scene.footage.size_px);
@@ -237,6 +246,7 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
     truth.lights = far_to_near[i].lamp_truths;
     truth.clouds = far_to_near[i].clouds;
     truth.has_contrail = !far_to_near[i].contrail.empty();
+    truth.has_shadow = !far_to_near[i].shadow.empty();
     truth.is_distractor = scene.intruders[static_cast<std::size_t>(truth.id)].is_distractor;
     truths.push_back(std::move(truth));
   }
@@ -297,6 +307,7 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
   }
   add_contrail(scene, moment, background, lens, layers);
   add_lamps(scene, moment, lens, layers);
+  add_shadow(scene, moment, lens, layers);
   layers.op_counts.lens_evaluations += lens.evaluations() - evaluations_before;
   return layers;
 }

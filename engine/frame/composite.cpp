@@ -129,6 +129,15 @@ double luma_change(const cv::Mat& before, const cv::Mat& after, const Layer& lay
   return std::abs(change.dot(layer.coverage)) / covered;
 }
 
+// On the ground, which is farther than every intruder. It takes light, so it is mixed in light.
+void composite_shadow(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int frame, bool keep) {
+  if (has_post_blend_stages(scene))
+    composite_with_post_blend_stages(composed, scene, layers.shadow, BlendChoice::linear, layers.placed.id, frame, {});
+  else
+    composite_direct(composed, scene, layers.shadow, BlendChoice::linear);
+  if (keep) composed.stages.push_back({stage_name("shadow", layers, scene), bgr_of(composed.image)});
+}
+
 // An intruder's contrail and the intruder itself, the farther one first, and its lights, which add to the light that is
 // there whatever is mixed elsewhere.
 void composite_intruder(ComposedFrame& composed, const Scene& scene, const IntruderLayers& layers, int frame,
@@ -292,6 +301,8 @@ ComposedFrame composited(Frame background, const Scene& scene, int frame,
   const std::optional<CodecMatch> codec_match =
       codec_match_for(composed.image, scene, frame, compositing_camera(scene).lens, far_to_near);
   if (keep && direct) composed.stages.push_back({"input1", bgr_of(composed.image)});
+  for (const IntruderLayers& layers : far_to_near)
+    if (!layers.shadow.empty()) composite_shadow(composed, scene, layers, frame, keep);
   for (const IntruderLayers& layers : far_to_near) {
     if (layers.views.empty() && layers.contrail.empty() && layers.lamps.empty()) continue;
     if (direct) {
@@ -326,8 +337,9 @@ std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& 
   std::vector<std::vector<cv::Point2d>> earlier_px;
   const int margin_px = post_blend_stages_margin_px(scene, background.layout);
   for (const IntruderLayers& intruder : layers) {
-    if (!intruder.contrail.empty()) {  // which stays where it is
-      reaches.push_back(grown(intruder.contrail.rect, margin_px) & image);
+    for (const Layer* const still : {&intruder.contrail, &intruder.shadow}) {  // which hardly move
+      if (still->empty()) continue;
+      reaches.push_back(grown(still->rect, margin_px) & image);
       if (settings.predicted_frames > 0)
         earlier_px.emplace_back(std::min(settings.predicted_frames, frame), cv::Point2d(0, 0));
     }

@@ -53,6 +53,7 @@ struct IntruderLayers {
   Layer occluded;  // without what own body, occluder and clouds hide; shares its samples where they hide nothing
   Layer contrail;  // clipped to the image, without what is hidden; empty: none
   bool contrail_is_nearer = false;     // than the aircraft
+  Layer shadow;                        // on the ground, clipped to the image, without what is hidden; empty: none
   std::vector<LampLayer> lamps;        // the aircraft's lights, clipped to the image, without what is hidden
   std::vector<LampTruth> lamp_truths;  // one for each of them
   std::optional<CloudTruth> clouds;    // none: the scene has no clouds that hide anything

@@ -102,6 +102,7 @@ std::string intruder_json(const IntruderTruth& truth, const LabelSequence& seque
   if (truth.is_distractor) object.add_text("role", "distractor");
   if (truth.lights_alone) object.add("lights_alone", true);
   if (truth.has_contrail) object.add("contrail", true);
+  if (truth.has_shadow) object.add("shadow", true);
   object.add("in_picture", truth.in_image);
   object.add("visible_fraction", truth.visible_fraction);
   object.add_text("horizon", name_of(truth.horizon));

@@ -62,6 +62,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   if (truth.is_distractor) node.append_attribute("role") = "distractor";
   if (truth.lights_alone) node.append_attribute("lights_alone") = true;
   if (truth.has_contrail) node.append_attribute("contrail") = true;
+  if (truth.has_shadow) node.append_attribute("shadow") = true;
   node.append_attribute("in_picture") = truth.in_image;
   set(node, "visible_fraction", truth.visible_fraction);
   node.append_attribute("horizon") = name_of(truth.horizon).data();

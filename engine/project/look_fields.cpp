@@ -18,6 +18,8 @@ void add_light(FieldList list, LightSettings& light) {
   list.number("sky_color", &light.sky_color, "", 0, 100, "sun: light of the whole sky on a face that looks up");
   list.number("ground_color", &light.ground_color, "", 0, 100, "sun: light of the ground on a face that looks down");
   list.number("exposure", &light.exposure, "", 0, 1000, "sun: factor of all light");
+  list.number("ground_shadow", &light.ground_shadow, "", 0, 1,
+              "sun: share of the light of level ground, z = 0, that an intruder's shadow takes; 0: none is drawn");
   list.number("white_cdpm2", &light.white_cdpm2, "cd/m2", 1e-6, 1e9,
               "luminance that the footage shows as white, for aircraft's lights; null: that of white paint in the sun");
 }

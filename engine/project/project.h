@@ -160,6 +160,7 @@ struct LightSettings {
   glm::dvec3 sky_color{0.25, 0.3, 0.38};      // with the sun: what the whole sky gives a face that looks up
   glm::dvec3 ground_color{0.12, 0.12, 0.10};  // with the sun: what the ground gives a face that looks down
   double exposure = 1;                        // with the sun: factor of all light
+  double ground_shadow = 0;                   // with the sun: what an intruder's shadow takes of the ground's light
   std::optional<double> white_cdpm2;          // luminance that the footage shows as white; none: by a sunny day
 
   [[nodiscard]] bool operator==(const LightSettings&) const = default;

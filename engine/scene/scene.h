@@ -47,6 +47,7 @@ struct SceneLight {
   glm::dvec3 sky_color{0, 0, 0};
   glm::dvec3 ground_color{0, 0, 0};
   double exposure = 1;                     // factor of sun, sky and ground
+  double ground_shadow = 0;                // share of the ground's light that a shadow takes, 0..1; 0: none is drawn
   std::optional<double> white_cdpm2 = {};  // LightSettings::white_cdpm2
 };
 

@@ -106,6 +106,7 @@ SceneLight light_of(const LightSettings& light) {
           .sky_color = light.sky_color,
           .ground_color = light.ground_color,
           .exposure = light.exposure,
+          .ground_shadow = light.ground_shadow,
           .white_cdpm2 = light.white_cdpm2};
 }
 

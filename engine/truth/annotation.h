@@ -108,6 +108,7 @@ struct IntruderTruth {
   ImageFormation image_formation = {};
   std::optional<EncounterTruth> encounter = {};  // none where it was not asked for
   bool has_contrail = false;                     // some of its contrail is in the image; no box or mask has it
+  bool has_shadow = false;                       // likewise of its shadow on the ground
   std::vector<LampTruth> lights = {};            // those that are on and bright enough to change the image
   bool lights_alone = false;              // its body changes nothing: what is visible, box included, is its lights
   std::optional<CloudTruth> clouds = {};  // none where the project's clouds hide nothing

@@ -67,8 +67,8 @@ bool slider(FieldRows& rows, const char* label, double& value, double low, doubl
 constexpr std::array<const char*, 5> kPointKeys{"light.kind", "light.position_m", "light.color", "light.ambient",
                                                 "light.white_cdpm2"};
 constexpr std::array<const char*, 3> kSunKeys{"light.kind", "light.sun.azimuth_deg", "light.sun.elevation_deg"};
-constexpr std::array<const char*, 5> kSunColorKeys{"light.color", "light.sky_color", "light.ground_color",
-                                                   "light.exposure", "light.white_cdpm2"};
+constexpr std::array<const char*, 6> kSunColorKeys{"light.color",         "light.sky_color", "light.ground_color",
+                                                   "light.ground_shadow", "light.exposure",  "light.white_cdpm2"};
 
 RowOptions look_of_light(std::string_view key) {
   RowOptions look;

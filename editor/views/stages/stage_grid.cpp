@@ -34,6 +34,7 @@ constexpr std::array kWords{
           "Input 2 distorted and blurred the same way: where it is not green, D is taken"},
     Words{"keyed", "Keyed",
           "What the key gives, before the own body hides any of it: classic takes D where F is not green"},
+    Words{"shadow", "Shadow", "The footage with the intruder's shadow on the ground"},
     Words{"layer", "Layer", "The intruder alone in its virtual view, before it is warped"},
     Words{"warped", "Warped", "The layer through the lens"},
     Words{"hazed", "Hazed", "With the footage's black and saturation, behind haze"},

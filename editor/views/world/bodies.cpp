@@ -104,6 +104,37 @@ void draw_faces(WorldCanvas& canvas, const CoarseMesh& mesh, const Drawing& draw
   list.Flags = flags;
 }
 
+// In the aircraft's level plane, from one angle to another to the right of its nose.
+void draw_arc(WorldCanvas& canvas, const Drawing& drawing, double radius_m, double from_deg, double to_deg,
+              ImU32 color) {
+  constexpr int kPieces = 24;
+  std::vector<glm::dvec3> points_m;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double angle = std::lerp(from_deg, to_deg, double(i) / kPieces) * std::numbers::pi / 180;
+    points_m.push_back(drawing.at_m +
+                       drawing.world_from_body * (radius_m * glm::dvec3(std::cos(angle), std::sin(angle), 0)));
+  }
+  canvas.polyline(points_m, color, 2);
+}
+
+// From where which position light is seen (14 CFR 25.1387), and the beam of the landing light.
+void draw_lights(WorldCanvas& canvas, const LampSettings& lights, const Drawing& drawing, double length_m) {
+  constexpr double kSide_deg = 110, kRadius = 0.9, kBeam = 3;  // radius and beam in lengths of the aircraft
+  const double radius_m = kRadius * length_m * drawing.enlarged;
+  if (lights.position_cd > 0) {
+    draw_arc(canvas, drawing, radius_m, -kSide_deg, 0, IM_COL32(235, 70, 70, 220));
+    draw_arc(canvas, drawing, radius_m, 0, kSide_deg, IM_COL32(70, 210, 110, 220));
+    draw_arc(canvas, drawing, radius_m, kSide_deg, 360 - kSide_deg, IM_COL32(235, 235, 235, 200));
+  }
+  if (lights.landing_cd <= 0) return;
+  for (const double side : {-0.5, 0.5}) {
+    const double angle = side * lights.landing_beam_deg * std::numbers::pi / 180;
+    const glm::dvec3 along = drawing.world_from_body * glm::dvec3(std::cos(angle), std::sin(angle), 0);
+    canvas.dashes(drawing.at_m, drawing.at_m + along * (kBeam * length_m * drawing.enlarged),
+                  IM_COL32(250, 235, 170, 200), 1.5);
+  }
+}
+
 void draw_body(WorldCanvas& canvas, const WorldContext& world, const WorldBody& body, const CoarseMesh& mesh,
                bool highlighted) {
   const glm::dvec3& at_m = body.world_from_body.translation_m;
@@ -114,11 +145,14 @@ void draw_body(WorldCanvas& canvas, const WorldContext& world, const WorldBody& 
   const double true_px = canvas.eye().pixels_per_metre(at_m, canvas.rect()) * length_m(*body.model);
   const double enlarged = std::max(1.0, scaled(kMinBody_px) / std::max(true_px, 1e-12));
   if (highlighted) canvas.list().AddCircle(im(*at), scaled(kMinBody_px) * 0.72F, color::kAccent, 0, scaled(1.5));
-  draw_faces(canvas, mesh,
-             {.world_from_body = glm::mat3_cast(body.world_from_body.rotation),
-              .at_m = at_m,
-              .enlarged = enlarged,
-              .color = color});
+  const Drawing drawing{.world_from_body = glm::mat3_cast(body.world_from_body.rotation),
+                        .at_m = at_m,
+                        .enlarged = enlarged,
+                        .color = color};
+  draw_faces(canvas, mesh, drawing);
+  const std::vector<IntruderSettings>& intruders = world.context.project().intruders;
+  if (const auto which = static_cast<std::size_t>(body.intruder); which < intruders.size())
+    draw_lights(canvas, intruders[which].lights, drawing, length_m(*body.model));
   const double distance_m = glm::distance(world.moment.world_from_camera.translation_m, at_m);
   const double aside = scaled(kMinBody_px) * 0.6 + scaled(4);
   const std::string text = distance_text(distance_m);
