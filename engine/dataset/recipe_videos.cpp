@@ -300,12 +300,8 @@ void check_sampled_name(const VideoGroup& group, RecipeNode& node) {
       node.log().wrong(node.key_of("name"),
                        std::string("has ") + part + ", which is sampled for each name; use {number} alone");
   if (group.count > 1 && group.name.find("{number}") == std::string::npos)
-    node.log().wrong(node.key_of("name"), "is the same for " + std::to_string(group.count) + " videos; add {number}");
+    node.log().wrong(node.key_of("name"), fmt::format("is the same for {} videos; add {{number}}", group.count));
 }
-
-// Numbers of the footage that belong to the clip, or that the group states itself.
-const std::vector<std::string> kOfTheClip{"frame_rate", "first_frame", "last_frame", "occluder_frame",
-                                          "max_substituted_percent"};
 
 VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<std::string>& settings) {
   VideoGroup group;
@@ -317,7 +313,9 @@ VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<s
   group.lights = read_lights(node, settings);
   group.numbers = read_numbers(node, "appearance", settings);
   group.numbers.merge(read_numbers(node, "camera", settings));
-  group.numbers.merge(read_numbers(node, "footage", settings, kOfTheClip));
+  group.numbers.merge(
+      read_numbers(node, "footage", settings,
+                   {"frame_rate", "first_frame", "last_frame", "occluder_frame", "max_substituted_percent"}));
   group.others = read_others(node, recipe);
   group.name = node.text("name").value_or(standard_name(group));
   group.frames = node.whole("frames", 1, kMaxFrames);

@@ -12,6 +12,7 @@
 #include "base/pose.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "horizon/cloud_map.h"
 #include "horizon/horizon.h"
 #include "horizon/sky_map.h"
 #include "scene/opened_project.h"
@@ -25,6 +26,7 @@ namespace sigs {
 namespace {
 
 constexpr int kLookFrames = 7;
+constexpr double kCloud = 0.3;  // opacity of what counts as clouds
 constexpr double kSteady_rad = rad_of_deg(4);
 constexpr double kOnlySky = 0.8, kNoSky = 0.08;  // shares of a frame
 constexpr double kMinBlue = 0.5;                 // of green, linear light: sky; meadows and woods have less
@@ -119,6 +121,7 @@ Result<FirstLook> first_look(FrameSource& footage, const Scene& scene, const std
   const std::optional<GivenSun> sun = sun_by_log(scene);
   Surroundings surroundings(!sun);
   Levels levels;
+  std::vector<double> covers;
   for (const int number : look_frames(scene)) {
     if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
     const Result<Frame> frame = footage.read(number);
@@ -129,8 +132,9 @@ Result<FirstLook> first_look(FrameSource& footage, const Scene& scene, const std
       view.world_from_camera = camera_at(scene.motion, time_of_frame_s(scene.footage, number)).rotation;
     surroundings.add(*frame, view);
     if (!scene.horizon_is_known) levels.add(*frame, scene.camera);
+    covers.push_back(CloudMap(*frame).cover(kCloud));
   }
-  FirstLook look{.surroundings = surroundings.finish(sun)};
+  FirstLook look{.surroundings = surroundings.finish(sun), .cloud_cover = covers.empty() ? 0 : median(covers)};
   levels.set(look);
   return look;
 }

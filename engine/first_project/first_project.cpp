@@ -269,6 +269,13 @@ class Planning {
         set_dark_or_thermal(source, scene(), project(), control_.cancel);
     if (!unlit) return fail(unlit.error());
     if (*unlit) note(**unlit);
+    constexpr double kMinCover = 0.1;
+    if (!*unlit && look.cloud_cover >= kMinCover)
+      note({.field = "footage.cloud_distance_m",
+            .text = fmt::format("none: clouds cover {} % of the sky, and hide nothing as long as their distance is not "
+                                "stated, which no footage tells",
+                                std::lround(100 * look.cloud_cover)),
+            .is_guess = true});
     // What daylight would do is of no use then.
     for (const FirstProjectNote& one : *found)
       if (!*unlit || (!one.field.starts_with("light.") && one.field != "appearance.haze.visibility_m")) note(one);

@@ -34,6 +34,7 @@ struct FirstLook {
   SurroundingsEstimate surroundings;  // light and sun
   LevelBy level_by = LevelBy::nothing;
   double roll_rad = 0, pitch_rad = 0;  // of the camera; guessed for `sky` and `ground`, 0 for `nothing`
+  double cloud_cover = 0;              // share of the sky, 0..1
 };
 
 // Looks at up to 7 frames of the scene's range. Damaged ones are left out. The level is sought only where the scene

@@ -104,6 +104,27 @@ Layer without_hidden(const Scene& scene, const SceneMoment& moment, const Layer&
   return occluded_by(free, occluder_seen_from(moment.world_from_camera, scene.occluder, lens, free.rect));
 }
 
+// Error: thermal footage in colours. What a palette stands for is not known.
+Result<void> check_spectrum(const Scene& scene, const Frame& background) {
+  constexpr double kGray_codes = 6;  // of 8 bits, from gray in the mean: more than what compression leaves
+  if (!scene.is_thermal || background.plane_count() == 1) return {};
+  const double code = codes_per_8_bit_step(background.bit_depth);
+  double off = 0;
+  for (std::size_t plane = 1; plane < 3; ++plane) {
+    const cv::Mat& codes = background.planes[plane];
+    const double differs =
+        background.layout == PixelLayout::rgb
+            ? cv::norm(codes, background.planes[0], cv::NORM_L1)
+            : cv::norm(codes, cv::Mat(codes.size(), codes.type(), cv::Scalar(128 * code)), cv::NORM_L1);
+    off = std::max(off, differs / static_cast<double>(codes.total()) / code);
+  }
+  if (off <= kGray_codes) return {};
+  return fail("footage.spectrum",
+              "thermal, but the footage is in colours: heat can be drawn in gray footage alone; record it white-hot or "
+              "black-hot, or convert it by its palette",
+              ErrorKind::bad_project);
+}
+
 // Fills `contrail`: through haze, blurred by the lens. How warm ice looks is not modelled.
 void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* background, LensTable& lens,
                   IntruderLayers& layers) {
@@ -316,6 +337,7 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
                                     Stages stages) {
   ENSURE(background.size_px() == scene.footage.size_px);
   const Stopwatch watch;
+  if (const Result<void> gray = check_spectrum(scene, background); !gray) return fail(gray.error());
   const SceneMoment moment = scene_at(scene, frame);
   std::vector<IntruderLayers> far_to_near;
   for (const PlacedIntruder& placed : moment.intruders) {

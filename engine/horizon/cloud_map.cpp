@@ -329,6 +329,20 @@ CloudPart CloudMap::window_of(const cv::Rect& around) const {
   return window;
 }
 
+double CloudMap::cover(double least_opacity) const {
+  if (!has_sky_) return 0;
+  int sky = 0, cloudy = 0;
+  for (int y = 0; y < inner_.rows; ++y)
+    for (int x = 0; x < inner_.cols; ++x) {
+      if (inner_(y, x) == 0) continue;
+      const cv::Point middle(x * kCell_px + kCell_px / 2, y * kCell_px + kCell_px / 2);
+      const cv::Vec3f clear = clear_light(terms_at(middle.x, middle.y));
+      ++sky;
+      cloudy += opacity_of(linear(codes_(middle)), clear) >= least_opacity ? 1 : 0;
+    }
+  return sky > 0 ? double(cloudy) / sky : 0;
+}
+
 CloudPart CloudMap::part(const cv::Rect& rect) const {
   CloudPart part{.opacity = cv::Mat_<float>(rect.size(), 0.0F),
                  .brightness = cv::Mat_<cv::Vec3f>(rect.size(), cv::Vec3f(0, 0, 0))};

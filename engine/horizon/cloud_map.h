@@ -42,6 +42,9 @@ class CloudMap {
   // How far the sky is taken for overcast, 0 to 1.
   [[nodiscard]] double overcast() const { return overcast_; }
 
+  // The share of the sky where clouds take at least this much, 0..1; 0 without a sky.
+  [[nodiscard]] double cover(double least_opacity) const;
+
   static constexpr int kTerms = 8;
 
  private:

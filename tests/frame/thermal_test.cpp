@@ -22,6 +22,10 @@ void add_block(Scenario& scenario) {
   scenario.project.appearance.psf_sigma_px = 0;
 }
 
+ComposedFrame composed_gray(const Scenario& scenario) {
+  return composed(scenario.opened(), 1, grainy_frame(kHeatImage, 1, PixelLayout::gray));
+}
+
 Frame full_range(Frame frame) {
   frame.color.range = ColorRange::full;
   return frame;
@@ -42,6 +46,24 @@ TEST_CASE("a warm body has the sky's code and its heat, whatever its paint, the 
     CHECK(std::abs(int(done.image.planes[0].at<uchar>(120, 160)) - 180) <= 1);
     for (const int plane : {1, 2}) CHECK(std::abs(int(done.image.planes[plane].at<uchar>(60, 80)) - 128) <= 1);
     CHECK(done.image.planes[0].at<uchar>(10, 10) == kSkyCode);
+  }
+}
+
+TEST_CASE("thermal footage in colours is refused with a reason, gray footage with chroma is not") {
+  Scenario scenario(kHeatImage);
+  add_block(scenario);
+  const Scene scene = scenario.opened();
+  ComposeContext context;
+  for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::rgb}) {
+    Frame background = full_range(even_frame(kHeatImage, kSkyCode, layout));
+    if (layout == PixelLayout::rgb) background.planes[1] = background.planes[2] = background.planes[0].clone();
+    CHECK(compose_frame(scene, 1, background, context));
+    background.planes[2] = background.planes[2].clone();
+    background.planes[2].setTo(180);
+    const Result<ComposedFrame> done = compose_frame(scene, 1, background, context);
+    REQUIRE_FALSE(done);
+    CHECK(done.error().where == "footage.spectrum");
+    CHECK(done.error().kind == ErrorKind::bad_project);
   }
 }
 
@@ -98,7 +120,7 @@ TEST_CASE("the halo takes away the mean of what the body adds, by OpenCV's own G
 TEST_CASE("heat has no effect in footage by light, nor light in thermal footage") {
   Scenario scenario(kHeatImage);
   add_block(scenario);
-  const auto image = [&] { return composed(scenario).image; };
+  const auto image = [&] { return composed_gray(scenario).image; };
   const Frame thermal = image();
   scenario.project.light.ambient = 0.9;
   scenario.project.light.kind = LightKind::sun;
@@ -117,13 +139,13 @@ TEST_CASE("a thermal camera's scene has no contrail, of which the heat is not kn
   add_block(scenario);
   IntruderSettings& jet = scenario.project.intruders[0];
   jet.trajectory.waypoints = {{.frame = 0, .position_m = {60, -40, -150}}, {.frame = 2, .position_m = {60, 40, -150}}};
-  const Frame without = composed(scenario).image;
+  const Frame without = composed_gray(scenario).image;
   jet.contrail.strands = 2;
-  const ComposedFrame with = composed(scenario);
+  const ComposedFrame with = composed_gray(scenario);
   CHECK(same_planes(with.image, without));
   CHECK_FALSE(with.truth.intruders[0].has_contrail);
   scenario.project.footage.spectrum = Spectrum::visible;
-  CHECK(composed(scenario).truth.intruders[0].has_contrail);
+  CHECK(composed_gray(scenario).truth.intruders[0].has_contrail);
 }
 
 TEST_CASE("warm is dark where the camera shows it so, and the halo is bright") {
