@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Opacity of the clouds in six real frames against clouds painted by hand (clouds/painted.json), and by how much it
+# Opacity of the clouds in nine real frames against clouds painted by hand (clouds/painted.json), and by how much it
 # flickers at one place over 30 frames of a camera that stands still. Needs python3 with numpy and PIL; a minute.
 #   bench/clouds.sh [BUILD] [DATA]     default: build/release, ../shared/data
 set -euo pipefail

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -18,17 +17,18 @@ namespace sigs {
 namespace {
 
 constexpr int kCell_px = SkyMap::kCell_px;
-constexpr int kMinCells = 60;         // of sky
-constexpr double kExpectile = 0.97;   // of saturation: clear sky is the bluest
-constexpr int kExpectileRounds = 20;  // which it needs to settle
-constexpr double kSlack = 0.08;       // of saturation, beyond noise, by which clear sky may be less blue
-constexpr double kMostSlack = 0.12;   // noise included
+constexpr int kMinCells = 60;        // of sky
+constexpr double kSlack = 0.08;      // of saturation, beyond noise, by which clear sky may be less blue
+constexpr double kMostSlack = 0.12;  // noise included
 constexpr double kSlackOfColour = 0.03, kSlackOfGray = 0.01;
 constexpr double kNoises = 3;                // medians of what clear sky is off, which no cloud is taken from
 constexpr double kMostNoise = 0.06;          // of clear sky's blue, that counts as noise
 constexpr double kWhiteOfCloud = 0.8;        // luminance of an opaque cloud where the sky shows no brighter one
 constexpr double kLargestHole = 0.02;        // of the image, in the sky
 constexpr double kAsBright = 0.9;            // of clear sky, what is its cloud and no thing before it
+constexpr double kSkyBlue = 0.7;             // saturation of what is sky though it lies below sky's end
+constexpr double kDarkestSky = 0.02;         // luminance of that
+constexpr int kBesideSky = 3;                // cells to the sky above
 constexpr double kMinRange = 0.05;           // between the luminances of clear sky and opaque cloud
 constexpr double kOvercast = 0.38;           // saturation of the bluest sky: less is overcast ...
 constexpr double kBlue = 0.5;                // ... and more is not
@@ -48,6 +48,11 @@ void smooth(cv::Mat& image) {
 
 double blueness(const cv::Vec3f& light) {
   return light[2] - light[0];
+}
+
+// Blue less red, of the luminance.
+double saturation(const cv::Vec3f& light) {
+  return blueness(light) / std::max(luminance(light), 1e-3);
 }
 
 // All planes at the size of the reduced luma, as codes of 8 bits or more.
@@ -70,57 +75,26 @@ cv::Mat_<cv::Vec3f> reduced_codes(const Frame& frame, const cv::Size& size, cons
   return merged;
 }
 
-using Fit = std::array<double, CloudMap::kTerms>;
-
-double value_of(const Fit& fit, const Fit& terms) {
-  double sum = 0;
-  for (std::size_t i = 0; i < fit.size(); ++i) sum += fit[i] * terms[i];
-  return sum;
-}
-
-// One cell of sky as the fits see it.
-struct Sample {
-  Fit terms;
-  cv::Vec3f light;
-  double saturation = 0;
-};
-
-// Weighted least squares, held a little towards 0 where the sky does not determine a term.
-Fit fitted(const std::vector<Sample>& samples, const std::function<double(const Sample&)>& value,
-           const std::function<double(const Sample&)>& weight) {
-  constexpr double kHeld = 1e-3;
-  constexpr int n = CloudMap::kTerms;
-  cv::Matx<double, n, n> normal = cv::Matx<double, n, n>::eye() * kHeld;
-  cv::Matx<double, n, 1> right = cv::Matx<double, n, 1>::zeros();
-  for (const Sample& sample : samples) {
-    const double w = weight(sample);
-    if (w <= 0) continue;
-    const double wanted = value(sample);
-    for (int i = 0; i < n; ++i) {
-      const double term = w * sample.terms[static_cast<std::size_t>(i)];
-      right(i) += term * wanted;
-      for (int j = 0; j <= i; ++j) normal(i, j) += term * sample.terms[static_cast<std::size_t>(j)];
+// Sky ends below a bright cloud, where blue sky begins: that is darker, as ground is. Parts that are blue and lie
+// beside sky are sky too.
+cv::Mat_<uchar> with_blue_sky(const cv::Mat_<uchar>& sky, const cv::Mat_<cv::Vec3f>& light) {
+  cv::Mat_<uchar> blue(sky.size(), uchar{0});
+  for (int y = 0; y < sky.rows; ++y)
+    for (int x = 0; x < sky.cols; ++x) {
+      const double bright = luminance(light(y, x));
+      if (bright > kDarkestSky && blueness(light(y, x)) > kSkyBlue * bright && light(y, x)[2] > light(y, x)[1])
+        blue(y, x) = 255;
     }
+  cv::Mat labels, boxes, centres, near;
+  const int count = cv::connectedComponentsWithStats(blue, labels, boxes, centres, 4);
+  cv::dilate(sky != 0, near, cv::Mat::ones(2 * kBesideSky + 1, 2 * kBesideSky + 1, CV_8U));
+  cv::Mat_<uchar> all = sky.clone();
+  for (int label = 1; label < count; ++label) {
+    if (boxes.at<int>(label, cv::CC_STAT_AREA) < kMinCells) continue;
+    const cv::Mat part = labels == label;
+    if (cv::countNonZero(part & near) > 0) all.setTo(255, part);
   }
-  for (int i = 0; i < n; ++i)
-    for (int j = i + 1; j < n; ++j) normal(i, j) = normal(j, i);
-  const cv::Matx<double, n, 1> solved = normal.solve(right, cv::DECOMP_CHOLESKY);
-  Fit fit;
-  for (int i = 0; i < n; ++i) fit[static_cast<std::size_t>(i)] = solved(i);
-  return fit;
-}
-
-// The bluest sky: where residuals above count kExpectile and those below the rest.
-Fit bluest(const std::vector<Sample>& samples) {
-  const auto saturation = [](const Sample& sample) { return sample.saturation; };
-  Fit fit = fitted(samples, saturation, [](const Sample&) { return 1.0; });
-  for (int round = 0; round < kExpectileRounds; ++round) {
-    const Fit last = fit;
-    fit = fitted(samples, saturation, [&](const Sample& sample) {
-      return sample.saturation > value_of(last, sample.terms) ? kExpectile : 1 - kExpectile;
-    });
-  }
-  return fit;
+  return all;
 }
 
 }  // namespace
@@ -150,6 +124,7 @@ CloudMap::CloudMap(const Frame& frame, const cv::Mat& own_body)
   for (const cv::Vec3f& cell : cells.light) chroma.push_back(std::abs(blueness(cell)));
   has_colour_ = quantile(std::move(chroma), 0.99) > kMinChroma;
   has_sky_ = true;
+  if (has_colour_) cells.sky = with_blue_sky(cells.sky, cells.light);
   find_clear_sky(cells);
   sky_ = cells.sky.clone();
   add_bright_clouds(cells);
@@ -166,70 +141,90 @@ cv::Vec3f CloudMap::linear(const cv::Vec3f& codes) const {
   return to_bt709_ * rgb;
 }
 
-CloudMap::Terms CloudMap::terms_at(double x_px, double y_px) const {
+SkyTerms CloudMap::terms_at(double x_px, double y_px) const {
   const double u = 2 * x_px / codes_.cols - 1;
   const double v = 2 * std::clamp(y_px, rows_px_[0], rows_px_[1]) / codes_.rows - 1;
-  return {1, u, v, u * u, u * v, v * v, v * v * v, v * v * v * v};
+  return sky_terms(u, v);
 }
 
-cv::Vec3f CloudMap::clear_light(const Terms& terms) const {
+cv::Vec3f CloudMap::clear_light(const SkyTerms& terms) const {
   cv::Vec3f light;
   for (int c = 0; c < 3; ++c) light[c] = static_cast<float>(value_of(clear_.light[static_cast<std::size_t>(c)], terms));
   return light;
 }
 
+// The first row in which clear sky is seen: it is bluer upwards, and rows above that are less blue are full of clouds.
+int CloudMap::first_clear_row(const Cells& cells) const {
+  constexpr double kAsBlue = 0.6;  // of the bluest row
+  constexpr std::size_t kFew = 5;
+  std::vector<double> bluest(static_cast<std::size_t>(cells.sky.rows), -1);
+  for (int y = 0; y < cells.sky.rows; ++y) {
+    std::vector<double> saturations;
+    for (int x = 0; x < cells.sky.cols; ++x)
+      if (cells.sky(y, x) == 255) saturations.push_back(saturation(cells.light(y, x)));
+    if (saturations.size() >= kFew) bluest[static_cast<std::size_t>(y)] = quantile(std::move(saturations), 0.95);
+  }
+  auto row = std::max_element(bluest.begin(), bluest.end());
+  const double least = kAsBlue * *row;
+  while (row != bluest.begin() && (*(row - 1) >= least || *(row - 1) < 0)) --row;
+  return static_cast<int>(row - bluest.begin());
+}
+
 void CloudMap::find_clear_sky(const Cells& cells) {
   rows_px_ = {0, static_cast<double>(codes_.rows)};
-  std::vector<Sample> samples;
+  std::vector<SkyPlace> samples;
   std::vector<double> luminances;
   double first_px = codes_.rows, last_px = 0;
+  const int first_row = has_colour_ ? first_clear_row(cells) : 0;
   for (int y = 0; y < cells.sky.rows; ++y)
     for (int x = 0; x < cells.sky.cols; ++x) {
       if (cells.sky(y, x) != 255) continue;
       const double y_px = (y + 0.5) * kCell_px;
       const cv::Vec3f& light = cells.light(y, x);
-      const double bright = luminance(light);
-      samples.push_back({terms_at((x + 0.5) * kCell_px, y_px), light, blueness(light) / std::max(bright, 1e-3)});
-      luminances.push_back(bright);
+      luminances.push_back(luminance(light));
+      if (y < first_row) continue;
+      // In gray footage the darkest sky is the clear one.
+      const double clarity = has_colour_ ? saturation(light) : -luminance(light);
+      samples.push_back({terms_at((x + 0.5) * kCell_px, y_px), light, clarity});
       first_px = std::min(first_px, y_px);
       last_px = std::max(last_px, y_px);
     }
   rows_px_ = {first_px, last_px};
-  // In gray footage the darkest sky is the clear one.
-  if (!has_colour_)
-    for (Sample& sample : samples) sample.saturation = -luminance(sample.light);
+  brightest_ = std::max(quantile(std::move(luminances), 0.99), kWhiteOfCloud);
   clear_.saturation = bluest(samples);
   std::vector<double> above, bluest_of;
-  for (const Sample& sample : samples) {
+  for (const SkyPlace& sample : samples) {
     const double expected = value_of(clear_.saturation, sample.terms);
     bluest_of.push_back(expected);
     if (sample.saturation > expected) above.push_back(sample.saturation - expected);
   }
   const double noise = above.empty() ? 0 : 1.5 * median(std::move(above));
   const double slack = has_colour_ ? kSlackOfColour : kSlackOfGray;
-  const auto is_clear = [&](const Sample& sample) {
+  std::erase_if(samples, [&](const SkyPlace& sample) {
     const double expected = value_of(clear_.saturation, sample.terms);
     const double allowed = 3 * noise + slack + kSlack * std::abs(expected);
-    return sample.saturation > expected - std::min(allowed, kMostSlack * std::abs(expected)) ? 1.0 : 0.0;
-  };
+    return sample.saturation <= expected - std::min(allowed, kMostSlack * std::abs(expected));
+  });
   for (int c = 0; c < 3; ++c)
     clear_.light[static_cast<std::size_t>(c)] = fitted(
-        samples, [c](const Sample& sample) { return sample.light[c]; }, is_clear);
-  brightest_ = std::max(quantile(std::move(luminances), 0.99), kWhiteOfCloud);
+        samples, [c](const SkyPlace& sample) { return sample.light[c]; }, [](const SkyPlace&) { return 1.0; });
+  if (has_colour_)
+    overcast_ = std::clamp((kBlue - quantile(std::move(bluest_of), 0.9)) / (kBlue - kOvercast), 0.0, 1.0);
+  measure_noise(samples);
+}
+
+// By how much clear sky is off what was fitted to it.
+void CloudMap::measure_noise(const std::vector<SkyPlace>& clear_samples) {
+  if (clear_samples.empty()) return;
   std::vector<double> bright_off, blue_off, blue;
-  for (const Sample& sample : samples) {
-    if (is_clear(sample) == 0) continue;
+  for (const SkyPlace& sample : clear_samples) {
     const cv::Vec3f clear = clear_light(sample.terms);
     bright_off.push_back(std::abs(luminance(sample.light) - luminance(clear)));
     blue.push_back(blueness(clear));
     blue_off.push_back(std::abs(blueness(sample.light) - blueness(clear)));
   }
-  if (!bright_off.empty()) {
-    bright_noise_ = kNoises * median(std::move(bright_off));
-    blue_noise_ = std::min(kNoises * median(std::move(blue_off)), kMostNoise * median(std::move(blue)));
-  }
-  if (has_colour_)
-    overcast_ = std::clamp((kBlue - quantile(std::move(bluest_of), 0.9)) / (kBlue - kOvercast), 0.0, 1.0);
+  bright_noise_ = kNoises * median(std::move(bright_off));
+  blue_noise_ = std::min(kNoises * median(std::move(blue_off)), kMostNoise * median(std::move(blue)));
 }
 
 // Sky ends at the edge of a bright cloud. What lies beside it, brighter and less blue than clear sky, is cloud.
@@ -244,12 +239,12 @@ void CloudMap::add_bright_clouds(const Cells& cells) {
     for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
       const cv::Point to = from + step;
       if (!cv::Rect({0, 0}, sky_.size()).contains(to) || sky_(to) != 0) continue;
-      const Terms terms = terms_at((to.x + 0.5) * kCell_px, (to.y + 0.5) * kCell_px);
+      const SkyTerms terms = terms_at((to.x + 0.5) * kCell_px, (to.y + 0.5) * kCell_px);
       const cv::Vec3f clear = clear_light(terms);
       const cv::Vec3f& light = cells.light(to);
       const double bright = luminance(light);
       if (bright < luminance(clear) + kBrighterThanClear) continue;
-      if (has_colour_ && blueness(light) / std::max(bright, 1e-3) > value_of(clear_.saturation, terms)) continue;
+      if (has_colour_ && saturation(light) > value_of(clear_.saturation, terms)) continue;
       sky_(to) = 255;
       open.push_back(to);
     }

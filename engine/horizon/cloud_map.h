@@ -3,7 +3,9 @@
 
 #include <array>
 #include <opencv2/core.hpp>
+#include <vector>
 
+#include "horizon/sky_fit.h"
 #include "horizon/sky_map.h"
 #include "video/frame.h"
 
@@ -45,21 +47,20 @@ class CloudMap {
   // The share of the sky where clouds take at least this much, 0..1; 0 without a sky.
   [[nodiscard]] double cover(double least_opacity) const;
 
-  static constexpr int kTerms = 8;
-
  private:
-  using Terms = std::array<double, kTerms>;
   struct ClearSky {
-    Terms saturation{};            // blue less red, over luminance
-    std::array<Terms, 3> light{};  // linear red, green, blue
+    SkyTerms saturation{};            // blue less red, over luminance
+    std::array<SkyTerms, 3> light{};  // linear red, green, blue
   };
   struct Cells;
 
-  [[nodiscard]] Terms terms_at(double x_px, double y_px) const;  // of the reduced image
+  [[nodiscard]] SkyTerms terms_at(double x_px, double y_px) const;  // of the reduced image
+  [[nodiscard]] int first_clear_row(const Cells& cells) const;
   void find_clear_sky(const Cells& cells);
+  void measure_noise(const std::vector<SkyPlace>& clear_samples);
   void add_bright_clouds(const Cells& cells);
   void fill_holes(const Cells& cells);
-  [[nodiscard]] cv::Vec3f clear_light(const Terms& terms) const;
+  [[nodiscard]] cv::Vec3f clear_light(const SkyTerms& terms) const;
   [[nodiscard]] cv::Vec3f linear(const cv::Vec3f& codes) const;
   [[nodiscard]] cv::Point2d in_reduced(double x_px, double y_px) const;
   [[nodiscard]] cv::Point cell_of(const cv::Point& pixel) const;  // pixel of the reduced image
