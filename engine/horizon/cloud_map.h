@@ -30,7 +30,8 @@ struct CloudPart {
 //
 // Limits: haze above the horizon and a bank of far clouds look alike, and what is the same all along the horizon counts
 // as haze. Clouds as blue as the sky and no brighter, such as shadowed ones in gray footage, are not seen. Things in
-// front of the sky that are not blue look like clouds. Nothing below the sky's lower end is cloud.
+// front of the sky that are not blue look like clouds. What lies below the sky's lower end (sky_map.h) is cloud or sky
+// only where it joins the sky, and is brighter and less blue than clear sky, or as blue as sky.
 class CloudMap {
  public:
   //   own_body  CV_8UC1 of any size, above 127 where the own body is; may be empty
@@ -41,9 +42,6 @@ class CloudMap {
 
   // Whether there is enough sky to say anything; without it no cloud is seen.
   [[nodiscard]] bool has_sky() const { return has_sky_; }
-  // How far the sky is taken for overcast, 0 to 1.
-  [[nodiscard]] double overcast() const { return overcast_; }
-
   // The share of the sky where clouds take at least this much, 0..1; 0 without a sky.
   [[nodiscard]] double cover(double least_opacity) const;
 
@@ -79,7 +77,7 @@ class CloudMap {
   std::array<double, 2> rows_px_{};           // of the reduced image, between which clear sky was seen
   double brightest_ = 0;                      // luminance of an opaque cloud
   double bright_noise_ = 0, blue_noise_ = 0;  // by which clear sky may be off
-  double overcast_ = 0;
+  double overcast_ = 0;                       // how far the sky is taken for overcast, 0..1
   bool has_colour_ = false;
   bool has_sky_ = false;
 };

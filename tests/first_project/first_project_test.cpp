@@ -150,6 +150,9 @@ TEST_CASE("real clips become projects; a GoPro's log gives the path, KLV its fie
   const FirstProject coast = made_and_opened({.video = coast_video, .out = folder / "coast.json"}, 0.9);
   // Its attitudes are those of the images, its path the log's, at the log's own times.
   CHECK(coast.project.camera.track.file == "coast.attitude.csv");
+  CHECK(std::ranges::any_of(coast.notes, [](const FirstProjectNote& note) {
+    return note.field == "footage.cloud_distance_m" && note.text.starts_with("none: clouds cover");
+  }));
   const Result<Track> seen = read_track(folder / "coast.attitude.csv");
   const Result<Track> logged = read_track(coast_video);
   REQUIRE(seen);

@@ -32,6 +32,9 @@ FrameTruth logged_frame(int index) {
                   .attitude_sd_rad = glm::dvec3(rad_of_deg(0.25), rad_of_deg(0.5), rad_of_deg(1)),
                   .place = GeodeticPosition{33.1253688123, -117.3310670456, 15.711}};
   frame.intruders[0].place = GeodeticPosition{-33.5, 179.999999999, 1200};
+  frame.intruders[0].lights = {{"left", {20.5, 7}, 1, 0.25}};
+  frame.intruders[0].lights_alone = frame.intruders[0].has_shadow = frame.intruders[0].has_contrail = true;
+  frame.intruders[0].clouds = CloudTruth{.hidden = 0.25, .assumed_distance_m = 1500};
   return frame;
 }
 

@@ -36,7 +36,8 @@ IntruderTruth everything(int id, const std::string& name) {
   truth.detectability = Detectability{-0.4123456789, 0.447, 7.25};
   truth.image_formation = {.blur_px = 0.45, .motion_blur_px = 1.5, .visibility_m = 20000};
   truth.is_distractor = id == 1;
-  truth.has_contrail = id == 1;
+  truth.has_contrail = truth.has_shadow = truth.lights_alone = id == 1;
+  if (id == 1) truth.clouds = CloudTruth{.hidden = 0.123456789, .assumed_distance_m = 1500};
   if (id == 1)
     truth.lights = {{"left", {20.12345678, 7}, 1, 0.25}, {"strobe left", {20.12345678, 7}, 0.3333333333, 12}};
   truth.encounter = EncounterTruth{.range_rate_mps = -61.23456789,
