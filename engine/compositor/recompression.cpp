@@ -322,7 +322,7 @@ void copy_macroblock(const Frame& from, cv::Point at, Frame& to) {
 // What an encoder pays for a reference elsewhere, in the sum of luma's differences that it saves by it: some bits, each
 // worth 0.4 quantiser steps (x264's lambda). How many: so that traces before sky and before ground are about x264's.
 std::int64_t price_of_reference(const PatchCoding& coding, cv::Point macroblock) {
-  constexpr double kBits = 32, kStepsOfBit = 0.4;
+  constexpr double kBits = 128, kStepsOfBit = 0.4;
   const int quantiser = coding.quantisers.at<short>(macroblock);
   const double step = coding.kind == QuantiserKind::h264 ? std::exp2((quantiser - 4) / 6.0) : 2.0 * quantiser;
   return std::llround(kBits * kStepsOfBit * step);
