@@ -236,6 +236,16 @@ std::vector<Platform> platforms(const Choice& wanted) {
 
 }  // namespace
 
+std::unique_lock<std::mutex> EglContext::lock_drawing() {
+  static std::mutex one_at_a_time;
+  return std::unique_lock(one_at_a_time);
+}
+
+std::unique_lock<std::mutex> EglContext::lock_if_shared() const {
+  if (description_.find("llvmpipe") == std::string::npos) return {};
+  return lock_drawing();
+}
+
 Result<EglContext> EglContext::create() {
   const Result<Choice> wanted = choice();
   if (!wanted) return fail(wanted.error());

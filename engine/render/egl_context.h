@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -27,6 +28,13 @@ class EglContext {
 
   // Makes the context current, as needed where several take turns on one thread. False where the driver refuses.
   [[nodiscard]] bool make_current() const;
+
+  // Mesa's software renderer asks every context of a display which images its unfinished drawing uses, without waiting
+  // for the threads that draw there: llvmpipe of Mesa 22.3 crashed so, once in some hundred editors. So one thread at a
+  // time draws with it; what it draws is spread over all cores anyway. Other drivers: a lock of nothing.
+  [[nodiscard]] std::unique_lock<std::mutex> lock_if_shared() const;
+  // The same where the driver is not known yet, or no longer.
+  [[nodiscard]] static std::unique_lock<std::mutex> lock_drawing();
 
   // Platform, renderer and version: "surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"
   [[nodiscard]] const std::string& description() const { return description_; }

@@ -377,4 +377,14 @@ void GpuMesh::bind_texture(int texture) const {
   glBindTexture(GL_TEXTURE_2D, textures_[texture]);
 }
 
+GpuMesh& uploaded_mesh(std::map<const Mesh*, GpuMesh>& meshes, const Mesh& mesh) {
+  const auto known = meshes.find(&mesh);
+  if (known != meshes.end() && known->second.is_copy_of(mesh)) return known->second;
+  if (known != meshes.end()) {
+    known->second.release();
+    meshes.erase(known);
+  }
+  return meshes.emplace(&mesh, GpuMesh(mesh)).first->second;
+}
+
 }  // namespace sigs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
@@ -89,5 +90,8 @@ class GpuMesh {
   unsigned int sorted_indices_ = 0;
   std::vector<unsigned int> textures_;
 };
+
+// The uploaded mesh, uploaded at its first use and again where it has changed.
+[[nodiscard]] GpuMesh& uploaded_mesh(std::map<const Mesh*, GpuMesh>& meshes, const Mesh& mesh);
 
 }  // namespace sigs

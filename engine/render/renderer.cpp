@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <mutex>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
@@ -241,17 +242,6 @@ std::vector<cv::Rect> pieces_of(const cv::Size& size) {
   return pieces;
 }
 
-// The uploaded mesh, uploaded at its first use and again where it has changed.
-GpuMesh& uploaded_mesh(std::map<const Mesh*, GpuMesh>& meshes, const Mesh& mesh) {
-  const auto known = meshes.find(&mesh);
-  if (known != meshes.end() && known->second.is_copy_of(mesh)) return known->second;
-  if (known != meshes.end()) {
-    known->second.release();
-    meshes.erase(known);
-  }
-  return meshes.emplace(&mesh, GpuMesh(mesh)).first->second;
-}
-
 Layer blank(const cv::Size& size) {
   return {cv::Rect({0, 0}, size), cv::Mat::zeros(size, CV_32FC4), cv::Mat::zeros(size, CV_32FC1)};
 }
@@ -275,6 +265,7 @@ void ensure_sane(const ViewFromBody& view_from_body, const Light& light, const V
 
 Result<Renderer> Renderer::create(int samples_per_pixel) {
   ENSURE(samples_per_pixel >= 1 && samples_per_pixel <= 8);
+  const std::unique_lock lock = EglContext::lock_drawing();
   Result<EglContext> context = EglContext::create();
   if (!context) return fail(context.error());
   Result<Programs> programs = compiled_programs("");
@@ -285,8 +276,16 @@ Result<Renderer> Renderer::create(int samples_per_pixel) {
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
-Renderer& Renderer::operator=(Renderer&&) noexcept = default;
-Renderer::~Renderer() = default;
+Renderer& Renderer::operator=(Renderer&& other) noexcept {
+  const std::unique_lock lock = EglContext::lock_drawing();
+  state_ = std::move(other.state_);
+  return *this;
+}
+Renderer::~Renderer() {
+  if (!state_) return;
+  const std::unique_lock lock = EglContext::lock_drawing();
+  state_.reset();
+}
 
 const std::string& Renderer::description() const {
   return state_->context.description();
@@ -349,6 +348,7 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
   if (std::max(view.size_px.width, view.size_px.height) > kLargestView_px)
     return fail("view",
                 fmt::format("of {} pixels is larger than {}", image_size_text(view.size_px, " x "), kLargestView_px));
+  const std::unique_lock lock = state_->context.lock_if_shared();
   if (!state_->context.make_current())
     return fail("OpenGL", "the context cannot be made current", ErrorKind::unavailable);
 
@@ -387,6 +387,7 @@ Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::
 }
 
 void Renderer::forget(const Mesh& mesh) {
+  const std::unique_lock lock = state_->context.lock_if_shared();
   const auto known = state_->meshes.find(&mesh);
   if (known == state_->meshes.end() || !state_->context.make_current()) return;
   known->second.release();
