@@ -136,12 +136,15 @@ TEST_CASE("a project that the command line made lists its guesses, and its model
   const auto strobe = [&] { return ui_test.saved(project)["intruders"][0]["lights"]["strobe_cd"]; };
   const double inspector_x = editor.place("inspector/filter").center_x();
   editor.wheel(inspector_x, 500, -5);  // they stand below the image of the model
+  editor.wait_for_image();
+  editor.settle();
   ui_test.edit([&] { editor.click("inspector/lights"); });
   CHECK(strobe() == 200);
   ui_test.image("lights");
   ui_test.edit([&] { editor.click("inspector/lights"); });
   CHECK(strobe() == 0);
   editor.wheel(inspector_x, 500, 30);
+  editor.settle();
   // It has a heading of its own, which is typed, and left to the path again.
   editor.click("inspector/Intruders");
   editor.settle();
