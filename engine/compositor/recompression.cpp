@@ -339,11 +339,11 @@ Frame prediction_of(const Frame& image, const Frame& decoded, const Frame& befor
     for (int x = 0; x < image.planes[0].cols; x += kBlock_px) {
       const cv::Rect block(x, y, kBlock_px, kBlock_px);
       const auto off = [&](const Frame& from) { return difference_of(image.planes[0], from.planes[0], block); };
-      const bool is_moved = off(other) < off(decoded);
+      const std::int64_t in_place = off(decoded), moved_on = off(other);
       const std::int64_t price = price_of_reference(coding, {x / kBlock_px, y / kBlock_px});
-      if (off(before) + price < std::min(off(other), off(decoded)))
+      if (off(before) + price < std::min(moved_on, in_place))
         copy_macroblock(before, block.tl(), prediction);
-      else if (is_moved)
+      else if (moved_on < in_place)
         copy_macroblock(other, block.tl(), prediction);
     }
   return prediction;

@@ -10,8 +10,7 @@ namespace sigs {
 namespace {
 
 constexpr double kThinnest = 1e-6;  // opacity below which there is no cloud
-
-constexpr double kDensest = 0.01;  // what an opaque cloud lets through at least, so that its depth counts
+constexpr double kDensest = 0.01;   // what an opaque cloud lets through at least, so that its depth counts
 
 // The layer behind clouds. op is its opacity, T its light, S the clear sky's and B the footage's, which is the sky
 // through the clouds. A target behind clouds of transmission t is seen as B + op t (T' - B): with B - S, the clouds'
