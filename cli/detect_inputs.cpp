@@ -13,6 +13,7 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "cli/options.h"
+#include "cli/process.h"
 
 namespace sigs::cli {
 
@@ -37,6 +38,9 @@ Result<void> add_video(const fs::path& index, const nlohmann::json& video, const
        .results_name = name,
        .split = video.value("split", nlohmann::json()).is_string() ? video["split"] : nlohmann::json(""),
        .frames = video.value("frames", nlohmann::json()).is_number_integer() ? video["frames"].get<int>() : 0});
+  const nlohmann::json tags = video.value("tags", nlohmann::json());
+  for (const auto& [key, value] : tags.items())
+    if (tags.is_object() && value.is_string()) clips.back().tags[key] = value;
   return {};
 }
 
@@ -249,6 +253,97 @@ Result<DetectInputs> detect_inputs(const Paths& inputs, const Paths& results, co
   if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*clips), results);
   if (folders > 0) return fail("--results", "are folders and files; name either", ErrorKind::usage);
   return by_files(std::move(*clips), results);
+}
+
+namespace {
+
+// The results of one detector on one clip.
+Result<Results> results_of(const ClipFiles& files, const fs::path& file, const FootageTruth& footage,
+                           ResultsFormat format) {
+  Result<Results> results = read_results(file, footage,
+                                         ResultsOptions{.format = format,
+                                                        .multiple_per_frame = true,
+                                                        .first_image_id = files.first_image_id,
+                                                        .last_image_id = files.last_image_id,
+                                                        .images = files.truth ? &files.truth->images : nullptr});
+  if (results) warn_of_other_clip(*results, file, files.results_name);
+  return results;
+}
+
+void warn_of_boxes_elsewhere(const Results& results, const fs::path& file) {
+  if (results.boxes_elsewhere > 0)
+    print_warning({file.string(),
+                   count_text(results.boxes_elsewhere, "box") + " of images that the truth does not have: left out"});
+}
+
+// Of detectors that have one file for all clips.
+Result<std::vector<std::vector<DetectedClip>>> shared_clips(const DetectInputs& inputs, ResultsFormat format) {
+  std::vector<const TruthClip*> truths;
+  for (const ClipFiles& files : inputs.clips) truths.push_back(&*files.truth);
+  std::vector<std::vector<DetectedClip>> clips;
+  for (const fs::path& file : inputs.clips.front().results) {
+    if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return fail(on.error());
+    Result<std::vector<Results>> results = read_shared_results(file, truths, format);
+    if (!results) return fail(results.error());
+    warn_of_boxes_elsewhere(results->front(), file);
+    clips.emplace_back();
+    for (std::size_t i = 0; i < truths.size(); ++i)
+      clips.back().push_back(
+          {.name = inputs.clips[i].name, .truth = truths[i]->truth, .results = std::move((*results)[i])});
+  }
+  return clips;
+}
+
+}  // namespace
+
+Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInputs& inputs, ResultsFormat format) {
+  if (inputs.is_shared) return shared_clips(inputs, format);
+  std::vector<std::vector<DetectedClip>> clips(inputs.detectors.size());
+  for (const ClipFiles& files : inputs.clips) {
+    if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return fail(on.error());
+    const Result<ClipTruth> truth = files.truth ? Result<ClipTruth>(files.truth->truth) : read_truth(files.labels);
+    if (!truth) return fail(truth.error());
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+      Result<Results> results = results_of(files, files.results[i], truth->footage, format);
+      if (!results) return fail(results.error());
+      warn_of_boxes_elsewhere(*results, files.results[i]);
+      clips[i].push_back({.name = files.name, .truth = *truth, .results = std::move(*results)});
+    }
+  }
+  return clips;
+}
+
+Result<TruthOptions> with_size(TruthOptions truth, const std::string& size) {
+  if (size.empty()) return truth;
+  const Result<cv::Size> size_px = size_of_option(size);
+  if (!size_px) return fail(size_px.error());
+  truth.size_px = *size_px;
+  return truth;
+}
+
+std::vector<fs::path> files_read(const Paths& inputs, const Paths& results, const DetectInputs& clips) {
+  std::vector<fs::path> read = inputs;
+  read.insert(read.end(), results.begin(), results.end());
+  for (const ClipFiles& clip : clips.clips) {
+    read.push_back(clip.labels);
+    read.insert(read.end(), clip.results.begin(), clip.results.end());
+  }
+  return read;
+}
+
+void add_truth_options(CLI::App& command, TruthOptions& truth, std::string& size) {
+  command.add_option("--size", size, "size of the images of a yolo truth; else read from the images")
+      ->option_text("WxH");
+  command.add_option("--rate", truth.rate_hz, "frames a second of another program's truth; else as it says")
+      ->type_name("HZ")
+      ->check(from_to(1e-3, 1e6));
+  command
+      .add_option("--classes", truth.classes,
+                  "of another program's truth: only these classes count, boxes of others are ignored")
+      ->option_text("NAMES ...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_flag("--stills", truth.stills, "images of a coco or yolo truth are no video: gaps are allowed");
 }
 
 }  // namespace sigs::cli

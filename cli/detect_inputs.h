@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "evaluation/metrics/detection_score.h"
 #include "evaluation/readers/results.h"
 #include "evaluation/readers/truth_files.h"
 
@@ -16,12 +19,13 @@ namespace sigs::cli {
 struct ClipFiles {
   std::string name;  // no two are alike
   std::filesystem::path labels;
-  std::optional<TruthClip> truth;              // read already, where the labels are another program's
-  std::string results_name;                    // results' files are called so
-  std::vector<std::filesystem::path> results;  // one for each detector
-  std::string split;                           // of a dataset's clip
-  int frames = 0;                              // of a dataset's clip; 0: not known
-  int first_image_id = 1;                      // see ResultsOptions, as the next
+  std::optional<TruthClip> truth;                // read already, where the labels are another program's
+  std::string results_name;                      // results' files are called so
+  std::vector<std::filesystem::path> results;    // one for each detector
+  std::string split;                             // of a dataset's clip
+  int frames = 0;                                // of a dataset's clip; 0: not known
+  std::map<std::string, std::string> tags = {};  // of a dataset's clip
+  int first_image_id = 1;                        // see ResultsOptions, as the next
   std::optional<int> last_image_id;
 };
 
@@ -42,6 +46,20 @@ struct DetectInputs {
 [[nodiscard]] Result<DetectInputs> detect_inputs(const std::vector<std::filesystem::path>& inputs,
                                                  const std::vector<std::filesystem::path>& results,
                                                  const std::string& split, const TruthOptions& options);
+
+// Everything that is read: truths once, then the results of each detector on each clip.
+[[nodiscard]] Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInputs& inputs,
+                                                                               ResultsFormat format);
+
+// --size, --rate, --classes and --stills; with_size() takes what --size says. What is added to must outlive the
+// command.
+void add_truth_options(CLI::App& command, TruthOptions& truth, std::string& size);
+[[nodiscard]] Result<TruthOptions> with_size(TruthOptions truth, const std::string& size);
+
+// All files that an evaluation reads, which its outputs may not replace.
+[[nodiscard]] std::vector<std::filesystem::path> files_read(const std::vector<std::filesystem::path>& inputs,
+                                                            const std::vector<std::filesystem::path>& results,
+                                                            const DetectInputs& clips);
 
 // The index of a dataset: its clips, or those of one split; no results.
 [[nodiscard]] Result<std::vector<ClipFiles>> clips_of_dataset(const std::filesystem::path& folder,

@@ -10,8 +10,9 @@ constexpr const char* kEvaluateFooter =
     "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf --out report\n"
     "  sigs evaluate track out/crossing.xml --results mine.txt --format otb\n"
     "  sigs evaluate detect out/crossing.xml --results found.csv\n"
+    "  sigs evaluate performance datasets/mine --results found --out report --sensor sensor.json\n"
     "\n"
-    "sigs evaluate track --help and sigs evaluate detect --help have the options of each.";
+    "sigs evaluate track --help, detect --help and performance --help have the options of each.";
 
 }  // namespace
 
@@ -21,7 +22,11 @@ Command add_evaluate_command(CLI::App& program) {
   command->footer(kEvaluateFooter);
   const Command track = add_evaluate_track(*command);
   const Command detect = add_evaluate_detect(*command);
-  return [command, track, detect] { return command->got_subcommand("track") ? track() : detect(); };
+  const Command performance = add_evaluate_performance(*command);
+  return [command, track, detect, performance] {
+    if (command->got_subcommand("performance")) return performance();
+    return command->got_subcommand("track") ? track() : detect();
+  };
 }
 
 }  // namespace sigs::cli

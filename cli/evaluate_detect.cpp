@@ -46,61 +46,6 @@ struct DetectOptions {
   bool force = false;
 };
 
-// The results of one detector on one clip.
-Result<Results> results_of(const ClipFiles& files, const fs::path& file, const FootageTruth& footage,
-                           ResultsFormat format) {
-  Result<Results> results = read_results(file, footage,
-                                         ResultsOptions{.format = format,
-                                                        .multiple_per_frame = true,
-                                                        .first_image_id = files.first_image_id,
-                                                        .last_image_id = files.last_image_id,
-                                                        .images = files.truth ? &files.truth->images : nullptr});
-  if (results) warn_of_other_clip(*results, file, files.results_name);
-  return results;
-}
-
-void warn_of_boxes_elsewhere(const Results& results, const fs::path& file) {
-  if (results.boxes_elsewhere > 0)
-    print_warning({file.string(),
-                   count_text(results.boxes_elsewhere, "box") + " of images that the truth does not have: left out"});
-}
-
-// Of detectors that have one file for all clips.
-Result<std::vector<std::vector<DetectedClip>>> shared_clips(const DetectInputs& inputs, ResultsFormat format) {
-  std::vector<const TruthClip*> truths;
-  for (const ClipFiles& files : inputs.clips) truths.push_back(&*files.truth);
-  std::vector<std::vector<DetectedClip>> clips;
-  for (const fs::path& file : inputs.clips.front().results) {
-    if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return fail(on.error());
-    Result<std::vector<Results>> results = read_shared_results(file, truths, format);
-    if (!results) return fail(results.error());
-    warn_of_boxes_elsewhere(results->front(), file);
-    clips.emplace_back();
-    for (std::size_t i = 0; i < truths.size(); ++i)
-      clips.back().push_back(
-          {.name = inputs.clips[i].name, .truth = truths[i]->truth, .results = std::move((*results)[i])});
-  }
-  return clips;
-}
-
-// Everything that is read: truths once, then the results of each detector.
-Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInputs& inputs, ResultsFormat format) {
-  if (inputs.is_shared) return shared_clips(inputs, format);
-  std::vector<std::vector<DetectedClip>> clips(inputs.detectors.size());
-  for (const ClipFiles& files : inputs.clips) {
-    if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return fail(on.error());
-    const Result<ClipTruth> truth = files.truth ? Result<ClipTruth>(files.truth->truth) : read_truth(files.labels);
-    if (!truth) return fail(truth.error());
-    for (std::size_t i = 0; i < clips.size(); ++i) {
-      Result<Results> results = results_of(files, files.results[i], truth->footage, format);
-      if (!results) return fail(results.error());
-      warn_of_boxes_elsewhere(*results, files.results[i]);
-      clips[i].push_back({.name = files.name, .truth = *truth, .results = std::move(*results)});
-    }
-  }
-  return clips;
-}
-
 Result<DetectionReport> report_of(const DetectOptions& options, const DetectInputs& inputs) {
   const Result<std::vector<std::vector<DetectedClip>>> clips = clips_by_detector(inputs, options.format);
   if (!clips) return fail(clips.error());
@@ -158,21 +103,12 @@ Result<void> run(const DetectOptions& options) {
     return fail("--target-fppi, --target-hfar and --min-track-length", "need --rules aot", ErrorKind::usage);
   if (options.policy.false_overlap > options.policy.match_overlap)
     return fail("--false-overlap", "is more than --match-overlap", ErrorKind::usage);
-  TruthOptions truth = options.truth;
-  if (!options.size.empty()) {
-    const Result<cv::Size> size_px = size_of_option(options.size);
-    if (!size_px) return fail(size_px.error());
-    truth.size_px = *size_px;
-  }
-  const Result<DetectInputs> inputs = detect_inputs(options.inputs, options.results, options.split, truth);
+  const Result<TruthOptions> truth = with_size(options.truth, options.size);
+  if (!truth) return fail(truth.error());
+  const Result<DetectInputs> inputs = detect_inputs(options.inputs, options.results, options.split, *truth);
   if (!inputs) return fail(inputs.error());
   defer_interrupts();
-  std::vector<fs::path> read = options.inputs;
-  read.insert(read.end(), options.results.begin(), options.results.end());
-  for (const ClipFiles& clip : inputs->clips) {
-    read.push_back(clip.labels);
-    read.insert(read.end(), clip.results.begin(), clip.results.end());
-  }
+  const std::vector<fs::path> read = files_read(options.inputs, options.results, *inputs);
   Result<std::optional<EvaluationFolder>> folder = EvaluationFolder::reserved(options.folder, options.force, read);
   if (!folder) return fail(folder.error());
   const Result<DetectionReport> report = report_of(options, *inputs);
@@ -209,21 +145,6 @@ void add_policy_options(CLI::App& command, DetectionPolicy& policy) {
         ->check(from_to(number.value == &policy.min_score ? -kLarge : 0.0, number.largest))
         ->capture_default_str();
   }
-}
-
-void add_truth_options(CLI::App& command, DetectOptions& options) {
-  command.add_option("--size", options.size, "size of the images of a yolo truth; else read from the images")
-      ->option_text("WxH");
-  command.add_option("--rate", options.truth.rate_hz, "frames a second of another program's truth; else as it says")
-      ->type_name("HZ")
-      ->check(from_to(1e-3, 1e6));
-  command
-      .add_option("--classes", options.truth.classes,
-                  "of another program's truth: only these classes count, boxes of others are ignored")
-      ->option_text("NAMES ...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command.add_flag("--stills", options.truth.stills, "images of a coco or yolo truth are no video: gaps are allowed");
 }
 
 void add_aot_options(CLI::App& command, DetectOptions& options) {
@@ -265,7 +186,7 @@ Command add_evaluate_detect(CLI::App& evaluate) {
       ->check(not_empty());
   command->add_option("--split", options->split, "only the clips of this split of a dataset")->option_text("NAME");
   add_format_option(*command, options->format);
-  add_truth_options(*command, *options);
+  add_truth_options(*command, options->truth, options->size);
   add_policy_options(*command, options->policy);
   add_aot_options(*command, *options);
   add_report_options(*command, options->folder, options->force);

@@ -90,11 +90,11 @@ TEST_CASE("the truth read from an annotation file is that of the frames it was w
 
 TEST_CASE("a box of whole pixels has its edges half a pixel before its first column and row") {
   CHECK(box_of({0, 0, 1, 1}) == Box{-0.5, -0.5, 1, 1});
-  const TargetFrame frame = target_frame_of(some_frame(7).intruders[0]);
+  const TargetFrame frame = target_frame_of(some_frame(7).intruders[0], {1, 0, 0, 0});
   CHECK(*frame.visible == Box{69.5, 19.5, 31, 12});
   CHECK(frame.distance_m == doctest::Approx(std::sqrt(300.0 * 300 + 40 * 40 + 12.5 * 12.5)).epsilon(1e-14));
-  CHECK_FALSE(target_frame_of(some_frame(7).intruders[1]).visible);
-  CHECK_FALSE(target_frame_of(some_frame(7).intruders[1]).amodal_box);
+  CHECK_FALSE(target_frame_of(some_frame(7).intruders[1], {1, 0, 0, 0}).visible);
+  CHECK_FALSE(target_frame_of(some_frame(7).intruders[1], {1, 0, 0, 0}).amodal_box);
 }
 
 TEST_CASE("the annotation file of the documentation is read as documented") {

@@ -341,6 +341,7 @@ ClipMatches matches_of(const DetectedClip& clip, const DetectionPolicy& policy) 
       if (reported.score < policy.min_score) continue;
       if (matches_or_is_near(truth, static_cast<std::size_t>(frame), reported, policy, matches)) continue;
       ++matches.false_boxes;
+      matches.false_reports.emplace_back(frame, reported);
       if (reported.track == kNoTrack) {
         ++matches.untracked_false_boxes;
       } else {

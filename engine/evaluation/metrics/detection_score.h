@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "evaluation/readers/clip_truth.h"
@@ -136,9 +137,10 @@ struct EncounterSpan {
 struct ClipMatches {
   // [target][frame of the clip, from 0]: the tracks that match it; kNoTrack stands for boxes without a track.
   std::vector<std::vector<std::set<int>>> tracks;
-  std::set<int> false_tracks;     // with at least one false alarm, without kNoTrack
-  int untracked_false_boxes = 0;  // false alarms without a track
-  int false_boxes = 0;            // all false alarms
+  std::set<int> false_tracks;                                   // with at least one false alarm, without kNoTrack
+  int untracked_false_boxes = 0;                                // false alarms without a track
+  int false_boxes = 0;                                          // all false alarms
+  std::vector<std::pair<int, ReportedBox>> false_reports = {};  // these, each with its frame of the clip, from 0
 };
 
 // Matches the reports of a clip with its truth. A report can match several targets, and a target several reports. A

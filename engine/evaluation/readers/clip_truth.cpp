@@ -10,6 +10,7 @@
 #include <pugixml.hpp>
 #include <utility>
 
+#include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "evaluation/readers/text_parsing.h"
@@ -45,7 +46,14 @@ Result<void> check_targets(const ClipTruth& clip, int index, const std::vector<T
 
 }  // namespace
 
-TargetFrame target_frame_of(const IntruderTruth& truth) {
+void set_geometry(TargetFrame& frame, const glm::dvec3& position_m, const glm::dquat& world_from_camera,
+                  const glm::dquat& world_from_body) {
+  frame.position_m = position_m;
+  frame.offset_m = world_from_camera * position_m;
+  frame.aspect_rad = angle_between(world_from_body * glm::dvec3(1, 0, 0), -*frame.offset_m);
+}
+
+TargetFrame target_frame_of(const IntruderTruth& truth, const glm::dquat& world_from_camera) {
   TargetFrame frame{.amodal_box = truth.amodal_box,
                     .visible_fraction = truth.visible_fraction,
                     .visible_pixels = truth.visible_pixels,
@@ -53,6 +61,8 @@ TargetFrame target_frame_of(const IntruderTruth& truth) {
                     .horizon = truth.horizon};
   if (truth.visible_box) frame.visible = box_of(*truth.visible_box);
   if (truth.detectability) frame.rms_contrast = truth.detectability->rms_contrast;
+  if (truth.clouds) frame.cloud_hidden = truth.clouds->hidden;
+  set_geometry(frame, truth.position_m, world_from_camera, truth.world_from_body);
   return frame;
 }
 
@@ -75,8 +85,11 @@ Result<void> add_frame(ClipTruth& clip, const FrameTruth& truth) {
   targets.reserve(truth.intruders.size());
   for (const IntruderTruth& intruder : truth.intruders)
     if (!intruder.is_distractor)
-      targets.push_back({.id = intruder.id, .name = intruder.name, .frame = target_frame_of(intruder)});
-  return add_frame(clip, truth.index, truth.time_s, targets);
+      targets.push_back(
+          {.id = intruder.id, .name = intruder.name, .frame = target_frame_of(intruder, truth.world_from_camera)});
+  const Result<void> added = add_frame(clip, truth.index, truth.time_s, targets);
+  if (added) clip.camera_positions_m.push_back(truth.camera_position_m);
+  return added;
 }
 
 namespace {
@@ -153,6 +166,26 @@ std::optional<Box> silhouette_of(AttributeReader& reader, pugi::xml_node node) {
   return box;
 }
 
+glm::dvec3 vector_of(AttributeReader& reader, pugi::xml_node node) {
+  return {reader.number(node, "x_m"), reader.number(node, "y_m"), reader.number(node, "z_m")};
+}
+
+glm::dquat attitude_in(AttributeReader& reader, pugi::xml_node node) {
+  return rotation_of({.roll_rad = rad_of_deg(reader.number(node, "roll_deg")),
+                      .pitch_rad = rad_of_deg(reader.number(node, "pitch_deg")),
+                      .yaw_rad = rad_of_deg(reader.number(node, "yaw_deg"))});
+}
+
+// Files written before SIGS had all of these elements lack some; scoring boxes does not need them.
+void read_geometry(AttributeReader& reader, pugi::xml_node intruder, TargetFrame& frame) {
+  const pugi::xml_node position = intruder.child("position");
+  const pugi::xml_node attitude = intruder.child("attitude");
+  const pugi::xml_node camera = intruder.parent().child("camera");
+  if (position && attitude && camera)
+    set_geometry(frame, vector_of(reader, position), attitude_in(reader, camera), attitude_in(reader, attitude));
+  if (const pugi::xml_node clouds = intruder.child("clouds")) frame.cloud_hidden = reader.number(clouds, "hidden");
+}
+
 TargetInFrame target_of(AttributeReader& reader, pugi::xml_node intruder) {
   TargetInFrame target{.id = reader.integer(intruder, "id", 0), .name = std::string(reader.text(intruder, "name"))};
   target.frame.visible_fraction = reader.number(intruder, "visible_fraction");
@@ -166,6 +199,7 @@ TargetInFrame target_of(AttributeReader& reader, pugi::xml_node intruder) {
   target.frame.amodal_box = silhouette_of(reader, intruder.child("silhouette"));
   if (const pugi::xml_node appearance = intruder.child("appearance"); appearance.attribute("rms_contrast"))
     target.frame.rms_contrast = reader.number(appearance, "rms_contrast");
+  read_geometry(reader, intruder, target.frame);
   return target;
 }
 
@@ -211,7 +245,13 @@ void read_frame(AttributeReader& reader, pugi::xml_node node, ClipTruth& clip) {
     return reader.wrong(node,
                         fmt::format("frame {} is past the footage's last_frame, {}", index, clip.footage.last_frame));
   const Result<void> added = add_frame(clip, index, time_s, targets);
-  if (!added) reader.wrong(node, added.error().what);
+  if (!added) return reader.wrong(node, added.error().what);
+  // Of all frames or of none.
+  const std::size_t before = clip.times_s.size() - 1;
+  if (const pugi::xml_node camera = node.child("camera"); camera && clip.camera_positions_m.size() == before)
+    clip.camera_positions_m.push_back(vector_of(reader, camera));
+  else
+    clip.camera_positions_m.clear();
 }
 
 ClipTruth clip_of(AttributeReader& reader, const pugi::xml_document& document) {

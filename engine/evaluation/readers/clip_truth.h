@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +26,17 @@ struct TargetFrame {
   double distance_m = 0;          // from the camera; NaN: not known
   HorizonSide horizon = HorizonSide::unknown;
   std::optional<double> rms_contrast = {};  // of its visible pixels against the footage; none: not known
+  // Of its reference point, less the camera's place; none: the truth does not have it.
+  std::optional<glm::dvec3> position_m = {};  // in the camera's axes: X along the optical axis, Y right, Z down
+  std::optional<glm::dvec3> offset_m = {};    // in the world's
+  // Between its nose and the line from it to the camera: 0 head-on, pi/2 from the side, pi from behind.
+  std::optional<double> aspect_rad = {};
+  double cloud_hidden = 0;  // share of its coverage that clouds take
 };
+
+// Positions and aspect, from the reference point in the camera's axes and two attitudes in the world.
+void set_geometry(TargetFrame& frame, const glm::dvec3& position_m, const glm::dquat& world_from_camera,
+                  const glm::dquat& world_from_body);
 
 // One intruder in all frames.
 struct TargetTruth {
@@ -37,8 +49,9 @@ struct TargetTruth {
 // there is a false alarm.
 struct ClipTruth {
   FootageTruth footage;
-  std::vector<double> times_s;       // of each frame
-  std::vector<TargetTruth> targets;  // by id
+  std::vector<double> times_s;                      // of each frame
+  std::vector<TargetTruth> targets;                 // by id
+  std::vector<glm::dvec3> camera_positions_m = {};  // in the world, of each frame; empty: not known
   // Of truths that other programs have written (truth_files.h):
   std::vector<std::vector<Box>> ignored =
       {};                 // of each frame, boxes that no report has to match; empty: there are none
@@ -49,7 +62,7 @@ struct ClipTruth {
 };
 
 // What scoring needs of an intruder's truth.
-[[nodiscard]] TargetFrame target_frame_of(const IntruderTruth& truth);
+[[nodiscard]] TargetFrame target_frame_of(const IntruderTruth& truth, const glm::dquat& world_from_camera);
 
 // The edges of a rectangle of whole pixels.
 [[nodiscard]] Box box_of(const cv::Rect& pixels);

@@ -24,10 +24,11 @@ inline constexpr int kNoTrack = -1;
 
 // One box that a tracker or detector reports in a frame.
 struct ReportedBox {
-  Box box;           // edges in pixels (base/image.h)
-  double score = 1;  // confidence; higher is more certain
-  int track = 0;     // the tracker's own number of the object, or kNoTrack
-  int line = 0;      // of the file, from 1; 0: not from a file
+  Box box;                                // edges in pixels (base/image.h)
+  double score = 1;                       // confidence; higher is more certain
+  int track = 0;                          // the tracker's own number of the object, or kNoTrack
+  int line = 0;                           // of the file, from 1; 0: not from a file
+  std::optional<double> distance_m = {};  // from the camera, of reporters that state one
 };
 
 // All boxes of one tracker or detector on one clip.

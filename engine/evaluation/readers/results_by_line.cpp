@@ -178,10 +178,20 @@ Result<Results> read_mot(const ResultsFile& file) {
 
 namespace {
 
-// Columns of layout csv, the last two optional.
-enum Column { frame_column, x_column, y_column, width_column, height_column, score_column, track_column, kColumns };
-constexpr std::array<std::string_view, kColumns> kColumnNames = {"frame",  "x",     "y",    "width",
-                                                                 "height", "score", "track"};
+// Columns of layout csv, the last three optional.
+enum Column {
+  frame_column,
+  x_column,
+  y_column,
+  width_column,
+  height_column,
+  score_column,
+  track_column,
+  distance_column,
+  kColumns
+};
+constexpr std::array<std::string_view, kColumns> kColumnNames = {"frame",  "x",     "y",     "width",
+                                                                 "height", "score", "track", "distance_m"};
 constexpr std::size_t kRequiredColumns = 5;
 constexpr std::size_t kNoColumn = std::string_view::npos;
 
@@ -200,7 +210,8 @@ Result<CsvHeader> header_of(const ResultsFile& file, const TextLine& line) {
     if (found == fields.end() && i < kRequiredColumns)
       return file.wrong(
           line.number,
-          fmt::format("has no column {}; the first line names the columns: frame,x,y,width,height[,score][,track]",
+          fmt::format("has no column {}; the first line names the columns: frame,x,y,width,height[,score][,track]"
+                      "[,distance_m]",
                       kColumnNames[i]));
     if (found == fields.end()) continue;
     if (std::find(found + 1, fields.end(), kColumnNames[i]) != fields.end())
@@ -218,10 +229,17 @@ Result<void> add_csv_line(const ResultsFile& file, const CsvHeader& header, cons
   for (std::size_t i = 0; i < kColumns; ++i) {
     if (header.place[i] == kNoColumn) continue;
     const std::string_view field = fields[header.place[i]];
+    if (i == distance_column && field.empty()) continue;  // of a box whose range is not known
     const std::optional<double> number = parsed_number(field);
     if (!number) return file.wrong(line.number, fmt::format("{} {} is no number", kColumnNames[i], in_quotes(field)));
     values[i] = *number;
   }
+  std::optional<double> distance_m;
+  if (header.place[distance_column] != kNoColumn && !fields[header.place[distance_column]].empty())
+    distance_m = values[distance_column];
+  if (distance_m && !(*distance_m > 0 && *distance_m < 1e9))
+    return file.wrong(line.number, fmt::format("distance_m {} is no distance in metres above 0",
+                                               in_quotes(fields[header.place[distance_column]])));
   const std::optional<int> frame = integer_of(values[frame_column]);
   if (!frame)
     return file.wrong(line.number,
@@ -234,7 +252,8 @@ Result<void> add_csv_line(const ResultsFile& file, const CsvHeader& header, cons
                                       values[width_column], values[height_column]},
                               .score = values[score_column],
                               .track = *track < 0 ? kNoTrack : *track,
-                              .line = line.number});
+                              .line = line.number,
+                              .distance_m = distance_m});
 }
 
 }  // namespace

@@ -21,7 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 10> kFiles{"slices.csv",
+constexpr std::array<std::string_view, 14> kFiles{"slices.csv",
+                                                  "performance.json",
+                                                  "sensor.json",
+                                                  "conditions.csv",
+                                                  "ranges.csv",
                                                   "clips.csv",
                                                   "summary.csv",
                                                   "frames.csv",
@@ -31,42 +35,33 @@ constexpr std::array<std::string_view, 10> kFiles{"slices.csv",
                                                   "summary.json",
                                                   "encounters_by_detection.csv",
                                                   "encounters_by_track.csv"};
-constexpr std::array<std::string_view, 8> kPlotNames{"center_error", "x_error",       "y_error",
-                                                     "precision",    "success",       "normalized_precision",
-                                                     "first_range",  "detection_rate"};
+constexpr std::array<std::string_view, 12> kPlotNames{
+    "center_error",         "x_error",           "y_error",        "precision",          "success",
+    "normalized_precision", "first_range",       "detection_rate", "detection_by_range", "detection_by_horizon",
+    "range_needed",         "declaration_ranges"};
 
-// The folder of a report while it is written; files that exist are replaced.
-class ReportFolder {
- public:
-  explicit ReportFolder(fs::path folder) : folder_(std::move(folder)) {}
+}  // namespace
 
-  [[nodiscard]] Result<void> put(const std::string& name, const std::string& text) {
-    const Result<void> written = write_text(folder_ / name, text, true);
-    if (written) report_.files.push_back(folder_ / name);
-    return written;
+Result<void> ReportFolder::put(const std::string& name, const std::string& text) {
+  const Result<void> written = write_text(folder_ / name, text, true);
+  if (written) report_.files.push_back(folder_ / name);
+  return written;
+}
+
+Result<std::vector<ReportPlot>> ReportFolder::draw_all(const std::vector<Plot>& plots) {
+  std::vector<ReportPlot> images;
+  for (const Plot& plot : plots) {
+    images.push_back({plot.name, plot.title, svg_of(plot)});
+    if (const Result<void> written = put(plot.name + ".svg", images.back().svg); !written) return fail(written.error());
+    std::vector<uchar> png;
+    image_codecs::imencode(".png", image_of(plot), png);
+    if (const Result<void> written = put(plot.name + ".png", std::string(png.begin(), png.end())); !written)
+      return fail(written.error());
   }
+  return images;
+}
 
-  // Each plot as SVG and PNG.
-  [[nodiscard]] Result<std::vector<ReportPlot>> draw_all(const std::vector<Plot>& plots) {
-    std::vector<ReportPlot> images;
-    for (const Plot& plot : plots) {
-      images.push_back({plot.name, plot.title, svg_of(plot)});
-      if (const Result<void> written = put(plot.name + ".svg", images.back().svg); !written)
-        return fail(written.error());
-      std::vector<uchar> png;
-      image_codecs::imencode(".png", image_of(plot), png);
-      if (const Result<void> written = put(plot.name + ".png", std::string(png.begin(), png.end())); !written)
-        return fail(written.error());
-    }
-    return images;
-  }
-
-  [[nodiscard]] WrittenReport written() { return std::move(report_); }
-
- private:
-  fs::path folder_;
-  WrittenReport report_;
-};
+namespace {
 
 // A file's name and text.
 using NamedText = std::pair<std::string, std::string>;
@@ -235,11 +230,13 @@ std::string html(const std::string& text) {
   return escaped_text(line_text(text), "'");
 }
 
-std::string element(const std::string& name, const std::string& text) {
+}  // namespace
+
+std::string html_element(const std::string& name, const std::string& text) {
   return fmt::format("<{0}>{1}</{0}>", name, html(text));
 }
 
-std::string table_html(const std::vector<TableColumn>& columns) {
+std::string html_table(const std::vector<TableColumn>& columns) {
   std::string text = "<div class=\"table\"><table>\n<thead><tr>";
   for (const TableColumn& column : columns)
     text += fmt::format("<th scope=\"col\">{}<small>{}</small></th>", html(column.title), html(column.unit));
@@ -252,35 +249,36 @@ std::string table_html(const std::vector<TableColumn>& columns) {
     text += "</tr>\n";
   }
   text += "</tbody>\n</table></div>\n";
-  for (const std::string& note : notes_on(columns)) text += element("p", note) + "\n";
+  for (const std::string& note : notes_on(columns)) text += html_element("p", note) + "\n";
   return text;
 }
 
-// An SVG image as part of the page.
-std::string inlined(const ReportPlot& image) {
+std::string html_figure(const ReportPlot& image) {
   return "<figure>\n" + image.svg + "</figure>\n";
 }
 
-std::string list_of(const std::vector<std::string>& lines) {
+std::string html_list(const std::vector<std::string>& lines) {
   std::string text = "<ul>\n";
-  for (const std::string& line : lines) text += element("li", line) + "\n";
+  for (const std::string& line : lines) text += html_element("li", line) + "\n";
   return text + "</ul>\n";
 }
 
-std::string plots_html(const std::vector<ReportPlot>& images) {
-  std::string text = element("h2", "Plots") + "\n";
-  for (const ReportPlot& image : images) text += inlined(image);
-  return text;
-}
-
-std::string page(const std::string& title, const std::string& body) {
+std::string html_page(const std::string& title, const std::string& body, const std::string& document) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "{}\n<style>{}</style>\n</head>\n<body>\n<main>\n{}\n{}"
-      "<footer>Written by SIGS. Its page docs/evaluation.md defines every figure.</footer>\n"
+      "<footer>Written by SIGS. Its page {} defines every figure.</footer>\n"
       "</main>\n</body>\n</html>\n",
-      element("title", title), kStyle, element("h1", title), body);
+      html_element("title", title), kStyle, html_element("h1", title), body, document);
+}
+
+namespace {
+
+std::string plots_html(const std::vector<ReportPlot>& images) {
+  std::string text = html_element("h2", "Plots") + "\n";
+  for (const ReportPlot& image : images) text += html_figure(image);
+  return text;
 }
 
 std::string clip_text(const TrackReport& report) {
@@ -295,40 +293,40 @@ std::string clip_text(const TrackReport& report) {
 }  // namespace
 
 std::string report_html(const TrackReport& report, const std::vector<ReportPlot>& images) {
-  std::string body = element("p", clip_text(report)) + "\n" + table_html(table_of(report));
-  if (!report.remarks.empty()) body += element("h2", "Remarks") + "\n" + list_of(report.remarks);
+  std::string body = html_element("p", clip_text(report)) + "\n" + html_table(table_of(report));
+  if (!report.remarks.empty()) body += html_element("h2", "Remarks") + "\n" + html_list(report.remarks);
   body += plots_html(images);
   if (!images.empty())
-    body += element("p",
-                    "In the plots over frames a line stops where nothing is reported; where the ground is grey, "
-                    "nothing is scored.") +
+    body += html_element("p",
+                         "In the plots over frames a line stops where nothing is reported; where the ground is grey, "
+                         "nothing is scored.") +
             "\n";
-  return page("Trackers on " + report.clip,
-              body + element("h2", "What is counted") + "\n" + list_of(policies_of(report)));
+  return html_page("Trackers on " + report.clip,
+                   body + html_element("h2", "What is counted") + "\n" + html_list(policies_of(report)));
 }
 
 std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images) {
   const std::string clips = count_text(std::ssize(report.clips), "film");
-  std::string body = table_html(table_of(report));
-  for (const std::string& remark : report.remarks) body += element("p", remark + ".") + "\n";
-  for (const std::string& reason : uncounted_in(report)) body += element("p", reason + ".") + "\n";
+  std::string body = html_table(table_of(report));
+  for (const std::string& remark : report.remarks) body += html_element("p", remark + ".") + "\n";
+  for (const std::string& reason : uncounted_in(report)) body += html_element("p", reason + ".") + "\n";
   if (const std::vector<TableColumn> encounters = encounters_of(report); !encounters.front().cells.empty())
-    body += element("h2", "Encounters") + "\n" + table_html(encounters);
-  return page("Detectors on " + clips, body + plots_html(images) + element("h2", "What is counted") + "\n" +
-                                           list_of(policies_of(report)) + element("h2", "Videos") + "\n" +
-                                           list_of(report.clips));
+    body += html_element("h2", "Encounters") + "\n" + html_table(encounters);
+  return html_page("Detectors on " + clips, body + plots_html(images) + html_element("h2", "What is counted") + "\n" +
+                                                html_list(policies_of(report)) + html_element("h2", "Videos") + "\n" +
+                                                html_list(report.clips));
 }
 
 std::string report_html(const TrackSetReport& report, const std::vector<ReportPlot>& images) {
   const std::string clips = count_text(std::ssize(report.clips), "clip");
   std::vector<std::string> names;
   for (const TrackSetClip& clip : report.clips) names.push_back(clip.name + ": " + clip.target);
-  std::string body = table_html(table_of(report)) + "<pre>" + escaped_text(intervals_text(report)) + "</pre>\n" +
-                     element("h2", "By what the intruder looks like") + "\n" + table_html(slices_of(report));
-  if (!report.remarks.empty()) body += element("h2", "Remarks") + "\n" + list_of(report.remarks);
-  return page("Trackers on " + clips, body + plots_html(images) + element("h2", "What is counted") + "\n" +
-                                          list_of(policies_of(report)) + element("h2", "Clips") + "\n" +
-                                          list_of(names));
+  std::string body = html_table(table_of(report)) + "<pre>" + escaped_text(intervals_text(report)) + "</pre>\n" +
+                     html_element("h2", "By what the intruder looks like") + "\n" + html_table(slices_of(report));
+  if (!report.remarks.empty()) body += html_element("h2", "Remarks") + "\n" + html_list(report.remarks);
+  return html_page("Trackers on " + clips, body + plots_html(images) + html_element("h2", "What is counted") + "\n" +
+                                               html_list(policies_of(report)) + html_element("h2", "Clips") + "\n" +
+                                               html_list(names));
 }
 
 }  // namespace sigs

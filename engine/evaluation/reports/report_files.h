@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "evaluation/reports/report.h"
@@ -39,6 +41,30 @@ struct ReportPlot {
   std::string svg;
 };
 
+// The folder of a report while it is written; files that exist are replaced.
+class ReportFolder {
+ public:
+  explicit ReportFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  // Error write_failed.
+  [[nodiscard]] Result<void> put(const std::string& name, const std::string& text);
+  // Each plot as SVG and PNG.
+  [[nodiscard]] Result<std::vector<ReportPlot>> draw_all(const std::vector<Plot>& plots);
+  [[nodiscard]] WrittenReport written() { return std::move(report_); }
+
+ private:
+  std::filesystem::path folder_;
+  WrittenReport report_;
+};
+
+// Parts of a page: a text as an HTML element; items; an SVG image; the whole, which names the page of docs/ that
+// defines its figures.
+[[nodiscard]] std::string html_element(const std::string& name, const std::string& text);
+[[nodiscard]] std::string html_list(const std::vector<std::string>& lines);
+[[nodiscard]] std::string html_figure(const ReportPlot& image);
+[[nodiscard]] std::string html_page(const std::string& title, const std::string& body,
+                                    const std::string& document = "docs/evaluation.md");
+
 // A page that refers to no other file.
 [[nodiscard]] std::string report_html(const TrackReport& report, const std::vector<ReportPlot>& images);
 [[nodiscard]] std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images);
@@ -57,6 +83,9 @@ struct TableColumn {
   std::vector<bool> is_best;          // of its column, as shown
   std::vector<bool> is_partial = {};  // no mean, since few frames have a report; empty: none
 };
+
+// A table of a page, with a sentence on each mark below it.
+[[nodiscard]] std::string html_table(const std::vector<TableColumn>& columns);
 
 // The table of a report, a row for each tracker or detector. The first column has the names.
 [[nodiscard]] std::vector<TableColumn> table_of(const TrackReport& report);

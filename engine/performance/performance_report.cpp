@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "performance/performance_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "evaluation/reports/report_files.h"
+#include "labels/label_text.h"
+#include "performance/performance_tables.h"
+
+namespace sigs {
+
+namespace {
+
+std::string metres_text(double range_m, double farthest_m) {
+  if (range_m == 0) return "never";
+  return std::isinf(range_m) ? fmt::format("over {:.0f}", farthest_m) : fmt::format("{:.0f}", range_m);
+}
+
+// --- Plots.
+
+constexpr PlotColor kAbove{31, 119, 180}, kBelow{214, 96, 20}, kGrey{150, 150, 150}, kBand{222, 232, 242};
+
+PlotSeries curve_line(const RangeCurve& curve, const std::string& title, PlotColor color) {
+  std::vector<PlotPoint> run;
+  for (const double at_m : curve.band_at_m) run.push_back({at_m, curve.fit.at(at_m)});
+  return {.title = title, .runs = {run}, .color = color};
+}
+
+PlotSeries curve_band(const RangeCurve& curve) {
+  PlotSeries band{.title = "95 % of the curve", .kind = SeriesKind::areas, .color = kBand};
+  for (std::size_t i = 0; i + 1 < curve.band.size(); ++i)
+    band.runs.push_back({{curve.band_at_m[i], curve.band[i].low}, {curve.band_at_m[i + 1], curve.band[i].high}});
+  return band;
+}
+
+// Shares by bin, each with its interval as a line.
+std::vector<PlotSeries> bin_marks(const RangeCurve& curve, PlotColor color) {
+  PlotSeries marks{.title = "frames by range, 95 %", .kind = SeriesKind::marks, .color = color};
+  PlotSeries bars{.kind = SeriesKind::line, .color = color};
+  for (const RangeBin& bin : curve.bins) {
+    const double high_m = std::isinf(bin.high_m) ? curve.farthest_m : bin.high_m;
+    const double middle_m = bin.low_m > 0 ? std::sqrt(bin.low_m * high_m) : high_m / 2;
+    marks.runs.push_back({{middle_m, double(bin.detected) / bin.frames}});
+    bars.runs.push_back({{middle_m, bin.interval.low}, {middle_m, bin.interval.high}});
+  }
+  return {marks, bars};
+}
+
+PlotSpan range_span(const RangeCurve& curve) {
+  return {0, curve.farthest_m > 0 ? 1.05 * curve.farthest_m : 1};
+}
+
+Plot detection_plot(const PerformanceReport& report) {
+  const Performance& performance = report.performance;
+  Plot plot{.name = "detection_by_range",
+            .title = "Probability of detection by range: " + line_text(performance.detector),
+            .x_label = "range (m)",
+            .y_label = "probability",
+            .x_range = range_span(performance.detected),
+            .y_range = {0, 1.02},
+            .levels = {0.5, 0.9, 0.95}};
+  plot.series.push_back(curve_band(performance.detected));
+  plot.series.push_back(curve_line(performance.detected, "detected in a frame", kAbove));
+  for (PlotSeries& series : bin_marks(performance.detected, kAbove)) plot.series.push_back(std::move(series));
+  plot.series.push_back(curve_line(performance.declared,
+                                   fmt::format("declared track ({} of {} frames)", performance.policy.declare_hits,
+                                               performance.policy.declare_window),
+                                   kBelow));
+  return plot;
+}
+
+Plot horizon_plot(const PerformanceReport& report) {
+  Plot plot{.name = "detection_by_horizon",
+            .title = "Probability of detection by side of the horizon: " + line_text(report.performance.detector),
+            .x_label = "range (m)",
+            .y_label = "probability of detection in a frame",
+            .x_range = range_span(report.performance.detected),
+            .y_range = {0, 1.02},
+            .levels = {0.5, 0.9, 0.95}};
+  for (const Condition& condition : report.performance.conditions) {
+    if (condition.by != "horizon") continue;
+    const PlotColor color = condition.name == "above" ? kAbove : condition.name == "below" ? kBelow : kGrey;
+    plot.series.push_back(curve_line(
+        condition.detected,
+        fmt::format("{} the horizon, {}{}", condition.name, count_text(condition.detected.encounters, "encounter"),
+                    condition.is_too_few ? ": too few" : ""),
+        color));
+    for (PlotSeries& series : bin_marks(condition.detected, color)) {
+      series.title.clear();
+      plot.series.push_back(std::move(series));
+    }
+  }
+  return plot;
+}
+
+// A row for each geometry and volume: what is needed and what is reached.
+Plot needed_plot(const PerformanceReport& report) {
+  Plot plot{.name = "range_needed",
+            .title = "Range needed and range reached (declared tracks, P = 0.95)",
+            .x_label = "range (m)",
+            .x_range = {0, 100},
+            .y_range = {-0.6, static_cast<double>(report.needed.size()) - 0.4},
+            .y_ticks = std::vector<PlotTick>{}};
+  PlotSeries needed{.title = "needed", .kind = SeriesKind::areas, .color = PlotColor{205, 205, 205}};
+  PlotSeries enough{.title = "reached, suffices", .kind = SeriesKind::areas, .color = PlotColor{44, 140, 70}};
+  PlotSeries less{.title = "reached, does not suffice", .kind = SeriesKind::areas, .color = PlotColor{200, 50, 40}};
+  PlotSeries unknown{.title = "reached at least, not known whether it suffices",
+                     .kind = SeriesKind::areas,
+                     .color = PlotColor{230, 170, 40}};
+  for (std::size_t i = 0; i < report.needed.size(); ++i) {
+    const NeededRange& one = report.needed[i];
+    const double y = static_cast<double>(report.needed.size() - 1 - i);
+    const double reached_m =
+        std::isinf(one.reached.range_m) ? report.performance.declared.farthest_m : one.reached.range_m;
+    plot.x_range.last = std::max({plot.x_range.last, 1.1 * one.needed_m, std::isnan(reached_m) ? 0 : 1.1 * reached_m});
+    plot.y_ticks->push_back({y, fmt::format("{}, {}", name_of(one.geometry), one.volume)});
+    needed.runs.push_back({{0, y + 0.05}, {one.needed_m, y + 0.38}});
+    PlotSeries& reached = !one.suffices ? unknown : *one.suffices ? enough : less;
+    if (one.encounters > 0) reached.runs.push_back({{0, y - 0.38}, {std::max(reached_m, 1.0), y - 0.05}});
+    const char* const remark = one.encounters == 0 ? "never seen" : one.reached.range_m == 0 ? "never reached" : "";
+    if (one.encounters == 0 || one.reached.range_m == 0)
+      plot.notes.push_back({{plot.x_range.last * 0.02, y - 0.3}, remark});
+  }
+  plot.series = {needed, enough, less, unknown};
+  std::erase_if(plot.series, [](const PlotSeries& series) { return series.runs.empty(); });
+  plot.height = 120 + 60.0 * static_cast<double>(report.needed.size());
+  return plot;
+}
+
+std::vector<PlotPoint> share_beyond(std::vector<double> ranges_m, double farthest_m) {
+  std::ranges::sort(ranges_m);
+  std::vector<PlotPoint> run;
+  const auto all = static_cast<double>(ranges_m.size());
+  for (int i = 0; i <= 200; ++i) {
+    const double at_m = farthest_m * i / 200;
+    const auto beyond = std::ranges::count_if(ranges_m, [&](double range_m) { return range_m > 0 && range_m >= at_m; });
+    run.push_back({at_m, static_cast<double>(beyond) / all});
+  }
+  return run;
+}
+
+std::optional<Plot> declaration_plot(const PerformanceReport& report) {
+  if (!report.check || report.check->images_m.empty()) return std::nullopt;
+  const double farthest_m = range_span(report.performance.detected).last;
+  Plot plot{.name = "declaration_ranges",
+            .title = "Share of encounters declared by a range: images and sensor model",
+            .x_label = "range (m)",
+            .y_label = "share of the encounters",
+            .x_range = {farthest_m, 0},
+            .y_range = {0, 1.02}};
+  plot.series.push_back(
+      {.title = "images", .runs = {share_beyond(report.check->images_m, farthest_m)}, .color = kAbove});
+  plot.series.push_back({.title = "sensor model, fitted without the encounter",
+                         .runs = {share_beyond(report.check->model_m, farthest_m)},
+                         .color = kBelow});
+  return plot;
+}
+
+std::vector<Plot> plots_of(const PerformanceReport& report) {
+  std::vector<Plot> plots;
+  if (report.performance.detected.frames == 0) return plots;
+  plots.push_back(detection_plot(report));
+  if (std::ranges::any_of(report.performance.conditions, [](const Condition& c) { return c.by == "horizon"; }))
+    plots.push_back(horizon_plot(report));
+  plots.push_back(needed_plot(report));
+  if (const std::optional<Plot> plot = declaration_plot(report)) plots.push_back(*plot);
+  return plots;
+}
+
+// --- The page.
+
+std::string risk_html(const Json& risk) {
+  if (!risk.is_object()) return "";
+  std::string text = html_element("h2", "Risk ratio") + "\n";
+  for (const Json& line : risk.value("in_words", Json::array()))
+    if (line.is_string()) text += html_element("p", line.get<std::string>()) + "\n";
+  return text;
+}
+
+std::string coverage_html(const Json& coverage) {
+  if (!coverage.is_object()) return "";
+  std::string text = html_element("h2", "Operational design domain") + "\n";
+  std::vector<std::string> lines;
+  for (const Json& line : coverage.value("in_words", Json::array()))
+    if (line.is_string()) lines.push_back(line.get<std::string>());
+  return text + html_list(lines);
+}
+
+std::string report_page(const PerformanceReport& report, const std::vector<ReportPlot>& images) {
+  const Performance& performance = report.performance;
+  std::string body;
+  const auto figure = [&](const char* name) {
+    for (const ReportPlot& image : images)
+      if (image.name == name) body += html_figure(image);
+  };
+  body += html_list(summary_lines(report));
+  figure("detection_by_range");
+  body += html_table(range_table(performance));
+  body += html_element("h2", "Range needed and reached") + "\n";
+  figure("range_needed");
+  body += html_table(needed_table(report));
+  for (const std::string& line : needed_lines(report)) body += html_element("p", line) + "\n";
+  body += html_element("h2", "Conditions") + "\n";
+  figure("detection_by_horizon");
+  if (!performance.conditions.empty()) body += html_table(condition_table(performance));
+  if (report.sensor) {
+    body += html_element("h2", "Sensor model") + "\n" + html_list(sensor_lines(report));
+    figure("declaration_ranges");
+  }
+  body += risk_html(report.risk) + coverage_html(report.coverage);
+  if (!report.remarks.empty()) body += html_element("h2", "Remarks") + "\n" + html_list(report.remarks);
+  body += html_element("h2", "What is counted") + "\n" + html_list(policy_lines(report));
+  body += html_element("h2", "Videos") + "\n" + html_list(report.clips);
+  return html_page("Performance of " + performance.detector, body, "docs/performance.md");
+}
+
+}  // namespace
+
+std::string range_text(const RangeAt& range, double farthest_m) {
+  if (std::isnan(range.range_m)) return "-";
+  return fmt::format("{}{} ({} to {})", metres_text(range.range_m, farthest_m), range.range_m == 0 ? "" : " m",
+                     metres_text(range.interval.low, farthest_m), metres_text(range.interval.high, farthest_m));
+}
+
+std::string performance_text(const PerformanceReport& report) {
+  std::string text;
+  for (const std::string& line : summary_lines(report)) text += line + "\n";
+  text += "\n" + aligned(range_table(report.performance));
+  if (!report.performance.conditions.empty()) text += "\n" + aligned(condition_table(report.performance));
+  text += "\n" + aligned(needed_table(report));
+  for (const std::string& line : needed_lines(report)) text += line + "\n";
+  if (report.sensor) text += "\n";
+  for (const std::string& line : sensor_lines(report)) text += line + "\n";
+  return text;
+}
+
+Result<WrittenReport> write_report(const std::filesystem::path& folder, const PerformanceReport& report) {
+  ReportFolder out(folder);
+  Result<void> step = out.put("performance.json", json_text(performance_json(report)));
+  if (step && report.sensor) step = out.put("sensor.json", sensor_model_json(report.sensor->model));
+  if (step) step = out.put("ranges.csv", ranges_csv(report.performance));
+  if (step) step = out.put("conditions.csv", conditions_csv(report.performance));
+  if (step) step = out.put("encounters.csv", performance_encounters_csv(report.performance));
+  if (!step) return fail(step.error());
+  const Result<std::vector<ReportPlot>> images = out.draw_all(plots_of(report));
+  if (!images) return fail(images.error());
+  if (step = out.put("report.html", report_page(report, *images)); !step) return fail(step.error());
+  return out.written();
+}
+
+}  // namespace sigs
