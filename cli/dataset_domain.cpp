@@ -14,6 +14,7 @@
 #include "dataset/data_sheet.h"
 #include "dataset/domain_fill.h"
 #include "first_project/first_project.h"
+#include "project/fields.h"
 
 namespace sigs::cli {
 
@@ -31,19 +32,21 @@ void warn_of_untold(const DomainCoverage& coverage) {
   }
 }
 
-// What was guessed of the projects that backgrounds of the recipe are taken from.
+// What was guessed of the projects that backgrounds of the recipe are taken from, and is not stated by the recipe.
 GuessesByBackground guesses_of(const std::filesystem::path& recipe) {
   GuessesByBackground guesses;
   const Result<std::string> text = read_text(recipe);
   const Result<Json> json = text ? parsed_json(*text, recipe.string(), ErrorKind::bad_data) : fail(text.error());
   if (!json || !json->is_object() || !json->contains("backgrounds")) return guesses;
   for (const Json& background : json->at("backgrounds")) {
-    if (!background.is_object() || !background.contains("project") || !background.at("project").is_string()) continue;
+    const auto has_text = [&](const char* key) { return background.contains(key) && background.at(key).is_string(); };
+    if (!has_text("name") || !has_text("project")) continue;
     const std::filesystem::path project = recipe.parent_path() / background.at("project").get<std::string>();
     if (std::error_code code; !std::filesystem::exists(notes_file_of(project), code)) continue;
-    std::vector<std::string>& lines = guesses[background.value("name", "")];
+    std::vector<std::string>& lines = guesses[background.at("name")];
     for (const FirstProjectGuess& guess : guesses_beside(project))
-      if (!guess.field.starts_with("intruders")) lines.push_back(guess.field + ": " + guess.text);
+      if (!guess.field.starts_with("intruders") && !background.contains(pointer_of(guess.field)))
+        lines.push_back(guess.field + ": " + guess.text);
   }
   return guesses;
 }

@@ -80,6 +80,11 @@ Json member(const Json& object, const char* key) {
   return object.is_object() && object.contains(key) ? object.at(key) : Json(nullptr);
 }
 
+std::string text_in(const Json& object, const char* key, const std::string& standard) {
+  const Json value = member(object, key);
+  return value.is_string() ? value.get<std::string>() : standard;
+}
+
 Json text_or_null(const std::string& text) {
   return text.empty() ? Json(nullptr) : Json(text);
 }
@@ -225,10 +230,10 @@ Json footage_json(const std::string& name, const Json& background, const SheetFa
 }
 
 Json aircraft_json(const Json& aircraft, const SheetFacts& facts, SheetChecksums& checksums) {
-  const std::string name = aircraft.value("name", "");
+  const std::string name = text_in(aircraft, "name", "");
   Json json{{"name", name},
-            {"category", aircraft.value("category", IntruderSettings{}.category)},
-            {"distractor", aircraft.value("distractor", false)},
+            {"category", text_in(aircraft, "category", IntruderSettings{}.category)},
+            {"distractor", member(aircraft, "distractor") == true},
             {"licence", member(aircraft, "licence")},
             {"source", member(aircraft, "source")}};
   const auto model = facts.model_of.find(name);
