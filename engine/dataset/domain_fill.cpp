@@ -297,7 +297,7 @@ std::string DomainFiller::why_unfilled(const DomainTarget& target) const {
   if (!wish_for(target).sources.empty()) return "";
   const std::string what = target.other ? "those words together" : "it";
   const std::string& name = coverage_.domain.conditions[target.condition].name;
-  return !target.other && name == kKindCondition ? "no aircraft of the recipe is of this category"
+  return !target.other && name == kKindCondition ? "no aircraft of the recipe, distractors aside, is of this category"
                                                  : "no background, aircraft or group of videos has " + what;
 }
 

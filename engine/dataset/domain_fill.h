@@ -23,8 +23,9 @@ struct DomainFill {
 // The recipe with videos for the empty bins and pairs of bins of the coverage. For each of them flights of the kind
 // image_position are computed whose range or size, bearing, elevation, aspect, closing speed and side of the horizon
 // lie in the bins, with backgrounds, aircraft and groups (light, appearance, camera, footage and tags) that have the
-// words; all are planned, and the fewest found that cover most are kept. The videos that the recipe has already stay as
-// they are, so that `sigs dataset FILE --resume` adds to the dataset. The same input gives the same text.
+// words; all are planned, and those that cover most are kept, one after the other. The videos that the recipe has
+// already stay as they are, so that `sigs dataset FILE --resume` adds to the dataset. The same input gives the same
+// text.
 //   coverage  of the recipe's videos, predicted or counted
 //   settings  KEY=VALUE beside the recipe, as read_recipe() took them
 //   file      where the text is to be written: its paths start there

@@ -91,7 +91,8 @@ std::optional<WishedPlace> place_of(const DomainWish& wish, const Background& ba
 // Speeds that are usual where the recipe states none.
 Span speeds_of(const Aircraft& aircraft) {
   if (aircraft.speed_limits_mps) return *aircraft.speed_limits_mps;
-  return aircraft.category == "airplane" ? Span{30, 150} : Span{0.5, 40};
+  if (aircraft.category == "airplane") return {30, 150};
+  return aircraft.category == "helicopter" ? Span{0.5, 80} : Span{0.5, 40};
 }
 
 // Speed over ground and aspect.
