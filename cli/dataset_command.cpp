@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "base/allocator.h"
+#include "base/paths.h"
 #include "base/text.h"
+#include "cli/dataset_domain.h"
 #include "cli/dataset_table.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
@@ -36,7 +38,9 @@ constexpr const char* kDatasetFooter =
     "  sigs dataset projects/table1/table1.json --out table1 --resume --set export.video.codec=h264\n"
     "  sigs dataset projects/table1/table1.json --out table1 --resume --shard 2/8\n"
     "  sigs dataset projects/table1/table1.json --out table1 --merge\n"
-    "  sigs dataset projects/table1/table1.json --out table1 --coverage";
+    "  sigs dataset projects/table1/table1.json --out table1 --coverage\n"
+    "  sigs dataset projects/table1/table1.json --domain domain.json --fill more.json\n"
+    "  sigs dataset table1 --data-sheet";
 
 struct DatasetOptions {
   std::filesystem::path recipe;
@@ -49,21 +53,21 @@ struct DatasetOptions {
   bool merge = false;
   bool dry_run = false;
   bool coverage = false;
-  std::filesystem::path json;  // of the coverage; empty: not written
-  std::filesystem::path plot;  // likewise
-  bool force = false;          // whether files of these names are replaced
+  std::filesystem::path domain;  // a design domain; empty: the coverage has its own bins
+  bool data_sheet = false;
+  DomainFiles files;  // --json, --plot, --fill and --force
   std::string progress = "auto";
 };
 
 // Prints the table and writes the files; either all of these get their names or none.
 Result<void> report_coverage(const Coverage& coverage, const std::string& title, const DatasetOptions& options) {
-  if (const Result<void> named = check_outputs({{"--json", options.json}, {"--plot", options.plot}}, {}); !named)
-    return named;
-  OutputFiles files(options.force);
-  if (!options.json.empty())
-    if (const Result<void> done = files.write(options.json, coverage_json(coverage, title)); !done) return done;
-  if (!options.plot.empty())
-    if (const Result<void> done = files.write(options.plot, coverage_plot(coverage, title)); !done) return done;
+  const auto& [json, plot, fill, force] = options.files;
+  if (const Result<void> named = check_outputs({{"--json", json}, {"--plot", plot}}, {}); !named) return named;
+  OutputFiles files(force);
+  if (!json.empty())
+    if (const Result<void> done = files.write(json, coverage_json(coverage, title)); !done) return done;
+  if (!plot.empty())
+    if (const Result<void> done = files.write(plot, coverage_plot(coverage, title)); !done) return done;
   if (const Result<std::vector<std::filesystem::path>> done = files.commit(); !done) return fail(done.error());
   std::fputs(coverage_text(coverage, title).c_str(), stdout);
   return {};
@@ -124,17 +128,18 @@ Result<void> keep_only(Plan& plan, const std::set<std::string>& names) {
   return {};
 }
 
-Result<Plan> planned(const DatasetOptions& options, DatasetSource& source) {
+// The recipe, with its warnings printed.
+Result<Recipe> recipe_of(const DatasetOptions& options) {
   Result<ReadRecipe> read = read_recipe(options.recipe, options.project.settings);
   if (!read && read.error().kind == ErrorKind::usage)  // an assignment of --set
     return fail("--set " + read.error().where, read.error().what, ErrorKind::usage);
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
-  source = {.program = std::string("sigs ") + SIGS_VERSION,
-            .seed = read->recipe.seed,
-            .recipe = read->recipe.text,
-            .settings = options.project.settings};
-  Result<Plan> plan = plan_of(read->recipe, &interrupt_flag());
+  return std::move(read->recipe);
+}
+
+Result<Plan> planned(const Recipe& recipe, const DatasetOptions& options) {
+  Result<Plan> plan = plan_of(recipe, &interrupt_flag());
   if (!plan || options.only.empty()) return plan;
   if (const Result<void> kept = keep_only(*plan, names_in(options.only)); !kept) return fail(kept.error());
   return plan;
@@ -165,17 +170,30 @@ void warn_of_unseen(const std::vector<const PlannedVideo*>& videos,
                                    count > kNamed ? ", ..." : "")});
 }
 
+// What the planned videos cover: of the design domain, where one is given.
+Result<void> print_predicted(const Recipe& recipe, const std::vector<const PlannedVideo*>& videos,
+                             const DatasetOptions& options) {
+  if (!options.domain.empty()) {
+    const Result<DesignDomain> domain = read_domain(options.domain);
+    if (!domain) return fail(domain.error());
+    const Result<DomainCoverage> coverage = predicted_domain_coverage(*domain, videos, &interrupt_flag());
+    if (!coverage) return fail(coverage.error());
+    return report_domain(*coverage, "predicted", options.files, &recipe, options.project.settings);
+  }
+  const Result<Coverage> coverage = predicted_coverage(videos, &interrupt_flag());
+  if (!coverage) return fail(coverage.error());
+  return report_coverage(*coverage, "predicted", options);
+}
+
 // The table, and the errors of the request.
-Result<void> list(const Plan& plan, const std::vector<const PlannedVideo*>& videos,
+Result<void> list(const Recipe& recipe, const Plan& plan, const std::vector<const PlannedVideo*>& videos,
                   const std::vector<std::optional<Visibility>>& visibilities, const DatasetOptions& options) {
   const Result<std::string> table = table_of(videos, visibilities);
   if (!table) return fail(table.error());
   std::fputs(table->c_str(), stdout);
   if (!options.merge && !videos.empty()) {
-    const Result<Coverage> coverage = predicted_coverage(videos, &interrupt_flag());
-    if (!coverage) return fail(coverage.error());
     std::fputs("\n", stdout);
-    if (const Result<void> done = report_coverage(*coverage, "predicted", options); !done) return done;
+    if (const Result<void> done = print_predicted(recipe, videos, options); !done) return done;
   }
   if (std::fflush(stdout) != 0) return fail("stdout", "could not be written", ErrorKind::write_failed);
   warn_of_unseen(videos, visibilities);
@@ -199,18 +217,74 @@ Result<void> print_report(const DatasetReport& report) {
               report.failures.front().error.kind);
 }
 
-// What the dataset that was made covers.
+// The dataset that was made: RECIPE itself where it is a folder, else --out or the recipe's name.
+Result<std::filesystem::path> made_folder(const DatasetOptions& options) {
+  if (is_folder(options.recipe)) return options.recipe;
+  if (!options.folder.empty()) return options.folder;
+  const Result<ReadRecipe> read = read_recipe(options.recipe);
+  if (!read) return fail(read.error());
+  return read->recipe.name;
+}
+
+// What it covers: of the design domain, where one is given.
 Result<void> print_counted(const DatasetOptions& options) {
   if (options.dry_run) return fail("--coverage", "counts what was made; --dry-run predicts it", ErrorKind::usage);
-  std::filesystem::path folder = options.folder;
-  if (folder.empty()) {
-    const Result<ReadRecipe> read = read_recipe(options.recipe);
-    if (!read) return fail(read.error());
-    folder = read->recipe.name;
+  const Result<std::filesystem::path> folder = made_folder(options);
+  if (!folder) return fail(folder.error());
+  if (options.domain.empty()) {
+    const Result<Coverage> coverage = counted_coverage(*folder, &interrupt_flag());
+    if (!coverage) return fail(coverage.error());
+    return report_coverage(*coverage, "counted from the labels", options);
   }
-  const Result<Coverage> coverage = counted_coverage(folder, &interrupt_flag());
+  const Result<DesignDomain> domain = read_domain(options.domain);
+  if (!domain) return fail(domain.error());
+  const Result<DomainCoverage> coverage = counted_domain_coverage(*domain, *folder, &interrupt_flag());
   if (!coverage) return fail(coverage.error());
-  return report_coverage(*coverage, "counted from the labels", options);
+  if (options.files.fill.empty())
+    return report_domain(*coverage, "counted from the labels", options.files, nullptr, {});
+  const Result<Recipe> recipe = recipe_of(options);
+  if (!recipe) return fail(recipe.error());
+  return report_domain(*coverage, "counted from the labels", options.files, &*recipe, options.project.settings);
+}
+
+Result<void> make_sheet(const DatasetOptions& options) {
+  const Result<std::filesystem::path> folder = made_folder(options);
+  if (!folder) return fail(folder.error());
+  const bool is_recipe = !is_folder(options.recipe);
+  return write_data_sheet(*folder, is_recipe ? options.recipe : std::filesystem::path(), options.files.force);
+}
+
+// A folder as RECIPE, and options that do not go together.
+Result<void> check_modes(const DatasetOptions& options) {
+  const auto& [json, plot, fill, force] = options.files;
+  const bool is_made = is_folder(options.recipe);
+  const bool counts = options.coverage || options.data_sheet;
+  if (options.data_sheet && (options.coverage || options.dry_run || !options.domain.empty()))
+    return fail("--data-sheet", "describes a dataset that was made; it goes alone", ErrorKind::usage);
+  if (is_made && (!options.folder.empty() || options.dry_run || !(counts || !options.domain.empty())))
+    return fail(options.recipe.string(),
+                "is a folder: a dataset that was made goes with --coverage, --domain or --data-sheet, without --out; "
+                "give the recipe's file for all else",
+                ErrorKind::usage);
+  if (!fill.empty() && (options.domain.empty() || is_made))
+    return fail("--fill",
+                is_made ? "needs the recipe, in whose folder its paths start: sigs dataset RECIPE --out DIR --coverage "
+                          "--domain FILE --fill FILE"
+                        : "fills what a design domain lacks: give --domain FILE",
+                ErrorKind::usage);
+  if (!fill.empty() && (!options.shard.empty() || !options.only.empty()))
+    return fail("--fill", "looks at all videos, so it goes without --shard and --only", ErrorKind::usage);
+  if (!options.domain.empty() && options.merge) return fail("--domain", "goes without --merge", ErrorKind::usage);
+  const bool has_files = !json.empty() || !plot.empty();
+  const bool shows_coverage = options.coverage || !options.domain.empty() || (options.dry_run && !options.merge);
+  if (has_files && !shows_coverage)
+    return fail(json.empty() ? "--plot" : "--json", "goes with --dry-run, without --merge, with --coverage or --domain",
+                ErrorKind::usage);
+  if (force && !has_files && fill.empty() && !options.data_sheet)
+    return fail("--force",
+                "replaces the files of --json, --plot, --fill and --data-sheet; videos are made anew by another --out",
+                ErrorKind::usage);
+  return {};
 }
 
 Result<void> run(const DatasetOptions& options) {
@@ -218,15 +292,9 @@ Result<void> run(const DatasetOptions& options) {
     return fail("--merge", "exports nothing, so it goes without --resume, --shard and --only", ErrorKind::usage);
   if (!options.shard.empty() && !options.only.empty())
     return fail("--only", "names the videos to make, so it goes without --shard", ErrorKind::usage);
-  const bool has_files = !options.json.empty() || !options.plot.empty();
-  const bool shows_coverage = options.coverage || (options.dry_run && !options.merge);
-  if (has_files && !shows_coverage)
-    return fail(options.json.empty() ? "--plot" : "--json", "goes with --dry-run, without --merge, or with --coverage",
-                ErrorKind::usage);
-  if (options.force && !has_files)
-    return fail("--force", "replaces the files of --json and --plot; videos are made anew by another --out",
-                ErrorKind::usage);
-  if (options.coverage) return print_counted(options);
+  if (const Result<void> fit = check_modes(options); !fit) return fit;
+  if (options.data_sheet) return make_sheet(options);
+  if (options.coverage || (is_folder(options.recipe) && !options.domain.empty())) return print_counted(options);
   DatasetRequest request{
       .jobs = options.jobs, .resume = options.resume, .index = options.only.empty(), .merge_only = options.merge};
   if (!options.shard.empty()) {
@@ -234,14 +302,20 @@ Result<void> run(const DatasetOptions& options) {
     if (!shard) return fail(shard.error());
     request.shard = *shard;
   }
-  const Result<Plan> plan = planned(options, request.source);
+  const Result<Recipe> recipe = recipe_of(options);
+  if (!recipe) return fail(recipe.error());
+  request.source = {.program = std::string("sigs ") + SIGS_VERSION,
+                    .seed = recipe->seed,
+                    .recipe = recipe->text,
+                    .settings = options.project.settings};
+  const Result<Plan> plan = planned(*recipe, options);
   if (!plan) return fail(plan.error());
   const std::vector<const PlannedVideo*> videos = videos_of(*plan, request.shard.value_or(Shard{}));
   std::vector<std::optional<Visibility>> visibilities;
   if (!options.merge) visibilities = visibilities_of(videos, kVisibilityFrames, &interrupt_flag());
-  if (options.dry_run) {
+  if (options.dry_run || !options.domain.empty()) {
     if (options.merge) visibilities.resize(videos.size());
-    return list(*plan, videos, visibilities, options);
+    return list(*recipe, *plan, videos, visibilities, options);
   }
   if (plan->videos.empty() && plan->unopened.empty()) return check_impossible(*plan, options.recipe);
   if (!options.merge) warn_of_unseen(videos, visibilities);
@@ -265,7 +339,8 @@ Command add_dataset_command(CLI::App& program) {
   const auto options = std::make_shared<DatasetOptions>();
   CLI::App* const command =
       program.add_subcommand("dataset", "make a whole dataset from a recipe: videos, truth, labels, index");
-  command->add_option("RECIPE", options->recipe, "the recipe, a JSON file")->required();
+  command->add_option("RECIPE", options->recipe, "the recipe, a JSON file; or the folder of a dataset that was made")
+      ->required();
   add_output(*command, "--out", options->folder, "folder to write into; not given: the dataset's name", "DIR");
   command
       ->add_option("--jobs", options->jobs,
@@ -281,9 +356,18 @@ Command add_dataset_command(CLI::App& program) {
   command->add_flag("--dry-run", options->dry_run, "list what would be made, and write nothing");
   command->add_flag("--coverage", options->coverage,
                     "make nothing: count in the annotations of the dataset in --out what it covers");
-  add_output(*command, "--json", options->json, "write what --dry-run or --coverage prints of it as JSON");
-  add_output(*command, "--plot", options->plot, "draw the same as histograms; a PNG");
-  command->add_flag("--force", options->force, "replace the files of --json and --plot");
+  add_input(
+      *command, "--domain", options->domain,
+      "make nothing: state what of a design domain (a JSON file, or LARD's YAML) is covered; by a recipe as planned, "
+      "with --coverage or a folder as made");
+  add_output(*command, "--fill", options->files.fill,
+             "with --domain: write the recipe with further videos for the bins that are empty");
+  command->add_flag("--data-sheet", options->data_sheet,
+                    "make nothing: describe the dataset in --out in its files DATASHEET.md and datasheet.json");
+  add_output(*command, "--json", options->files.json,
+             "write what --dry-run, --coverage or --domain prints of it as JSON");
+  add_output(*command, "--plot", options->files.plot, "draw the same as histograms; a PNG");
+  command->add_flag("--force", options->files.force, "replace the files of --json, --plot, --fill and --data-sheet");
   command->footer(kDatasetFooter);
   add_set_option(*command, options->project);
   add_progress_option(*command, options->progress);

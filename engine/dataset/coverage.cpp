@@ -12,12 +12,12 @@
 
 #include "base/json.h"
 #include "base/pose.h"
-#include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
 #include "base/xml_text.h"
 #include "dataset/footage_cache.h"
-#include "dataset/video_name.h"
+#include "dataset/index.h"
+#include "dataset/made_dataset.h"
 #include "plot/plot.h"
 #include "scene/scene_at.h"
 #include "scene/visibility.h"
@@ -65,12 +65,6 @@ void add_sights(const PlannedVideo& video, const Scene& scene, const VisibilityE
   }
 }
 
-// A number of an annotation; not a number where it is missing.
-double attribute_of(pugi::xml_node node, const char* name) {
-  const std::optional<double> number = parsed_number(trimmed(node.attribute(name).value()));
-  return number.value_or(std::nan(""));
-}
-
 // The sight that an element `intruder` tells of. Error without a place: a number is missing.
 Result<Sight> sight_of(pugi::xml_node intruder, cv::Size image_px,
                        const std::map<std::string, std::string>& categories) {
@@ -90,39 +84,12 @@ Result<Sight> sight_of(pugi::xml_node intruder, cv::Size image_px,
                               line_text(intruder.attribute("id").value())));
 }
 
-// Categories of a video's intruders by their ids, from its project.
-std::map<std::string, std::string> categories_in(const std::filesystem::path& project) {
-  std::map<std::string, std::string> categories;
-  const Result<std::string> text = read_text(project);
-  const Result<Json> json = text ? parsed_json(*text, project.string(), ErrorKind::bad_data) : fail(text.error());
-  if (!json || !json->is_object() || !json->contains("intruders")) return categories;
-  std::size_t id = 0;
-  for (const Json& intruder : json->at("intruders")) {
-    const auto category = intruder.is_object() ? intruder.find("category") : intruder.end();
-    const bool is_given = intruder.is_object() && category != intruder.end() && category->is_string();
-    categories[std::to_string(id++)] = is_given ? category->get<std::string>() : IntruderSettings{}.category;
-  }
-  return categories;
-}
-
-// A video of an index: its name, and the numbers sampled for it.
-struct IndexedVideo {
-  std::string name;
-  std::map<std::string, double> sampled;
-};
-
 Result<void> count_video(const std::filesystem::path& folder, const IndexedVideo& video, Coverage& coverage) {
-  const std::string& name = video.name;
-  const std::filesystem::path file = folder / name / (name + ".xml");
-  const Result<std::string> text = read_text(file);
-  if (!text)
-    return fail(text.error().where, text.error().what + "; counting needs annotations: export.labels with xml",
-                text.error().kind);
-  pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(text->data(), text->size());
-  const pugi::xml_node root = document.child("sigs");
-  if (!parsed || !root) return fail(file.string(), "is no SIGS annotation file");
-  const std::map<std::string, std::string> categories = categories_in(folder / name / (name + ".json"));
+  const Result<pugi::xml_document> document = annotations_of(folder, video.name);
+  if (!document) return fail(document.error());
+  const std::filesystem::path file = folder / video.name / (video.name + ".xml");
+  const pugi::xml_node root = document->child("sigs");
+  const std::map<std::string, std::string> categories = categories_of(folder, video.name);
   const pugi::xml_node footage = root.child("footage");
   const cv::Size image_px(footage.attribute("width").as_int(1), footage.attribute("height").as_int(1));
   ++coverage.videos;
@@ -139,29 +106,6 @@ Result<void> count_video(const std::filesystem::path& folder, const IndexedVideo
     }
   }
   return {};
-}
-
-// The videos of a dataset's index.
-Result<std::vector<IndexedVideo>> videos_in_index(const std::filesystem::path& file) {
-  const Result<std::string> text = read_text(file);
-  if (!text) return fail(text.error());
-  const Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_data);
-  if (!json) return fail(json.error());
-  if (!json->is_object() || !json->contains("videos") || !json->at("videos").is_array())
-    return fail(file.string(), "is no index of a dataset: it has no list \"videos\"");
-  std::vector<IndexedVideo> videos;
-  for (const Json& video : json->at("videos")) {
-    const auto name = video.is_object() ? video.find("name") : video.end();
-    if (!video.is_object() || name == video.end() || !name->is_string())
-      return fail(file.string(), fmt::format("videos[{}] has no name", videos.size()));
-    videos.push_back({name->get<std::string>(), {}});
-    if (const std::string wrong = wrong_with_video_name(videos.back().name); !wrong.empty())
-      return fail(file.string(), fmt::format("videos[{}].name {}", videos.size() - 1, wrong));
-    if (const auto drawn = video.find("drawn"); drawn != video.end() && drawn->is_object())
-      for (const auto& [quantity, number] : drawn->items())
-        if (number.is_number()) videos.back().sampled[quantity] = number.get<double>();
-  }
-  return videos;
 }
 
 }  // namespace
@@ -221,7 +165,9 @@ Result<Coverage> predicted_coverage(const std::vector<const PlannedVideo*>& vide
 }
 
 Result<Coverage> counted_coverage(const std::filesystem::path& folder, const std::atomic<bool>* cancel) {
-  const Result<std::vector<IndexedVideo>> videos = videos_in_index(folder / "index.json");
+  const Result<Json> index = read_index(folder);
+  if (!index) return fail(index.error());
+  const Result<std::vector<IndexedVideo>> videos = videos_in_index(*index, folder / kIndexName);
   if (!videos) return fail(videos.error());
   Coverage coverage;
   for (const IndexedVideo& video : *videos) {

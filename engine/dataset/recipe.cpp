@@ -191,6 +191,11 @@ void read_project_of(RecipeNode& node, Project& project) {
   project.appearance = loaded->project.appearance;
 }
 
+// "licence" and "source", which the data sheet takes from the recipe's text (data_sheet.h).
+void read_origin(RecipeNode& node) {
+  for (const char* const key : {"licence", "source"}) static_cast<void>(node.text(key));
+}
+
 Background read_background(RecipeNode node, const Project& base, const std::vector<std::string>& settings) {
   Project project = base;
   Background background{.name = node.needed_text("name"), .tags = node.text_map("tags")};
@@ -204,6 +209,7 @@ Background read_background(RecipeNode node, const Project& base, const std::vect
   background.light = project.light;
   background.appearance = project.appearance;
   check_tags(background.tags, node);
+  read_origin(node);
   node.done();
   return background;
 }
@@ -281,6 +287,7 @@ Aircraft read_aircraft(RecipeNode node, const Project& base) {
   read_contrail(node, aircraft);
   for (const char* const section : {"heat", "lights"}) read_drawn(node, section, aircraft);
   check_tags(aircraft.tags, node);
+  read_origin(node);
   node.done();
   return aircraft;
 }

@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "dataset/entry.h"
 #include "dataset/plan.h"
+#include "export/frame_renderer.h"
 
 namespace sigs {
 
