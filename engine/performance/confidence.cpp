@@ -111,18 +111,19 @@ double FallingCurve::last_with(double value) const {
   const auto below = std::ranges::find_if(values, [&](double v) { return v < value; });
   if (below == values.begin()) return 0;
   if (below == values.end()) return std::numeric_limits<double>::infinity();
-  return from[static_cast<std::size_t>(below - values.begin())];
+  const auto next = static_cast<std::size_t>(below - values.begin());
+  return (until[next - 1] + from[next]) / 2;
 }
 
 FallingCurve falling_fit(std::vector<Trial> trials) {
   std::erase_if(trials, [](const Trial& trial) { return !(trial.whole > 0) || std::isnan(trial.at); });
   std::ranges::stable_sort(trials, {}, &Trial::at);
   struct Block {
-    double from, part, whole;
+    double from, until, part, whole;
   };
   std::vector<Block> places;  // trials at one place are one
   for (const Trial& trial : trials) {
-    if (places.empty() || places.back().from != trial.at) places.push_back({trial.at, 0, 0});
+    if (places.empty() || places.back().from != trial.at) places.push_back({trial.at, trial.at, 0, 0});
     places.back().part += trial.part;
     places.back().whole += trial.whole;
   }
@@ -133,6 +134,7 @@ FallingCurve falling_fit(std::vector<Trial> trials) {
       const Block last = blocks.back();
       Block& before = blocks[blocks.size() - 2];
       if (last.part * before.whole <= before.part * last.whole) break;
+      before.until = last.until;
       before.part += last.part;
       before.whole += last.whole;
       blocks.pop_back();
@@ -141,11 +143,14 @@ FallingCurve falling_fit(std::vector<Trial> trials) {
   FallingCurve curve;
   for (const Block& block : blocks) {
     const double value = block.part / block.whole;
-    if (!curve.values.empty() && curve.values.back() == value) continue;
+    if (!curve.values.empty() && curve.values.back() == value) {
+      curve.until.back() = block.until;
+      continue;
+    }
     curve.from.push_back(block.from);
+    curve.until.push_back(block.until);
     curve.values.push_back(value);
   }
-  if (!trials.empty()) curve.last = trials.back().at;
   return curve;
 }
 
@@ -157,17 +162,25 @@ double ranked_quantile(std::span<const double> sorted, double share) {
   return std::isfinite(high) ? low + (at - static_cast<double>(below)) * (high - low) : low;
 }
 
-Interval bootstrap_interval(std::size_t groups, int draws,
-                            const std::function<double(std::span<const std::size_t>)>& figure) {
-  std::vector<double> figures;
-  std::vector<std::size_t> drawn(groups);
-  Random random(1);
-  for (int i = 0; groups > 0 && i < draws; ++i) {
-    for (std::size_t& group : drawn) group = random.bits() % groups;
-    if (const double value = figure(drawn); !std::isnan(value)) figures.push_back(value);
-  }
+Interval bootstrap_interval(std::vector<double> figures, std::size_t groups) {
+  if (figures.empty() || groups < 2) return {kNaN, kNaN};
   std::ranges::sort(figures);
   return {ranked_quantile(figures, 0.025), ranked_quantile(figures, 0.975)};
+}
+
+void draw_weights(std::size_t groups, int draws, const std::function<void(const GroupWeights&)>& take) {
+  GroupWeights weights{.groups = std::vector<double>(groups)};
+  Random random(1);
+  const auto half = [&] {  // half a chi-squared number of one degree of freedom
+    const double normal = normal_quantile(random.uniform() + 0x1p-54);
+    return normal * normal / 2;
+  };
+  for (int i = 0; groups > 0 && i < draws; ++i) {
+    for (double& weight : weights.groups) weight = -std::log1p(-random.uniform());
+    weights.failing = half();
+    weights.succeeding = half();
+    take(weights);
+  }
 }
 
 DistributionDistance distribution_distance(std::vector<double> first, std::vector<double> second) {
@@ -207,7 +220,9 @@ double normal_quantile(double share) {
   for (int i = 0; i < 8; ++i) {
     const double density = std::exp(-x * x / 2) / std::sqrt(2 * std::numbers::pi);
     const double ratio = (normal_share_below(x) - tail) / density;
-    x -= ratio / (1 + x * ratio / 2);  // Halley
+    const double step = ratio / (1 + x * ratio / 2);  // Halley
+    x -= step;
+    if (std::abs(step) < 1e-12) break;
   }
   return upper ? -x : x;
 }

@@ -33,14 +33,16 @@ struct Trial {
   double whole = 1;  // of so many
 };
 
-// A curve that never rises: constant from each place to the next one with another value.
+// A curve that never rises: constant from each place to the next one with another value; below the first place the
+// first value holds.
 struct FallingCurve {
-  std::vector<double> from;    // rising
-  std::vector<double> values;  // falling, one for each; below from[0] the first holds
-  double last = 0;             // the last place with trials
+  std::vector<double> from;    // rising: the first place with trials of each value
+  std::vector<double> until;   // the last one
+  std::vector<double> values;  // falling
 
   [[nodiscard]] double at(double place) const;
-  // The last place at which the value is at least this. 0: it never is; infinite: it is at the last place with trials.
+  // The last place at which the value is at least this: half-way from the last trials that have it to the next ones. 0:
+  // it never is; infinite: the last trials have it.
   [[nodiscard]] double last_with(double value) const;
 };
 
@@ -48,10 +50,19 @@ struct FallingCurve {
 // regression by pooling adjacent violators: Ayer et al. 1955). Empty for no trials.
 [[nodiscard]] FallingCurve falling_fit(std::vector<Trial> trials);
 
-// The middle 95 % of what a figure is when so many groups are drawn anew, as many as there are, out of a fixed
-// sequence of so many draws. NaN figures are left out; infinite ones are ranked.
-[[nodiscard]] Interval bootstrap_interval(std::size_t groups, int draws,
-                                          const std::function<double(std::span<const std::size_t>)>& figure);
+// Weights of independent groups, drawn anew so many times out of a fixed sequence (Bayesian bootstrap: Rubin 1981):
+// exponential ones, and those of half a group that always fails and half a group that always succeeds. Of groups that
+// fail or succeed as a whole, the share of weights then has the distribution of Jeffreys' interval: what has never
+// failed in ten groups may still fail in the next.
+struct GroupWeights {
+  std::vector<double> groups;
+  double failing = 0;
+  double succeeding = 0;
+};
+void draw_weights(std::size_t groups, int draws, const std::function<void(const GroupWeights&)>& take);
+
+// The middle 95 % of the figures of such draws, which may be infinite. NaN of fewer than two groups.
+[[nodiscard]] Interval bootstrap_interval(std::vector<double> figures, std::size_t groups);
 
 // The quantile of a sorted sample that may hold infinite values, which are not interpolated: the lower of two.
 [[nodiscard]] double ranked_quantile(std::span<const double> sorted, double share);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -53,9 +54,9 @@ struct SeenFrame {
   bool is_detected = false;
   bool is_declared = false;  // m of n hold
   HorizonSide horizon = HorizonSide::unknown;
-  double aspect_rad = 0;
+  double aspect_rad = std::numeric_limits<double>::quiet_NaN();
   double size_px = 0;
-  double contrast = 0;
+  double contrast = std::numeric_limits<double>::quiet_NaN();
   double visible_fraction = 0;
   std::optional<glm::dvec2> angle_error_rad = {};  // reported less true: to the right and up, in the camera's axes
   std::optional<double> range_error = {};          // (reported - true) / true

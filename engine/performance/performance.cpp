@@ -30,12 +30,9 @@ void RangeProfile::add(double range_m, bool success) {
   add(one);
 }
 
-void RangeProfile::add(const RangeProfile& other) {
+void RangeProfile::add(const RangeProfile& other, double weight) {
   if (other.cells_.empty()) return;
-  if (cells_.empty()) {
-    *this = other;
-    return;
-  }
+  if (cells_.empty()) first_ = other.first_;
   if (other.first_ < first_) {
     cells_.insert(cells_.begin(), static_cast<std::size_t>(first_ - other.first_), Cell{});
     first_ = other.first_;
@@ -43,9 +40,18 @@ void RangeProfile::add(const RangeProfile& other) {
   const auto offset = static_cast<std::size_t>(other.first_ - first_);
   if (cells_.size() < offset + other.cells_.size()) cells_.resize(offset + other.cells_.size());
   for (std::size_t i = 0; i < other.cells_.size(); ++i) {
-    cells_[offset + i].part += other.cells_[i].part;
-    cells_[offset + i].whole += other.cells_[i].whole;
+    cells_[offset + i].part += weight * other.cells_[i].part;
+    cells_[offset + i].whole += weight * other.cells_[i].whole;
   }
+}
+
+void RangeProfile::add_prior(const RangeProfile& all, std::size_t groups, double failing, double succeeding) {
+  RangeProfile mean = all;
+  for (Cell& cell : mean.cells_) {
+    const double trials = cell.whole / static_cast<double>(groups);
+    cell = {.part = succeeding * trials, .whole = (failing + succeeding) * trials};
+  }
+  add(mean);
 }
 
 std::vector<Trial> RangeProfile::trials() const {
@@ -79,21 +85,20 @@ std::size_t bin_of(double range_m) {
 void set_intervals(RangeCurve& curve, const std::vector<RangeProfile>& profiles, int draws) {
   std::vector<std::vector<double>> ranges(curve.ranges.size());
   std::vector<std::vector<double>> values(curve.band_at_m.size());
-  // The draws are bootstrap_interval()'s; the figure it is asked for is not used.
-  (void)bootstrap_interval(profiles.size(), draws, [&](std::span<const std::size_t> drawn) {
+  RangeProfile all;
+  for (const RangeProfile& profile : profiles) all.add(profile);
+  draw_weights(profiles.size(), draws, [&](const GroupWeights& weights) {
     RangeProfile sum;
-    for (const std::size_t i : drawn) sum.add(profiles[i]);
+    for (std::size_t i = 0; i < profiles.size(); ++i) sum.add(profiles[i], weights.groups[i]);
+    sum.add_prior(all, profiles.size(), weights.failing, weights.succeeding);
     const FallingCurve fit = sum.fit();
     for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i].push_back(fit.last_with(curve.ranges[i].probability));
     for (std::size_t i = 0; i < values.size(); ++i) values[i].push_back(fit.at(curve.band_at_m[i]));
-    return 0.0;
   });
-  const auto interval = [](std::vector<double>& sample) {
-    std::ranges::sort(sample);
-    return Interval{ranked_quantile(sample, 0.025), ranked_quantile(sample, 0.975)};
-  };
-  for (std::size_t i = 0; i < ranges.size(); ++i) curve.ranges[i].interval = interval(ranges[i]);
-  for (std::vector<double>& sample : values) curve.band.push_back(interval(sample));
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    curve.ranges[i].interval = bootstrap_interval(std::move(ranges[i]), profiles.size());
+  for (std::vector<double>& sample : values)
+    curve.band.push_back(bootstrap_interval(std::move(sample), profiles.size()));
 }
 
 }  // namespace

@@ -18,7 +18,9 @@ namespace sigs {
 class RangeProfile {
  public:
   void add(double range_m, bool success);
-  void add(const RangeProfile& other);
+  void add(const RangeProfile& other, double weight = 1);
+  // Half-groups of GroupWeights: at each place as many trials as a group has in the mean.
+  void add_prior(const RangeProfile& all, std::size_t groups, double failing, double succeeding);
   [[nodiscard]] FallingCurve fit() const;
   [[nodiscard]] std::vector<Trial> trials() const;
   [[nodiscard]] bool empty() const { return cells_.empty(); }

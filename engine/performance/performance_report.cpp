@@ -120,10 +120,17 @@ Plot needed_plot(const PerformanceReport& report) {
     plot.y_ticks->push_back({y, fmt::format("{}, {}", name_of(one.geometry), one.volume)});
     needed.runs.push_back({{0, y + 0.05}, {one.needed_m, y + 0.38}});
     PlotSeries& reached = !one.suffices ? unknown : *one.suffices ? enough : less;
-    if (one.encounters > 0) reached.runs.push_back({{0, y - 0.38}, {std::max(reached_m, 1.0), y - 0.05}});
-    const char* const remark = one.encounters == 0 ? "never seen" : one.reached.range_m == 0 ? "never reached" : "";
-    if (one.encounters == 0 || one.reached.range_m == 0)
-      plot.notes.push_back({{plot.x_range.last * 0.02, y - 0.3}, remark});
+    if (one.encounters > 0 && one.reached.range_m > 0)
+      reached.runs.push_back({{0, y - 0.38}, {std::max(reached_m, 1.0), y - 0.05}});
+  }
+  for (std::size_t i = 0; i < report.needed.size(); ++i) {
+    const NeededRange& one = report.needed[i];
+    const double y = static_cast<double>(report.needed.size() - 1 - i);
+    const char* const remark = one.closing_speed_mps <= 0 ? "does not close"
+                               : one.encounters == 0      ? "never seen"
+                               : one.reached.range_m == 0 ? "never reached"
+                                                          : "";
+    if (*remark) plot.notes.push_back({{plot.x_range.last * 0.08, y - 0.3}, remark});
   }
   plot.series = {needed, enough, less, unknown};
   std::erase_if(plot.series, [](const PlotSeries& series) { return series.runs.empty(); });

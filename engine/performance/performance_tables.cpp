@@ -136,7 +136,7 @@ std::vector<TableColumn> needed_table(const PerformanceReport& report) {
                std::string(!one.suffices   ? "not known"
                            : *one.suffices ? "yes"
                                            : "NO") +
-                   (one.is_too_few && one.encounters > 0 ? " (too few)" : "")});
+                   (one.is_too_few && one.encounters > 0 && one.closing_speed_mps > 0 ? " (too few)" : "")});
   return columns;
 }
 

@@ -42,7 +42,7 @@ ModelFlight drawn_flight_of(const std::optional<EncounterModel>& model, const st
   return {.points = {point}};
 }
 
-// At any time, beyond the flight's end too: straight flights have one point.
+// At any time, beyond the flight's end too: straight flights have one point, without turn or acceleration.
 SampledPoint point_at(const ModelFlight& flight, double time_s) {
   const auto last = flight.points.size() - 1;
   const auto before = std::min(last, static_cast<std::size_t>(std::max(0.0, time_s)));
@@ -59,6 +59,23 @@ AircraftState state_of(const SampledPoint& point, const glm::dvec3& centre_neu_m
                          -(to_neu_m.z + from_m.z)},
           .velocity_mps = {point.speed_mps * std::cos(heading), point.speed_mps * std::sin(heading),
                            -point.vertical_speed_mps}};
+}
+
+// At all steps. Straight flights, which most are, need no turning at each.
+std::vector<AircraftState> states_of(const ModelFlight& flight, const glm::dvec3& centre_neu_m, double turned_rad,
+                                     const glm::dvec3& to_neu_m, int length_s, double step_s) {
+  const auto count = static_cast<std::size_t>(std::floor(length_s / step_s)) + 1;
+  std::vector<AircraftState> states;
+  states.reserve(count);
+  if (flight.points.size() == 1) {
+    const AircraftState first = state_of(flight.points[0], centre_neu_m, turned_rad, to_neu_m);
+    for (std::size_t k = 0; k < count; ++k)
+      states.push_back({first.position_m + static_cast<double>(k) * step_s * first.velocity_mps, first.velocity_mps});
+    return states;
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    states.push_back(state_of(point_at(flight, static_cast<double>(k) * step_s), centre_neu_m, turned_rad, to_neu_m));
+  return states;
 }
 
 }  // namespace
@@ -88,14 +105,8 @@ FlownPair drawn_pair(const RiskEncounters& encounters, const Steps& steps, Rando
       speed_mps > 1e-6 ? glm::dvec2(-relative_mps.y, relative_mps.x) / speed_mps : glm::dvec2(0, 1);
   const glm::dvec3 place_m = own_near.position_neu_m + glm::dvec3(miss.offset_m * across, vertical.offset_m);
   FlownPair pair{.step_s = steps.step_s, .weight = speed_mps * miss.weight * vertical.weight};
-  const int count = static_cast<int>(std::floor(length_s / steps.step_s)) + 1;
-  pair.own.reserve(static_cast<std::size_t>(count));
-  pair.intruder.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    const double time_s = k * steps.step_s;
-    pair.own.push_back(state_of(point_at(own, time_s), {0, 0, 0}, 0, {0, 0, 0}));
-    pair.intruder.push_back(state_of(point_at(intruder, time_s), intruder_near.position_neu_m, turned_rad, place_m));
-  }
+  pair.own = states_of(own, {0, 0, 0}, 0, {0, 0, 0}, length_s, steps.step_s);
+  pair.intruder = states_of(intruder, intruder_near.position_neu_m, turned_rad, place_m, length_s, steps.step_s);
   return pair;
 }
 

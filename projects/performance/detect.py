@@ -15,33 +15,52 @@ import pathlib
 import cv2
 import numpy as np
 
-WINDOW_PX = 21  # of the median that stands for the background; larger things are not found
-THRESHOLD = 9.0  # difference to it in code values, after the noise is smoothed
-MOST_BOXES = 40  # of a frame, the strongest ones
+SCALES = (1, 2, 4)  # the image is also looked at so many times smaller, for larger things
+WINDOW_PX = 21  # of the median that stands for the background; larger things are not found at this scale
+THRESHOLD = 10.0  # difference to it in code values
+ROUGHNESS = 6.0  # what is rough everywhere, as land is, needs so many times its mean difference more
+MOST_BOXES = 6  # of a frame, the strongest ones
 STEP_PX = 24  # that a thing moves at most from one frame to the next
 MISSED_FRAMES = 4  # after which a track ends
 
 
-def boxes_of(gray):
-    """(score, x, y, width, height) of each thing that stands out, the strongest first."""
-    smooth = cv2.GaussianBlur(gray, (3, 3), 0)
-    background = cv2.medianBlur(smooth, WINDOW_PX)
-    difference = cv2.absdiff(smooth, background)
-    # What is rough everywhere, as land is, needs a larger difference.
+def boxes_at_scale(gray, scale):
+    """(score, x, y, width, height) of each thing that stands out at one scale, in pixels of the whole image."""
+    size = (gray.shape[1] // scale, gray.shape[0] // scale)
+    small = cv2.resize(gray, size, interpolation=cv2.INTER_AREA) if scale > 1 else cv2.GaussianBlur(gray, (3, 3), 0)
+    difference = cv2.absdiff(small, cv2.medianBlur(small, WINDOW_PX))
     roughness = cv2.blur(difference.astype(np.float32), (61, 61))
-    stands_out = (difference > THRESHOLD + 4 * roughness).astype(np.uint8)
-    stands_out = cv2.dilate(stands_out, np.ones((3, 3), np.uint8))
+    stands_out = (difference > THRESHOLD + ROUGHNESS * roughness).astype(np.uint8)
+    # Pieces of one thing are joined.
+    stands_out = cv2.morphologyEx(stands_out, cv2.MORPH_CLOSE, np.ones((7, 7), np.uint8))
     count, labels, stats, _ = cv2.connectedComponentsWithStats(stands_out)
     found = []
     for i in range(1, count):
-        x, y, width, height, area = stats[i]
-        if area < 6 or max(width, height) > 3 * WINDOW_PX:
+        x, y, width, height, area = (int(n) for n in stats[i])
+        if area < 4 or max(width, height) > 2 * WINDOW_PX:
             continue
         part = labels[y : y + height, x : x + width] == i
-        score = float(difference[y : y + height, x : x + width][part].max())
-        # The dilation has grown it by a pixel on each side.
-        found.append((score, x + 1, y + 1, max(1, width - 2), max(1, height - 2)))
-    return sorted(found, reverse=True)[:MOST_BOXES]
+        inside = difference[y : y + height, x : x + width][part]
+        around = roughness[y + height // 2, x + width // 2]
+        score = float(inside.max() / (THRESHOLD + ROUGHNESS * around))
+        found.append((score, x * scale, y * scale, width * scale, height * scale))
+    return found
+
+
+def overlap(a, b):
+    width = min(a[1] + a[3], b[1] + b[3]) - max(a[1], b[1])
+    height = min(a[2] + a[4], b[2] + b[4]) - max(a[2], b[2])
+    return width > 0 and height > 0
+
+
+def boxes_of(gray):
+    """The boxes of all scales, the strongest first; of those that overlap the larger one."""
+    found = [box for scale in SCALES for box in boxes_at_scale(gray, scale)]
+    kept = []
+    for box in sorted(found, key=lambda box: box[3] * box[4], reverse=True):
+        if not any(overlap(box, other) for other in kept):
+            kept.append(box)
+    return sorted(kept, reverse=True)[:MOST_BOXES]
 
 
 def tracks_of(boxes, tracks, frame):
