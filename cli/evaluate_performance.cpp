@@ -13,6 +13,7 @@
 #include "cli/performance_inputs.h"
 #include "cli/process.h"
 #include "performance/performance_report.h"
+#include "performance/risk_report.h"
 
 namespace sigs::cli {
 
@@ -74,11 +75,13 @@ Result<PerformanceReport> report_of(const PerformanceOptions& options) {
     report.remarks.push_back("all figures are of " +
                              count_text(std::ssize(report.performance.encounters), "encounter") +
                              ": too few to conclude from");
-  for (const auto& [file, json] :
-       {std::pair(&options.risk, &report.risk), std::pair(&options.coverage, &report.coverage)}) {
+  for (const auto& [file, json, check] : {std::tuple(&options.risk, &report.risk, &check_risk_json),
+                                          std::tuple(&options.coverage, &report.coverage, &check_coverage_json)}) {
     Result<Json> text = json_of_file(*file);
     if (!text) return fail(text.error());
     *json = *std::move(text);
+    if (file->empty()) continue;
+    if (const Result<void> good = check(*json, file->string()); !good) return fail(good.error());
   }
   return report;
 }

@@ -11,7 +11,7 @@
 namespace sigs {
 
 // How sure figures are: intervals of shares and of rates, a curve that falls with range, distances of distributions.
-// All intervals are 95 % ones. docs/performance-figures.md gives the formulas.
+// All intervals are 95 % ones. docs/performance.md gives the formulas.
 
 // Of `part` successes in `whole` independent trials (Wilson 1927). NaN for no trials. Numbers need not be whole.
 [[nodiscard]] Interval wilson_interval(double part, double whole);

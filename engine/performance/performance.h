@@ -12,7 +12,7 @@
 namespace sigs {
 
 // The performance of a sensor by range: how likely it detects, where it declares, what that leaves in time, how often
-// it cries wolf, and under which conditions it is worse. docs/performance-figures.md defines each figure.
+// it cries wolf, and under which conditions it is worse. docs/performance.md defines each figure.
 
 // Trials by range, in steps of 1 %, for fits of many drawings: frames of one encounter.
 class RangeProfile {

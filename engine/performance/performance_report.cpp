@@ -10,6 +10,7 @@
 #include "evaluation/reports/report_files.h"
 #include "labels/label_text.h"
 #include "performance/performance_tables.h"
+#include "performance/risk_report.h"
 
 namespace sigs {
 
@@ -183,18 +184,44 @@ std::vector<Plot> plots_of(const PerformanceReport& report) {
 std::string risk_html(const Json& risk) {
   if (!risk.is_object()) return "";
   std::string text = html_element("h2", "Risk ratio") + "\n";
-  for (const Json& line : risk.value("in_words", Json::array()))
-    if (line.is_string()) text += html_element("p", line.get<std::string>()) + "\n";
-  return text;
+  for (const Json& line : risk.at("in_words")) text += html_element("p", line.get<std::string>()) + "\n";
+  const Plot plot = risk_plot(risk);
+  return text + html_figure({plot.name, plot.title, svg_of(plot)}) + html_table(risk_table(risk));
+}
+
+// A bin of a condition: "100 to 300", "above".
+std::string domain_bin_text(const Json& bin) {
+  if (bin.contains("value")) return bin.at("value").get<std::string>();
+  return short_number_text(bin.at("from").get<double>()) + " to " + short_number_text(bin.at("to").get<double>());
 }
 
 std::string coverage_html(const Json& coverage) {
   if (!coverage.is_object()) return "";
-  std::string text = html_element("h2", "Operational design domain") + "\n";
-  std::vector<std::string> lines;
-  for (const Json& line : coverage.value("in_words", Json::array()))
-    if (line.is_string()) lines.push_back(line.get<std::string>());
-  return text + html_list(lines);
+  std::vector<TableColumn> columns;
+  for (const char* const title : {"condition", "bin", "frames", "encounters", ""})
+    columns.push_back({.title = title, .unit = "", .cells = {}, .is_best = {}});
+  const auto least = coverage.at("min_encounters").get<std::int64_t>();
+  for (const Json& condition : coverage.at("conditions"))
+    for (const Json& bin : condition.at("bins")) {
+      const auto encounters = bin.at("encounters").get<std::int64_t>();
+      const std::string remark = !bin.at("in_domain").get<bool>() ? "not of the domain"
+                                 : encounters < least             ? "EMPTY"
+                                                                  : "";
+      const std::vector<std::string> cells{condition.at("name").get<std::string>(), domain_bin_text(bin),
+                                           std::to_string(bin.at("frames").get<std::int64_t>()),
+                                           std::to_string(encounters), remark};
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        columns[i].cells.push_back(cells[i]);
+        columns[i].is_best.push_back(false);
+      }
+    }
+  const Json& pairs = coverage.at("pairs");
+  return html_element("h2", "Operational design domain") + "\n" +
+         html_element("p",
+                      fmt::format("{}: {} of {} pairs of bins are covered; {} bins are empty.",
+                                  coverage.at("domain").get<std::string>(), pairs.at("covered").get<std::int64_t>(),
+                                  pairs.at("all").get<std::int64_t>(), coverage.at("empty_bins").size())) +
+         "\n" + html_table(columns);
 }
 
 std::string report_page(const PerformanceReport& report, const std::vector<ReportPlot>& images) {
@@ -231,6 +258,14 @@ std::string range_text(const RangeAt& range, double farthest_m) {
   if (std::isnan(range.range_m)) return "-";
   return fmt::format("{}{} ({} to {})", metres_text(range.range_m, farthest_m), range.range_m == 0 ? "" : " m",
                      metres_text(range.interval.low, farthest_m), metres_text(range.interval.high, farthest_m));
+}
+
+Result<void> check_coverage_json(const Json& json, const std::string& file) {
+  try {
+    if (json.is_object() && !coverage_html(json).empty()) return {};
+  } catch (const Json::exception&) {
+  }
+  return fail(file, "is no result of sigs dataset --domain --json");
 }
 
 std::string performance_text(const PerformanceReport& report) {

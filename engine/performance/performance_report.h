@@ -27,6 +27,9 @@ struct PerformanceReport {
   Json coverage;  // of `sigs dataset --domain --json`; null: none
 };
 
+// Whether a file's content is what `sigs dataset --domain --json` writes. Error bad_data.
+[[nodiscard]] Result<void> check_coverage_json(const Json& json, const std::string& file);
+
 [[nodiscard]] std::string performance_text(const PerformanceReport& report);
 [[nodiscard]] Json performance_json(const PerformanceReport& report);
 

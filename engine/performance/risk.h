@@ -52,7 +52,7 @@ struct ThreatView {
   double bearing_rad = 0;
   double elevation_rad = 0;
   // How fast the line of sight turns, in the horizontal plane to the right and upwards, against the world; measured
-  // over the frames of declaration. An intruder on a collision course has a line of sight that does not turn.
+  // over a second. An intruder on a collision course has a line of sight that does not turn.
   double bearing_rate_radps = 0;
   double elevation_rate_radps = 0;
   std::optional<double> range_m;  // where the sensor states one

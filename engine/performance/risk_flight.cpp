@@ -91,8 +91,8 @@ ThreatView threat_of(const SensorModel& sensor, const AircraftState& own, const 
   const double across_speed = (offset_m.x * speed_mps.x + offset_m.y * speed_mps.y) / across_m;
   const double elevation_rate =
       (-speed_mps.z * across_m + offset_m.z * across_speed) / std::max(glm::dot(offset_m, offset_m), 1e-12);
-  // Rates by the difference of two angles, as far apart as the frames of a declaration are.
-  const double apart_s = std::max(1, sensor.declare_window - 1) / sensor.rate_hz;
+  // Rates by the difference of two angles a second apart, or as far as the frames of a declaration where that is more.
+  const double apart_s = std::max(1.0, (sensor.declare_window - 1) / sensor.rate_hz);
   const auto error = [&](double sd) { return sd * normal_number(random); };
   ThreatView view{
       .encounter = number,

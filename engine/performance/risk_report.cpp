@@ -8,7 +8,6 @@
 
 #include "base/pose.h"
 #include "base/text.h"
-#include "evaluation/reports/report_files.h"
 #include "labels/label_text.h"
 
 namespace sigs {
@@ -209,7 +208,7 @@ Result<Json> merged_risk_json(const std::vector<RiskShard>& shards, const std::v
   return whole_json(shards.front().settings, merged_risk(std::move(batches)), true);
 }
 
-std::string risk_text(const Json& json) {
+std::vector<TableColumn> risk_table(const Json& json) {
   std::vector<TableColumn> columns;
   for (const auto& [title, unit] :
        {std::pair("class", ""), std::pair("encounters", ""), std::pair("risk ratio NMAC", "95 %"),
@@ -230,13 +229,29 @@ std::string risk_text(const Json& json) {
       columns[i].is_best.push_back(false);
     }
   }
+  return columns;
+}
+
+std::string risk_text(const Json& json) {
   std::string text;
   for (const Json& line : json.at("in_words")) text += line.get<std::string>() + "\n";
-  return text + "\n" + aligned(columns);
+  return text + "\n" + aligned(risk_table(json));
 }
 
 std::string risk_text(const RiskSettings& settings, const RiskResult& result) {
   return risk_text(risk_json(settings, result));
+}
+
+Result<void> check_risk_json(const Json& json, const std::string& file) {
+  try {  // the table reads every member that the others need
+    if (json.at("sigs_risk") == 1 && !json.at("classes").empty()) {
+      (void)risk_table(json);
+      (void)risk_plot(json);
+      if (json.at("in_words").is_array()) return {};
+    }
+  } catch (const Json::exception&) {
+  }
+  return fail(file, "is no result of sigs risk --json");
 }
 
 Plot risk_plot(const Json& json) {

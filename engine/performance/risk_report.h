@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/reports/report_files.h"
 #include "performance/risk.h"
 #include "plot/plot.h"
 
@@ -31,8 +32,13 @@ struct RiskShard {
 [[nodiscard]] Result<Json> merged_risk_json(const std::vector<RiskShard>& shards,
                                             const std::vector<std::string>& files);
 
-// The table of a result in JSON.
+// A result in JSON as a table, and with its sentences as text. It must be of risk_json() or merged_risk_json(), or have
+// passed check_risk_json().
+[[nodiscard]] std::vector<TableColumn> risk_table(const Json& json);
 [[nodiscard]] std::string risk_text(const Json& json);
+
+// Whether a file's content is such a result. Error bad_data.
+[[nodiscard]] Result<void> check_risk_json(const Json& json, const std::string& file);
 
 // Ratios by class, with their intervals.
 [[nodiscard]] Plot risk_plot(const Json& json);

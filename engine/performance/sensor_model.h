@@ -17,7 +17,7 @@ namespace sigs {
 
 // A sensor as numbers that a fast-time simulation can draw from: how likely a frame shows the intruder by range, side
 // of the horizon and aspect, how alike frames that follow each other are, how late and how exact it is.
-// docs/sensor-model.md describes the file and the fit.
+// docs/risk.md describes the file and the fit.
 
 // What the camera sees, in its own axes; a camera that looks ahead and level.
 struct FieldOfView {

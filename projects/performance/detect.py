@@ -16,10 +16,11 @@ import cv2
 import numpy as np
 
 SCALES = (1, 2, 4)  # the image is also looked at so many times smaller, for larger things
-WINDOW_PX = 21  # of the median that stands for the background; larger things are not found at this scale
-THRESHOLD = 10.0  # difference to it in code values
-ROUGHNESS = 6.0  # what is rough everywhere, as land is, needs so many times its mean difference more
-MOST_BOXES = 6  # of a frame, the strongest ones
+WINDOW_PX = 25  # of the mean that stands for the background; larger things are not found at this scale
+THRESHOLD = 6.0  # difference to it in code values
+ROUGHNESS = 4.0  # what is rough everywhere, as land is, needs so many times its mean difference more
+GROWN = (2.0, 1.5)  # width and height of a box, as multiples: what stands out is the body, not the thin wings
+MOST_BOXES = 8  # of a frame, the strongest ones
 STEP_PX = 24  # that a thing moves at most from one frame to the next
 MISSED_FRAMES = 4  # after which a track ends
 
@@ -28,8 +29,8 @@ def boxes_at_scale(gray, scale):
     """(score, x, y, width, height) of each thing that stands out at one scale, in pixels of the whole image."""
     size = (gray.shape[1] // scale, gray.shape[0] // scale)
     small = cv2.resize(gray, size, interpolation=cv2.INTER_AREA) if scale > 1 else cv2.GaussianBlur(gray, (3, 3), 0)
-    difference = cv2.absdiff(small, cv2.medianBlur(small, WINDOW_PX))
-    roughness = cv2.blur(difference.astype(np.float32), (61, 61))
+    difference = cv2.absdiff(small, cv2.blur(small, (WINDOW_PX, WINDOW_PX)))
+    roughness = cv2.blur(difference.astype(np.float32), (101, 101))
     stands_out = (difference > THRESHOLD + ROUGHNESS * roughness).astype(np.uint8)
     # Pieces of one thing are joined.
     stands_out = cv2.morphologyEx(stands_out, cv2.MORPH_CLOSE, np.ones((7, 7), np.uint8))
@@ -43,7 +44,8 @@ def boxes_at_scale(gray, scale):
         inside = difference[y : y + height, x : x + width][part]
         around = roughness[y + height // 2, x + width // 2]
         score = float(inside.max() / (THRESHOLD + ROUGHNESS * around))
-        found.append((score, x * scale, y * scale, width * scale, height * scale))
+        grown = [scale * width * GROWN[0], scale * height * GROWN[1]]
+        found.append((score, scale * (x + width / 2) - grown[0] / 2, scale * (y + height / 2) - grown[1] / 2, *grown))
     return found
 
 
@@ -95,7 +97,7 @@ def detect(video, file):
             break
         boxes = boxes_of(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY))
         for (score, x, y, width, height), track in zip(boxes, tracks_of(boxes, tracks, frame)):
-            rows.append([frame, x, y, width, height, f"{score:.1f}", track])
+            rows.append([frame, *(f"{n:.1f}" for n in (x, y, width, height, score)), track])
         frame += 1
     with open(file, "w", newline="") as out:
         writer = csv.writer(out)

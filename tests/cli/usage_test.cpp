@@ -23,10 +23,10 @@ TEST_CASE("an unknown command is answered with a list of the known ones") {
   CHECK(run.status == 64);
   CHECK(run.err ==
         "error: exprt: no such command; there are init, export, frame, mask, occluder, dataset, evaluate, check, info, "
-        "telemetry, ego-motion, appearance, path, calibrate, compare, encounter, encounter-model and model\n");
+        "telemetry, ego-motion, appearance, path, calibrate, compare, encounter, encounter-model, risk and model\n");
   const Run inner = run_sigs("evaluate trck clip.xml");
   CHECK(inner.status == 64);
-  CHECK(inner.err == "error: evaluate trck: no such command; there are track and detect\n");
+  CHECK(inner.err == "error: evaluate trck: no such command; there are track, detect and performance\n");
   CHECK(run_sigs("evaluate --help").status == 0);
   CHECK(run_sigs("evaluate").status == 64);
 }
