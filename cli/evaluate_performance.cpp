@@ -26,7 +26,6 @@ constexpr const char* kEvaluatePerformanceFooter =
     "  sigs evaluate performance datasets/mine --results found --out report\n"
     "  sigs evaluate performance datasets/mine --split test --results coco_results.json --declare 4/8 --latency 0.2\n"
     "  sigs evaluate performance a.xml b.xml --results a.csv b.csv --calibration camera.xml --own-speed 30\n"
-    "  sigs risk report/sensor.json --json risk.json        # the risk ratio with this sensor\n"
     "  sigs evaluate performance datasets/mine --results found --risk risk.json --out report --force";
 
 struct PerformanceOptions {
@@ -135,8 +134,8 @@ void add_performance_options(CLI::App& command, PerformanceOptions& options) {
       ->check(not_empty());
   add_input(command, "--calibration", options.read.calibration,
             "the lens, for errors of angles and the field of view; of a dataset its projects' own");
-  add_input(command, "--risk", options.risk, "put this result of sigs risk --json into the report");
-  add_input(command, "--coverage", options.coverage, "put this result of sigs dataset --domain --json into the report");
+  add_input(command, "--risk", options.risk, "put this risk ratio, a JSON file of sigs risk, into the report");
+  add_input(command, "--coverage", options.coverage, "put this coverage, a JSON file of sigs dataset, into the report");
 }
 
 }  // namespace

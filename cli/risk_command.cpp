@@ -356,10 +356,11 @@ Command add_risk_command(CLI::App& program) {
   CLI::App* const command =
       program.add_subcommand("risk", "the risk ratio with a sensor and a manoeuvre, over many simulated encounters");
   const auto options = std::make_shared<RiskOptions>();
-  command->add_option("SENSOR", options->sensor, "a sensor model: sensor.json of sigs evaluate performance --out");
+  command->add_option("SENSOR", options->sensor,
+                      "a sensor model: sensor.json in the report of sigs evaluate performance");
   add_encounter_options(*command, *options);
   add_manoeuvre_options(*command, *options);
-  command->add_option("--well-clear", options->volume, "a volume, as sigs encounter --volume")
+  command->add_option("--well-clear", options->volume, "a volume by name, as sigs encounter takes it")
       ->type_name("NAME")
       ->capture_default_str();
   add_number(*command, "--count", options->settings.count, "N", std::int64_t{1}, std::int64_t{1'000'000'000},

@@ -10,6 +10,7 @@ track. It needs OpenCV and NumPy (python3-opencv), no training and no network. I
 
 import argparse
 import csv
+import itertools
 import pathlib
 
 import cv2
@@ -65,7 +66,7 @@ def boxes_of(gray):
     return sorted(kept, reverse=True)[:MOST_BOXES]
 
 
-def tracks_of(boxes, tracks, frame):
+def tracks_of(boxes, tracks, frame, ids):
     """The track of each box: that of the nearest box of the frames before, else another one."""
     taken = []
     for score, x, y, width, height in boxes:
@@ -74,8 +75,7 @@ def tracks_of(boxes, tracks, frame):
         if near:
             track = min(near, key=lambda t: np.linalg.norm(t["at"] - at))
         else:
-            track = {"id": tracks_of.next_id}
-            tracks_of.next_id += 1
+            track = {"id": next(ids)}
             tracks.append(track)
         track.update(at=at, seen=frame)
         taken.append(track["id"])
@@ -83,36 +83,39 @@ def tracks_of(boxes, tracks, frame):
     return taken
 
 
-tracks_of.next_id = 1
-
-
 def detect(video, file):
     footage = cv2.VideoCapture(str(video))
     if not footage.isOpened():
         raise SystemExit(f"{video}: cannot be opened")
-    tracks, rows, frame = [], [], 0
+    tracks, rows, frame, ids = [], [], 0, itertools.count(1)
     while True:
         is_there, image = footage.read()
         if not is_there:
             break
         boxes = boxes_of(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY))
-        for (score, x, y, width, height), track in zip(boxes, tracks_of(boxes, tracks, frame)):
+        for (score, x, y, width, height), track in zip(boxes, tracks_of(boxes, tracks, frame, ids)):
             rows.append([frame, *(f"{n:.1f}" for n in (x, y, width, height, score)), track])
         frame += 1
-    with open(file, "w", newline="") as out:
+    partial = file.with_suffix(".part")
+    with open(partial, "w", newline="") as out:
         writer = csv.writer(out)
         writer.writerow(["frame", "x", "y", "width", "height", "score", "track"])
         writer.writerows(rows)
+    partial.replace(file)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("videos", nargs="+", type=pathlib.Path)
     parser.add_argument("--out", required=True, type=pathlib.Path)
+    parser.add_argument("--keep", action="store_true", help="leave out videos whose results are there and newer")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     for number, video in enumerate(options.videos, 1):
-        detect(video, options.out / (video.stem + ".csv"))
+        file = options.out / (video.stem + ".csv")
+        if options.keep and file.exists() and file.stat().st_mtime > video.stat().st_mtime:
+            continue
+        detect(video, file)
         print(f"{number} of {len(options.videos)}: {video.stem}", flush=True)
 
 
