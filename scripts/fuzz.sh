@@ -12,7 +12,7 @@ source "$(dirname "$0")/setup.sh"
 seconds=${1:-20}
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "error: $seconds is no number of seconds" >&2; exit 64; }
 shift || true
-all=(project calibration model image text_log binary_log results truth recipe recorded_path encounter encounter_model video)
+all=(project calibration model image text_log binary_log results truth recipe recorded_path encounter encounter_model sensor_model video)
 targets=("${@:-${all[@]}}")
 for target in "${targets[@]}"; do
   [[ " ${all[*]} " == *" $target "* ]] || { echo "error: $target: no such target; there are ${all[*]}" >&2; exit 64; }

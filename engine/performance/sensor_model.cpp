@@ -219,19 +219,21 @@ std::string sensor_model_json(const SensorModel& model) {
 
 Result<SensorModel> read_sensor_model(const std::filesystem::path& file) {
   const Result<std::string> text = read_text(file);
-  if (!text) return fail(text.error());
-  const Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_data);
+  return text ? sensor_model_of(*text, file.string()) : fail(text.error());
+}
+
+Result<SensorModel> sensor_model_of(const std::string& text, const std::string& file) {
+  const Result<Json> json = parsed_json(text, file, ErrorKind::bad_data);
   if (!json) return fail(json.error());
   if (!json->is_object() || json->value("sigs_sensor_model", Json()) != 1)
     return fail(
-        file.string(),
-        "is no sensor model: it has no \"sigs_sensor_model\": 1; sigs evaluate performance --sensor writes one");
+        file, "is no sensor model: it has no \"sigs_sensor_model\": 1; sigs evaluate performance --sensor writes one");
   SensorModel model;
-  MemberReader root(*json, file.string() + ": sensor model");
+  MemberReader root(*json, file + ": sensor model");
   if (root.has("detector") && (*json)["detector"].is_string()) model.detector = (*json)["detector"];
   model.encounters = static_cast<int>(root.number("encounters", 0, 1e9, 0));
   model.frames = static_cast<int>(root.number("frames", 0, 2e9, 0));
-  model.rate_hz = root.number("frame_rate_hz", 0.01, 1e4);
+  model.rate_hz = root.number("frame_rate_hz", 0.01, 1000);
   model.latency_s = root.number("latency_s", 0, 1e4, 0);
   MemberReader declare = root.object("declare");
   model.declare_hits = static_cast<int>(declare.number("hits", 1, 64, 3));

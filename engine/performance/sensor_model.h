@@ -132,5 +132,7 @@ class SensorDraw {
 [[nodiscard]] std::string sensor_model_json(const SensorModel& model);
 // Errors cannot_read; bad_data that names file and member.
 [[nodiscard]] Result<SensorModel> read_sensor_model(const std::filesystem::path& file);
+// The same of a file's text.
+[[nodiscard]] Result<SensorModel> sensor_model_of(const std::string& text, const std::string& file);
 
 }  // namespace sigs

@@ -5,6 +5,8 @@
     python3 train_detector.py train DATASET/labels/coco/train.json --images DATASET --out detector.pt
     python3 train_detector.py detect DATASET/labels/coco/val.json --images DATASET --weights detector.pt --out found.json
     sigs evaluate detect DATASET --split val --results found.json
+    python3 train_detector.py watch VIDEOS... --weights detector.pt --out FOLDER      # needs python3-opencv
+    sigs evaluate performance DATASET --results FOLDER
 
 It finds where aircraft are and how large they look, not of which category they are. Needs PyTorch, NumPy and
 Pillow (Debian: python3-torch python3-numpy python3-pil).
@@ -221,6 +223,32 @@ def detect_command(options):
     pathlib.Path(options.out).write_text(json.dumps(results))
 
 
+def watch_command(options):
+    """What a trained detector finds in videos: FOLDER/NAME.csv for each, in the layout that sigs reads."""
+    import cv2
+
+    detector = Detector()
+    detector.load_state_dict(torch.load(options.weights))
+    detector.eval()
+    folder = pathlib.Path(options.out)
+    folder.mkdir(parents=True, exist_ok=True)
+    for number, name in enumerate(options.videos, 1):
+        video = pathlib.Path(name)
+        footage = cv2.VideoCapture(name)
+        if not footage.isOpened():
+            sys.exit(f"{name}: cannot be opened")
+        lines = ["frame,x,y,width,height,score"]
+        for frame in range(10**9):
+            is_there, image = footage.read()
+            if not is_there:
+                break
+            for score, box in detect(detector, np.ascontiguousarray(image[:, :, ::-1])):
+                if score >= options.score:
+                    lines.append(f"{frame}," + ",".join(f"{side:.1f}" for side in box) + f",{score:.3f}")
+        (folder / (video.stem + ".csv")).write_text("\n".join(lines) + "\n")
+        print(f"{number} of {len(options.videos)}: {video.stem}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
@@ -236,8 +264,13 @@ def main():
     detects.add_argument("--weights", required=True, help="file that train wrote")
     detects.add_argument("--out", required=True, help="COCO results: a list of image_id, bbox, score")
     detects.add_argument("--score", type=float, default=0.05, help="lower ones are left out")
+    watches = commands.add_parser("watch", help="what a trained detector finds in videos")
+    watches.add_argument("videos", nargs="+")
+    watches.add_argument("--weights", required=True, help="file that train wrote")
+    watches.add_argument("--out", required=True, help="folder for a CSV file of each video")
+    watches.add_argument("--score", type=float, default=0.3, help="lower ones are left out")
     options = parser.parse_args()
-    {"train": train_command, "detect": detect_command}[options.command](options)
+    {"train": train_command, "detect": detect_command, "watch": watch_command}[options.command](options)
 
 
 if __name__ == "__main__":

@@ -39,6 +39,7 @@ void try_recipe(const FuzzInput& input);
 void try_recorded_path(const FuzzInput& input);
 void try_encounter(const FuzzInput& input);
 void try_encounter_model(const FuzzInput& input);
+void try_sensor_model(const FuzzInput& input);  // tables of rules and shards of risk too
 void try_video(const FuzzInput& input);
 
 }  // namespace sigs::fuzz

@@ -18,14 +18,20 @@ namespace {
 using Target = void (*)(const fuzz::FuzzInput&);
 
 const std::map<std::string, Target>& fuzz_targets() {
-  static const std::map<std::string, Target> kAll{
-      {"project", fuzz::try_project},     {"calibration", fuzz::try_calibration},
-      {"model", fuzz::try_model},         {"image", fuzz::try_image},
-      {"text_log", fuzz::try_text_log},   {"binary_log", fuzz::try_binary_log},
-      {"results", fuzz::try_results},     {"truth", fuzz::try_truth},
-      {"recipe", fuzz::try_recipe},       {"recorded_path", fuzz::try_recorded_path},
-      {"encounter", fuzz::try_encounter}, {"encounter_model", fuzz::try_encounter_model},
-      {"video", fuzz::try_video}};
+  static const std::map<std::string, Target> kAll{{"project", fuzz::try_project},
+                                                  {"calibration", fuzz::try_calibration},
+                                                  {"model", fuzz::try_model},
+                                                  {"image", fuzz::try_image},
+                                                  {"text_log", fuzz::try_text_log},
+                                                  {"binary_log", fuzz::try_binary_log},
+                                                  {"results", fuzz::try_results},
+                                                  {"truth", fuzz::try_truth},
+                                                  {"recipe", fuzz::try_recipe},
+                                                  {"recorded_path", fuzz::try_recorded_path},
+                                                  {"encounter", fuzz::try_encounter},
+                                                  {"encounter_model", fuzz::try_encounter_model},
+                                                  {"sensor_model", fuzz::try_sensor_model},
+                                                  {"video", fuzz::try_video}};
   return kAll;
 }
 

@@ -64,8 +64,8 @@ BLOCK = re.compile(r"^```(?:json|jsonc|xml|csv|yaml)\n(.*?)^```", re.S | re.M)
 
 def add_examples(seeds: Seeds) -> None:
     pages = {"annotation-format.md": "truth", "project-format.md": "project", "dataset.md": "recipe",
-             "dataset-recipe.md": "recipe", "calibration-files.md": "calibration", "frames-and-units.md": "text_log",
-             "encounters.md": "encounter", "evaluation-reference.md": "results"}
+             "dataset-recipe.md": "recipe", "design-domain.md": "recipe", "calibration-files.md": "calibration", "frames-and-units.md": "text_log",
+             "encounters.md": "encounter", "risk.md": "sensor_model", "evaluation-reference.md": "results"}
     for page, target in pages.items():
         for block in BLOCK.findall((ROOT / "docs" / page).read_text()):
             seeds.add(target, block.encode())
@@ -76,7 +76,7 @@ def add_literals(seeds: Seeds) -> None:
         "project": ["project"], "scene": ["project", "text_log"], "cli": ["project", "calibration", "model"],
         "camera": ["calibration"], "mesh": ["model"], "telemetry": ["text_log"], "evaluation": ["results", "truth"],
         "labels": ["truth"], "dataset": ["recipe"], "geo": ["recorded_path"], "encounter": ["encounter"],
-        "encounter_model": ["encounter_model"], "video": ["image"],
+        "encounter_model": ["encounter_model"], "performance": ["sensor_model"], "video": ["image"],
     }
     for folder, targets in targets_of.items():
         for source in sorted((ROOT / "tests" / folder).glob("*.[ch]*")):
