@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pose.h"
 #include "base/text.h"
 #include "evaluation/reports/report_files.h"
 #include "labels/label_text.h"
@@ -256,8 +257,11 @@ std::string report_page(const PerformanceReport& report, const std::vector<Repor
 
 std::string range_text(const RangeAt& range, double farthest_m) {
   if (std::isnan(range.range_m)) return "-";
-  return fmt::format("{}{} ({} to {})", metres_text(range.range_m, farthest_m), range.range_m == 0 ? "" : " m",
-                     metres_text(range.interval.low, farthest_m), metres_text(range.interval.high, farthest_m));
+  const std::string middle = metres_text(range.range_m, farthest_m) + (range.range_m == 0 ? "" : " m");
+  if (std::isnan(range.interval.low)) return middle;
+  const std::string low = metres_text(range.interval.low, farthest_m);
+  const std::string high = metres_text(range.interval.high, farthest_m);
+  return low == high ? middle : fmt::format("{} ({} to {})", middle, low, high);
 }
 
 Result<void> check_coverage_json(const Json& json, const std::string& file) {
@@ -292,6 +296,97 @@ Result<WrittenReport> write_report(const std::filesystem::path& folder, const Pe
   if (!images) return fail(images.error());
   if (step = out.put("report.html", report_page(report, *images)); !step) return fail(step.error());
   return out.written();
+}
+
+namespace {
+
+Json interval_json(const Interval& interval) {
+  return Json::array({interval.low, interval.high});
+}
+
+Json curve_json(const RangeCurve& curve) {
+  Json json{{"encounters", curve.encounters}, {"frames", curve.frames},
+            {"successes", curve.successes},   {"share_95", interval_json(curve.interval)},
+            {"farthest_m", curve.farthest_m}, {"ranges", Json::array()}};
+  for (const RangeAt& range : curve.ranges)
+    json["ranges"].push_back({{"probability", range.probability},
+                              {"range_m", range.range_m},
+                              {"beyond_farthest", std::isinf(range.range_m)},
+                              {"range_95_m", interval_json(range.interval)}});
+  return json;
+}
+
+Json spread_json(const Spread& spread) {
+  return {{"count", spread.count},   {"least", spread.least}, {"p05", spread.p05},
+          {"median", spread.median}, {"p95", spread.p95},     {"greatest", spread.greatest}};
+}
+
+Json error_json(const ErrorSpread& error, double unit) {
+  return {{"frames", error.count},
+          {"bias", error.bias / unit},
+          {"standard_deviation", error.standard_deviation / unit},
+          {"p95", error.p95 / unit}};
+}
+
+Json false_json(const FalseTracks& tracks, const Interval& per_hour) {
+  return {{"clips", tracks.clips},
+          {"hours", tracks.hours},
+          {"declared", tracks.declared},
+          {"boxes", tracks.boxes},
+          {"per_hour", tracks.hours > 0 ? Json(tracks.declared / tracks.hours) : Json(nullptr)},
+          {"per_hour_95", interval_json(per_hour)}};
+}
+
+}  // namespace
+
+Json performance_json(const PerformanceReport& report) {
+  const Performance& performance = report.performance;
+  const double degree = rad_of_deg(1);
+  Json json{{"sigs_performance", 1},
+            {"detector", line_text(performance.detector)},
+            {"encounters", performance.encounters.size()},
+            {"frame_rate_hz", performance.rate_hz},
+            {"declare", {{"hits", performance.policy.declare_hits}, {"window", performance.policy.declare_window}}},
+            {"latency_s", performance.policy.latency_s},
+            {"detected", curve_json(performance.detected)},
+            {"declared", curve_json(performance.declared)},
+            {"encounters_declared", performance.encounters_declared},
+            {"declaration_range_m", spread_json(performance.declaration_range_m)},
+            {"time_left_s", spread_json(performance.time_left_s)},
+            {"first_match_after_s", spread_json(performance.latency_s)},
+            {"bearing_error_deg", error_json(performance.bearing_rad, degree)},
+            {"elevation_error_deg", error_json(performance.elevation_rad, degree)},
+            {"range_error", error_json(performance.range, 1)},
+            {"drop_out_s", spread_json(performance.drop_out_s)}};
+  for (const DropOutCount& count : performance.drop_outs)
+    json["drop_outs"].push_back({{"cause", name_of(count.cause)}, {"count", count.count}, {"seconds", count.seconds}});
+  json["false_tracks"] = {{"without_intruders", false_json(performance.false_empty, performance.false_per_hour_empty)},
+                          {"all", false_json(performance.false_all, performance.false_per_hour_all)}};
+  json["conditions"] = Json::array();
+  for (const Condition& condition : performance.conditions) {
+    Json one{
+        {"by", line_text(condition.by)}, {"condition", line_text(condition.name)}, {"too_few", condition.is_too_few}};
+    append_members(one, curve_json(condition.detected));
+    json["conditions"].push_back(std::move(one));
+  }
+  for (const NeededRange& one : report.needed)
+    json["needed"].push_back({{"geometry", name_of(one.geometry)},
+                              {"volume", one.volume},
+                              {"closing_speed_mps", one.closing_speed_mps},
+                              {"needed_m", one.needed_m},
+                              {"reached_m", one.reached.range_m},
+                              {"reached_95_m", interval_json(one.reached.interval)},
+                              {"encounters", one.encounters},
+                              {"too_few", one.is_too_few},
+                              {"suffices", one.suffices ? Json(*one.suffices) : Json(nullptr)}});
+  if (report.check)
+    json["sensor_model_check"] = {{"declared_images", report.check->declared_images},
+                                  {"declared_model", report.check->declared_model},
+                                  {"ks_distance", report.check->distance.distance},
+                                  {"ks_p", report.check->distance.p_value}};
+  json["in_words"] = policy_lines(report);
+  json["remarks"] = report.remarks;
+  return json;
 }
 
 }  // namespace sigs

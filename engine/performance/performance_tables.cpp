@@ -82,6 +82,21 @@ std::string drop_out_line(const Performance& performance) {
                      spread_text(performance.drop_out_s, 2, "s"));
 }
 
+// Whether the range suffices, in a sentence.
+std::string verdict_line(const PerformanceReport& report) {
+  std::vector<std::string> enough, less, unknown;
+  for (const NeededRange& one : report.needed) {
+    if (one.closing_speed_mps <= 0) continue;
+    const std::string what = fmt::format("{}, {} ({:.0f} m needed)", name_of(one.geometry), one.volume, one.needed_m);
+    (!one.suffices ? unknown : *one.suffices ? enough : less).push_back(what);
+  }
+  const auto part = [](const char* says, const std::vector<std::string>& which) {
+    return which.empty() ? std::string() : fmt::format(" {} {}.", says, listed(which, "; "));
+  };
+  return "Range of declared tracks at P = 0.95:" + part("does NOT suffice for", less) + part("suffices for", enough) +
+         part("not known for", unknown);
+}
+
 }  // namespace
 
 std::vector<TableColumn> range_table(const Performance& performance) {
@@ -153,6 +168,7 @@ std::vector<std::string> summary_lines(const PerformanceReport& report) {
   } else {
     lines.push_back(ranges_line("Range of detection in a frame", performance.detected));
     lines.push_back(ranges_line("Range of declared tracks", performance.declared));
+    lines.push_back(verdict_line(report));
     lines.push_back(fmt::format("Declared: {} of {}; declaration range: {}.", performance.encounters_declared,
                                 count_text(std::ssize(performance.encounters), "encounter"),
                                 spread_text(performance.declaration_range_m, 0, "m")));
@@ -288,97 +304,6 @@ std::string performance_encounters_csv(const Performance& performance) {
                         declared ? exact_text(declared->time_left_s) : "", encounter.drop_outs.size());
   }
   return text;
-}
-
-namespace {
-
-Json interval_json(const Interval& interval) {
-  return Json::array({interval.low, interval.high});
-}
-
-Json curve_json(const RangeCurve& curve) {
-  Json json{{"encounters", curve.encounters}, {"frames", curve.frames},
-            {"successes", curve.successes},   {"share_95", interval_json(curve.interval)},
-            {"farthest_m", curve.farthest_m}, {"ranges", Json::array()}};
-  for (const RangeAt& range : curve.ranges)
-    json["ranges"].push_back({{"probability", range.probability},
-                              {"range_m", range.range_m},
-                              {"beyond_farthest", std::isinf(range.range_m)},
-                              {"range_95_m", interval_json(range.interval)}});
-  return json;
-}
-
-Json spread_json(const Spread& spread) {
-  return {{"count", spread.count},   {"least", spread.least}, {"p05", spread.p05},
-          {"median", spread.median}, {"p95", spread.p95},     {"greatest", spread.greatest}};
-}
-
-Json error_json(const ErrorSpread& error, double unit) {
-  return {{"frames", error.count},
-          {"bias", error.bias / unit},
-          {"standard_deviation", error.standard_deviation / unit},
-          {"p95", error.p95 / unit}};
-}
-
-Json false_json(const FalseTracks& tracks, const Interval& per_hour) {
-  return {{"clips", tracks.clips},
-          {"hours", tracks.hours},
-          {"declared", tracks.declared},
-          {"boxes", tracks.boxes},
-          {"per_hour", tracks.hours > 0 ? Json(tracks.declared / tracks.hours) : Json(nullptr)},
-          {"per_hour_95", interval_json(per_hour)}};
-}
-
-}  // namespace
-
-Json performance_json(const PerformanceReport& report) {
-  const Performance& performance = report.performance;
-  const double degree = rad_of_deg(1);
-  Json json{{"sigs_performance", 1},
-            {"detector", line_text(performance.detector)},
-            {"encounters", performance.encounters.size()},
-            {"frame_rate_hz", performance.rate_hz},
-            {"declare", {{"hits", performance.policy.declare_hits}, {"window", performance.policy.declare_window}}},
-            {"latency_s", performance.policy.latency_s},
-            {"detected", curve_json(performance.detected)},
-            {"declared", curve_json(performance.declared)},
-            {"encounters_declared", performance.encounters_declared},
-            {"declaration_range_m", spread_json(performance.declaration_range_m)},
-            {"time_left_s", spread_json(performance.time_left_s)},
-            {"first_match_after_s", spread_json(performance.latency_s)},
-            {"bearing_error_deg", error_json(performance.bearing_rad, degree)},
-            {"elevation_error_deg", error_json(performance.elevation_rad, degree)},
-            {"range_error", error_json(performance.range, 1)},
-            {"drop_out_s", spread_json(performance.drop_out_s)}};
-  for (const DropOutCount& count : performance.drop_outs)
-    json["drop_outs"].push_back({{"cause", name_of(count.cause)}, {"count", count.count}, {"seconds", count.seconds}});
-  json["false_tracks"] = {{"without_intruders", false_json(performance.false_empty, performance.false_per_hour_empty)},
-                          {"all", false_json(performance.false_all, performance.false_per_hour_all)}};
-  json["conditions"] = Json::array();
-  for (const Condition& condition : performance.conditions) {
-    Json one{
-        {"by", line_text(condition.by)}, {"condition", line_text(condition.name)}, {"too_few", condition.is_too_few}};
-    append_members(one, curve_json(condition.detected));
-    json["conditions"].push_back(std::move(one));
-  }
-  for (const NeededRange& one : report.needed)
-    json["needed"].push_back({{"geometry", name_of(one.geometry)},
-                              {"volume", one.volume},
-                              {"closing_speed_mps", one.closing_speed_mps},
-                              {"needed_m", one.needed_m},
-                              {"reached_m", one.reached.range_m},
-                              {"reached_95_m", interval_json(one.reached.interval)},
-                              {"encounters", one.encounters},
-                              {"too_few", one.is_too_few},
-                              {"suffices", one.suffices ? Json(*one.suffices) : Json(nullptr)}});
-  if (report.check)
-    json["sensor_model_check"] = {{"declared_images", report.check->declared_images},
-                                  {"declared_model", report.check->declared_model},
-                                  {"ks_distance", report.check->distance.distance},
-                                  {"ks_p", report.check->distance.p_value}};
-  json["in_words"] = policy_lines(report);
-  json["remarks"] = report.remarks;
-  return json;
 }
 
 }  // namespace sigs
