@@ -9,8 +9,6 @@
 #include <tuple>
 
 #include "base/threads.h"
-#include "dataset/domain_flight.h"
-#include "dataset/recipe_paths.h"
 #include "dataset/video_sample.h"
 #include "project/project.h"
 

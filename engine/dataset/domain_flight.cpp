@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/domain_flight.h"
+#include "dataset/domain_fill.h"
 
 #include <algorithm>
 #include <cmath>

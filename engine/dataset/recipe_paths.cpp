@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/recipe_paths.h"
+#include "dataset/domain_fill.h"
 
 #include <string>
 #include <string_view>

@@ -8,9 +8,7 @@
 
 #include "base/pose.h"
 #include "base/text.h"
-#include "evaluation/reports/report_files.h"
 #include "labels/label_text.h"
-#include "performance/performance_tables.h"
 #include "performance/risk_report.h"
 
 namespace sigs {

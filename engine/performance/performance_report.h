@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/json.h"
-#include "evaluation/reports/report.h"
+#include "evaluation/reports/report_files.h"
 #include "performance/performance.h"
 #include "performance/sensor_model.h"
 
@@ -40,5 +40,21 @@ struct PerformanceReport {
 
 // "1210 m (1100 to 1340)"; "never"; "over 1500 m", where the farthest frame still has it.
 [[nodiscard]] std::string range_text(const RangeAt& range, double farthest_m);
+
+// --- Its contents (performance_tables.cpp): tables for terminal and page, a sentence each, CSV.
+
+[[nodiscard]] std::vector<TableColumn> range_table(const Performance& performance);
+[[nodiscard]] std::vector<TableColumn> condition_table(const Performance& performance);
+[[nodiscard]] std::vector<TableColumn> needed_table(const PerformanceReport& report);
+
+// A sentence each.
+[[nodiscard]] std::vector<std::string> summary_lines(const PerformanceReport& report);
+[[nodiscard]] std::vector<std::string> needed_lines(const PerformanceReport& report);
+[[nodiscard]] std::vector<std::string> sensor_lines(const PerformanceReport& report);
+[[nodiscard]] std::vector<std::string> policy_lines(const PerformanceReport& report);
+
+[[nodiscard]] std::string ranges_csv(const Performance& performance);
+[[nodiscard]] std::string conditions_csv(const Performance& performance);
+[[nodiscard]] std::string performance_encounters_csv(const Performance& performance);
 
 }  // namespace sigs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "performance/performance_tables.h"
+#include "performance/performance_report.h"
 
 #include <fmt/format.h>
 
