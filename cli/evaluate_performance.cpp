@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -82,6 +83,18 @@ Result<PerformanceReport> report_of(const PerformanceOptions& options) {
     if (file->empty()) continue;
     if (const Result<void> good = check(*json, file->string()); !good) return fail(good.error());
   }
+  if (report.risk.is_object() && report.sensor &&
+      report.risk["settings"].value("sensor_model", Json()) != Json::parse(sensor_model_json(report.sensor->model)))
+    report.remarks.push_back(options.risk.string() + " was flown with another sensor model than this report's");
+  std::set<std::string> footage;
+  for (const PerformanceClip& clip : clips) footage.insert(clip.detected.truth.footage.video);
+  if (clips.size() >= 10 && footage.size() * 5 <= clips.size())
+    report.remarks.push_back(count_text(std::ssize(clips), "clip") + " show " +
+                             count_text(std::ssize(footage), "video") +
+                             ": encounters before the same footage are less independent than the intervals suppose");
+  if (2 * report.performance.declared_at_once > report.performance.encounters_declared)
+    report.remarks.emplace_back(
+        "most declarations came with the first frames in view: the sensor may reach farther than these clips show");
   return report;
 }
 

@@ -83,6 +83,10 @@ Result<void> add_empty_clips(const PerformanceInputs& options, std::vector<Perfo
   if (options.results.size() != 1 || !is_folder(options.results.front()))
     return fail("--empty", "needs a folder of results, in which a file is called as the video", ErrorKind::usage);
   for (const fs::path& path : options.empty) {
+    for (const PerformanceClip& clip : clips)
+      if (clip.detected.name == path.stem().string())
+        return fail("--empty " + path.string(),
+                    "is called as a clip with labels; it is for footage without any aircraft", ErrorKind::usage);
     const Result<FrameSource> video = FrameSource::open(path);
     if (!video) return fail(video.error());
     const VideoInfo& info = video->info();

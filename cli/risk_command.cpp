@@ -173,10 +173,11 @@ Result<Logic> logic_of(const RiskOptions& options) {
 Result<RiskResult> flown(const RiskSettings& settings, const Logic& logic, const RiskOptions& options) {
   Progress progress(progress_style(options.progress));
   std::mutex mutex;
-  const auto total = static_cast<int>(std::min<std::int64_t>(settings.count / settings.shards + 1, 2'000'000'000));
+  const auto total =
+      static_cast<int>(std::min<std::int64_t>((settings.count + settings.shards - 1) / settings.shards, 2'000'000'000));
   Result<RiskResult> result = simulated_risk(settings, logic, &interrupt_flag(), [&](std::int64_t done) {
     const std::lock_guard lock(mutex);
-    progress.update(std::min(static_cast<int>(done), total), total);
+    progress.update(static_cast<int>(std::min<std::int64_t>(done, total)), total, "encounters");
   });
   progress.end();
   return result;

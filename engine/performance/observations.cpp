@@ -187,7 +187,7 @@ ObservedEncounter encounter_of(const PerformanceClip& clip, std::size_t index, c
                    .time_s = truth.times_s[i],
                    .range_m = frame.distance_m,
                    .is_detected = !tracks[i].empty(),
-                   .is_declared = declared[i],
+                   .is_declared = encounter.declared.has_value(),
                    .horizon = frame.horizon,
                    .aspect_rad = frame.aspect_rad.value_or(kNoValue),
                    .size_px = std::max(frame.visible->width, frame.visible->height),
@@ -200,6 +200,11 @@ ObservedEncounter encounter_of(const PerformanceClip& clip, std::size_t index, c
         set_errors(seen, clip, frame, *best.box);
     }
     encounter.frames.push_back(seen);
+  }
+  if (encounter.declared && !encounter.frames.empty()) {
+    const auto first =
+        static_cast<std::size_t>(std::min<std::ptrdiff_t>(policy.declare_hits, std::ssize(encounter.frames)));
+    encounter.is_declared_at_once = encounter.frames[first - 1].is_declared;
   }
   return encounter;
 }

@@ -52,7 +52,7 @@ struct SeenFrame {
   double time_s = 0;
   double range_m = 0;
   bool is_detected = false;
-  bool is_declared = false;  // m of n hold
+  bool is_declared = false;  // a track was declared in this frame or before
   HorizonSide horizon = HorizonSide::unknown;
   double aspect_rad = std::numeric_limits<double>::quiet_NaN();
   double size_px = 0;
@@ -77,6 +77,7 @@ struct ObservedEncounter {
   std::vector<SeenFrame> frames;            // by time
   std::optional<double> latency_s = {};     // from the first frame in view to the first match
   std::optional<Declaration> declared = {};
+  bool is_declared_at_once = false;  // with the first M frames in view: the clip's begin decided, not the range
   std::vector<DropOut> drop_outs;
   double closing_speed_mps = 0;  // how fast the range falls, mean over the frames before it is least; NaN: not known
 };

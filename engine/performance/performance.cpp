@@ -26,7 +26,7 @@ constexpr std::array kRangeEdges_m{0.0,    100.0,  200.0,  300.0,  500.0,  700.0
 void RangeProfile::add(double range_m, bool success) {
   RangeProfile one;
   one.first_ = static_cast<int>(std::floor(std::log(std::max(range_m, 1e-3)) / kCell));
-  one.cells_ = {{success ? 1.0 : 0.0, 1}};
+  one.cells_ = {{success ? 1.0 : 0.0, 1, 1}};
   add(one);
 }
 
@@ -42,16 +42,31 @@ void RangeProfile::add(const RangeProfile& other, double weight) {
   for (std::size_t i = 0; i < other.cells_.size(); ++i) {
     cells_[offset + i].part += weight * other.cells_[i].part;
     cells_[offset + i].whole += weight * other.cells_[i].whole;
+    cells_[offset + i].groups += other.cells_[i].groups;
   }
 }
 
-void RangeProfile::add_prior(const RangeProfile& all, std::size_t groups, double failing, double succeeding) {
+void RangeProfile::add_prior(const RangeProfile& all, double failing, double succeeding) {
   RangeProfile mean = all;
   for (Cell& cell : mean.cells_) {
-    const double trials = cell.whole / static_cast<double>(groups);
+    const double trials = cell.groups > 0 ? cell.whole / cell.groups : 0;
     cell = {.part = succeeding * trials, .whole = (failing + succeeding) * trials};
   }
   add(mean);
+}
+
+void RangeProfile::close_group() {
+  if (cells_.empty()) return;
+  constexpr int kNear = 20;  // cells to either side: a fifth of the range
+  cells_.insert(cells_.begin(), kNear, Cell{});
+  cells_.resize(cells_.size() + kNear);
+  first_ -= kNear;
+  const auto count = static_cast<int>(cells_.size());
+  for (int i = 0; i < count; ++i) {
+    if (!(cells_[static_cast<std::size_t>(i)].whole > 0)) continue;
+    for (int k = std::max(0, i - kNear); k < std::min(count, i + kNear + 1); ++k)
+      cells_[static_cast<std::size_t>(k)].groups = 1;
+  }
 }
 
 std::vector<Trial> RangeProfile::trials() const {
@@ -90,7 +105,7 @@ void set_intervals(RangeCurve& curve, const std::vector<RangeProfile>& profiles,
   draw_weights(profiles.size(), draws, [&](const GroupWeights& weights) {
     RangeProfile sum;
     for (std::size_t i = 0; i < profiles.size(); ++i) sum.add(profiles[i], weights.groups[i]);
-    sum.add_prior(all, profiles.size(), weights.failing, weights.succeeding);
+    sum.add_prior(all, weights.failing, weights.succeeding);
     const FallingCurve fit = sum.fit();
     for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i].push_back(fit.last_with(curve.ranges[i].probability));
     for (std::size_t i = 0; i < values.size(); ++i) values[i].push_back(fit.at(curve.band_at_m[i]));
@@ -124,10 +139,12 @@ RangeCurve range_curve(const std::vector<ObservedEncounter>& encounters,
         share->part += is_success ? 1 : 0;
         share->whole += 1;
       }
+      bins[bin_of(frame.range_m)].mean_m += frame.range_m;
       nearest_m = std::min(nearest_m, frame.range_m);
       curve.farthest_m = std::max(curve.farthest_m, frame.range_m);
     }
     if (profile.empty()) continue;
+    profile.close_group();
     profiles.push_back(std::move(profile));
     groups.push_back(group);
     for (std::size_t i = 0; i < bins.size(); ++i)
@@ -149,6 +166,7 @@ RangeCurve range_curve(const std::vector<ObservedEncounter>& encounters,
       bins[i].detected += static_cast<int>(share.part);
     }
     bins[i].encounters = static_cast<int>(by_bin[i].size());
+    bins[i].mean_m /= bins[i].frames;
     bins[i].interval = clustered_interval(by_bin[i]);
     curve.bins.push_back(bins[i]);
   }
@@ -253,6 +271,7 @@ void set_spreads(Performance& performance) {
   for (const ObservedEncounter& encounter : performance.encounters) {
     if (encounter.declared) {
       ranges.push_back(encounter.declared->range_m);
+      performance.declared_at_once += encounter.is_declared_at_once ? 1 : 0;
       left.push_back(encounter.declared->time_left_s);
     }
     if (encounter.latency_s) latencies.push_back(*encounter.latency_s);
@@ -324,20 +343,20 @@ const char* name_of(Geometry geometry) {
 
 std::vector<NeededRange> needed_ranges(const Performance& performance, const AirSpeeds& speeds,
                                        const NeededTimes& times) {
-  constexpr double kAspect = std::numbers::pi / 4;
+  constexpr double kWithin = std::numbers::pi / 6;
   std::vector<NeededRange> needed;
   const double seconds = times.latency_s + times.decide_s + times.manoeuvre_s;
   for (const Geometry geometry : {Geometry::head_on, Geometry::crossing, Geometry::overtaking}) {
     const double closing_mps = geometry == Geometry::head_on    ? speeds.own_mps + speeds.intruder_mps
                                : geometry == Geometry::crossing ? std::hypot(speeds.own_mps, speeds.intruder_mps)
                                                                 : std::max(0.0, speeds.own_mps - speeds.intruder_mps);
+    const double aspect = geometry == Geometry::head_on    ? 0
+                          : geometry == Geometry::crossing ? std::atan2(speeds.own_mps, speeds.intruder_mps)
+                                                           : std::numbers::pi;
     const RangeCurve curve = range_curve(
         performance.encounters, [](const SeenFrame& frame) { return frame.is_declared; },
         [&](const ObservedEncounter&, const SeenFrame& frame) {
-          const bool is_front = frame.aspect_rad<kAspect, is_back = frame.aspect_rad> 3 * kAspect;
-          return geometry == Geometry::head_on    ? is_front
-                 : geometry == Geometry::crossing ? frame.aspect_rad >= kAspect && frame.aspect_rad <= 3 * kAspect
-                                                  : is_back;
+          return std::abs(frame.aspect_rad - aspect) <= kWithin;
         });
     for (const auto& [name, protect_m] :
          {std::pair("well clear", well_clear_volume("small-uas")->hmd_m), std::pair("NMAC", nmac_volume().hmd_m)}) {
@@ -349,9 +368,7 @@ std::vector<NeededRange> needed_ranges(const Performance& performance, const Air
                       .reached = curve.ranges.back(),
                       .is_too_few = curve.encounters < performance.min_encounters};
       const double reached_m = std::min(one.reached.range_m, curve.farthest_m);
-      if (closing_mps <= 0)
-        one.suffices = true;
-      else if (curve.encounters > 0 && (reached_m >= one.needed_m || std::isfinite(one.reached.range_m)))
+      if (closing_mps > 0 && curve.encounters > 0 && (reached_m >= one.needed_m || std::isfinite(one.reached.range_m)))
         one.suffices = reached_m >= one.needed_m;
       needed.push_back(one);
     }

@@ -19,8 +19,10 @@ class RangeProfile {
  public:
   void add(double range_m, bool success);
   void add(const RangeProfile& other, double weight = 1);
-  // Half-groups of GroupWeights: at each place as many trials as a group has in the mean.
-  void add_prior(const RangeProfile& all, std::size_t groups, double failing, double succeeding);
+  // Half-groups of GroupWeights: at each place as many trials as a group that comes near it has there, in the mean.
+  //   all  the sum of all groups
+  void add_prior(const RangeProfile& all, double failing, double succeeding);
+  void close_group();  // what was added is of one group
   [[nodiscard]] FallingCurve fit() const;
   [[nodiscard]] std::vector<Trial> trials() const;
   [[nodiscard]] bool empty() const { return cells_.empty(); }
@@ -29,6 +31,7 @@ class RangeProfile {
   struct Cell {
     double part = 0;
     double whole = 0;
+    int groups = 0;  // with trials within a fifth of this range
   };
   int first_ = 0;  // number of the first cell
   std::vector<Cell> cells_;
@@ -47,6 +50,7 @@ inline constexpr std::array kProbabilities{0.5, 0.9, 0.95};
 struct RangeBin {
   double low_m = 0;
   double high_m = 0;  // infinite: the last
+  double mean_m = 0;  // of its frames
   int encounters = 0;
   int frames = 0;
   int detected = 0;
@@ -106,6 +110,7 @@ struct Performance {
   RangeCurve declared;  // by declared track
   std::vector<Condition> conditions;
   int encounters_declared = 0;
+  int declared_at_once = 0;    // of these, with the first frames in view
   Spread declaration_range_m;  // of those declared
   Spread time_left_s;          // of those with a known time
   Spread latency_s;            // from the first frame in view to the first match
@@ -162,7 +167,7 @@ struct NeededRange {
 };
 
 // Head-on: the speeds add up; crossing: they are perpendicular; overtaking: the own aircraft is behind the intruder.
-// The geometry of a frame is that of its aspect: below 45 degrees head-on, above 135 overtaking.
+// Frames count where their aspect is within 30 degrees of that of such a collision course: 0, atan(own / intruder), pi.
 [[nodiscard]] std::vector<NeededRange> needed_ranges(const Performance& performance, const AirSpeeds& speeds,
                                                      const NeededTimes& times);
 

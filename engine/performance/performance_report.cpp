@@ -42,10 +42,8 @@ std::vector<PlotSeries> bin_marks(const RangeCurve& curve, PlotColor color) {
   PlotSeries marks{.title = "frames by range, 95 %", .kind = SeriesKind::marks, .color = color};
   PlotSeries bars{.kind = SeriesKind::line, .color = color};
   for (const RangeBin& bin : curve.bins) {
-    const double high_m = std::isinf(bin.high_m) ? curve.farthest_m : bin.high_m;
-    const double middle_m = bin.low_m > 0 ? std::sqrt(bin.low_m * high_m) : high_m / 2;
-    marks.runs.push_back({{middle_m, double(bin.detected) / bin.frames}});
-    bars.runs.push_back({{middle_m, bin.interval.low}, {middle_m, bin.interval.high}});
+    marks.runs.push_back({{bin.mean_m, double(bin.detected) / bin.frames}});
+    bars.runs.push_back({{bin.mean_m, bin.interval.low}, {bin.mean_m, bin.interval.high}});
   }
   return {marks, bars};
 }
@@ -67,7 +65,7 @@ Plot detection_plot(const PerformanceReport& report) {
   plot.series.push_back(curve_line(performance.detected, "detected in a frame", kAbove));
   for (PlotSeries& series : bin_marks(performance.detected, kAbove)) plot.series.push_back(std::move(series));
   plot.series.push_back(curve_line(performance.declared,
-                                   fmt::format("declared track ({} of {} frames)", performance.policy.declare_hits,
+                                   fmt::format("declared by then ({} of {} frames)", performance.policy.declare_hits,
                                                performance.policy.declare_window),
                                    kBelow));
   return plot;
@@ -156,7 +154,7 @@ std::optional<Plot> declaration_plot(const PerformanceReport& report) {
   Plot plot{.name = "declaration_ranges",
             .title = "Share of encounters declared by a range: images and sensor model",
             .x_label = "range (m)",
-            .y_label = "share of the encounters",
+            .y_label = "share of all encounters",
             .x_range = {farthest_m, 0},
             .y_range = {0, 1.02}};
   plot.series.push_back(
@@ -185,7 +183,14 @@ std::string risk_html(const Json& risk) {
   std::string text = html_element("h2", "Risk ratio") + "\n";
   for (const Json& line : risk.at("in_words")) text += html_element("p", line.get<std::string>()) + "\n";
   const Plot plot = risk_plot(risk);
-  return text + html_figure({plot.name, plot.title, svg_of(plot)}) + html_table(risk_table(risk));
+  text += html_figure({plot.name, plot.title, svg_of(plot)}) + html_table(risk_table(risk));
+  if (risk.contains("images"))
+    text += html_element("p", "The same encounters by the images, each flown once:") +
+            html_table(risk_table(risk.at("images")));
+  std::vector<std::string> settings;
+  for (const auto& [name, value] : risk.at("settings").items())
+    if (name != "sensor_model" && name != "pairs" && !value.is_null()) settings.push_back(name + ": " + value.dump());
+  return text + "<details><summary>Settings of the simulation</summary>\n" + html_list(settings) + "</details>\n";
 }
 
 // A bin of a condition: "100 to 300", "above".
@@ -247,7 +252,8 @@ std::string report_page(const PerformanceReport& report, const std::vector<Repor
   body += risk_html(report.risk) + coverage_html(report.coverage);
   if (!report.remarks.empty()) body += html_element("h2", "Remarks") + "\n" + html_list(report.remarks);
   body += html_element("h2", "What is counted") + "\n" + html_list(policy_lines(report));
-  body += html_element("h2", "Videos") + "\n" + html_list(report.clips);
+  body += "<details><summary>Videos (" + std::to_string(report.clips.size()) + ")</summary>\n" +
+          html_list(report.clips) + "</details>\n";
   return html_page("Performance of " + performance.detector, body, "docs/performance.md");
 }
 

@@ -105,7 +105,7 @@ std::vector<TableColumn> range_table(const Performance& performance) {
                                                     {"frames", ""},
                                                     {"P(detect)", "in a frame"},
                                                     {"95 %", ""},
-                                                    {"P(declared)", "track"},
+                                                    {"P(declared)", "by then"},
                                                     {"95 %", ""}});
   for (const RangeBin& bin : performance.detected.bins) {
     const auto declared = std::ranges::find_if(performance.declared.bins,
@@ -148,9 +148,10 @@ std::vector<TableColumn> needed_table(const PerformanceReport& report) {
     add_cells(columns,
               {name_of(one.geometry), one.volume, fixed_text(one.closing_speed_mps, 1), fixed_text(one.needed_m, 0),
                range_text(one.reached, report.performance.declared.farthest_m), std::to_string(one.encounters),
-               std::string(!one.suffices   ? "not known"
-                           : *one.suffices ? "yes"
-                                           : "NO") +
+               std::string(one.closing_speed_mps <= 0 ? "does not close"
+                           : !one.suffices            ? "not known"
+                           : *one.suffices            ? "yes"
+                                                      : "NO") +
                    (one.is_too_few && one.encounters > 0 && one.closing_speed_mps > 0 ? " (too few)" : "")});
   return columns;
 }
@@ -174,6 +175,11 @@ std::vector<std::string> summary_lines(const PerformanceReport& report) {
                                 spread_text(performance.declaration_range_m, 0, "m")));
     lines.push_back(fmt::format("Time to closest approach that is left at the declaration: {}.",
                                 spread_text(performance.time_left_s, 1, "s")));
+    if (performance.declared_at_once > 0)
+      lines.push_back(fmt::format(
+          "{} of these {} declarations came with the first frames in view: there the clip's begin, and not the sensor, "
+          "limits range and time.",
+          performance.declared_at_once, performance.encounters_declared));
     lines.push_back(fmt::format("From the first frame in view to the first match: {}.",
                                 spread_text(performance.latency_s, 1, "s")));
     if (performance.bearing_rad.count > 0) {
@@ -240,19 +246,21 @@ std::vector<std::string> sensor_lines(const PerformanceReport& report) {
 
 std::vector<std::string> policy_lines(const PerformanceReport& report) {
   const PerformancePolicy& policy = report.performance.policy;
-  return {fmt::format("Match: extended overlap of at least {} with the box of the visible pixels; reports with a score "
-                      "below {} are left out.",
-                      exact_text(policy.matching.match_overlap), exact_text(policy.matching.min_score)),
-          fmt::format("Declared track: {} of the last {} frames match, all by one track. The declaration range is that "
-                      "at the first such frame, {} s of latency later.",
-                      policy.declare_hits, policy.declare_window, exact_text(policy.latency_s)),
-          "Encounter: one intruder of one clip, as far as it is visible. Frames in which nothing of it is visible are "
-          "in no probability.",
-          "Intervals of shares: Wilson's, for as many independent frames as the encounters are worth. Intervals of "
-          "ranges: the middle 95 % of 1000 draws of as many encounters as there are.",
-          "The curve never rises with range (isotonic regression). \"Never\": it has no range with this probability; "
-          "\"over\": the farthest frame still has it.",
-          fmt::format("Too few: fewer than {} encounters.", report.performance.min_encounters)};
+  return {
+      fmt::format("Match: extended overlap of at least {} with the box of the visible pixels; reports with a score "
+                  "below {} are left out.",
+                  exact_text(policy.matching.match_overlap), exact_text(policy.matching.min_score)),
+      fmt::format("Declared: in this frame or an earlier one {} of {} frames in a row matched, all by one track. The "
+                  "declaration range is that at the first such frame, {} s of latency later.",
+                  policy.declare_hits, policy.declare_window, exact_text(policy.latency_s)),
+      "Encounter: one intruder of one clip, as far as it is visible. Frames in which nothing of it is visible are "
+      "in no probability.",
+      "Intervals of shares: Wilson's, for as many independent frames as the encounters are worth. Intervals of "
+      "ranges: the middle 95 % of 1000 drawings of weights for encounters, with half an encounter that always fails "
+      "and half a one that always succeeds.",
+      "The curve never rises with range (isotonic regression). \"Never\": it has no range with this probability; "
+      "\"over\": the farthest frame still has it.",
+      fmt::format("Too few: fewer than {} encounters.", report.performance.min_encounters)};
 }
 
 std::string ranges_csv(const Performance& performance) {

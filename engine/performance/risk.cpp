@@ -39,12 +39,17 @@ void add_sums(EventSums& sum, const EventSums& other) {
 
 RiskTally tally_of(const FlownOutcome& outcome) {
   const double weight = outcome.weight;
+  const bool failed = outcome.nmac_with && outcome.nmac_without;
   return {.encounters = 1,
           .weight = weight,
           .weight_squares = weight * weight,
           .nmac = sums_of(weight, outcome.nmac_without, outcome.nmac_with),
           .well_clear = sums_of(weight, outcome.lost_without, outcome.lost_with),
           .induced = outcome.nmac_with && !outcome.nmac_without ? weight : 0,
+          .out_of_view = failed && !outcome.is_in_view ? weight : 0,
+          .undeclared = failed && outcome.is_in_view && !outcome.is_declared ? weight : 0,
+          .waiting = failed && outcome.is_declared && !outcome.is_manoeuvred ? weight : 0,
+          .insufficient = failed && outcome.is_declared && outcome.is_manoeuvred ? weight : 0,
           .declared = outcome.is_declared ? weight : 0,
           .manoeuvred = outcome.is_manoeuvred ? weight : 0,
           .clear = outcome.lost_without ? 0 : weight,
@@ -88,6 +93,10 @@ void RiskTally::add(const RiskTally& other) {
   add_sums(nmac, other.nmac);
   add_sums(well_clear, other.well_clear);
   induced += other.induced;
+  out_of_view += other.out_of_view;
+  undeclared += other.undeclared;
+  waiting += other.waiting;
+  insufficient += other.insufficient;
   declared += other.declared;
   manoeuvred += other.manoeuvred;
   clear += other.clear;

@@ -59,7 +59,8 @@ struct ThreatView {
   double own_speed_mps = 0;
 };
 
-// Decides at each of the sensor's frames in which a track is declared, until it answers with a manoeuvre. Empty: the
+// Decides at each of the sensor's frames in which a track is declared and comes nearer (what recedes needs no
+// manoeuvre: it shrinks in the image), until it answers with a manoeuvre. Empty: the
 // manoeuvre of the settings, at once. Errors end the run.
 using Logic = std::function<Result<ManoeuvreKind>(const ThreatView&)>;
 
@@ -130,7 +131,10 @@ struct RiskTally {
   double weight_squares = 0;
   EventSums nmac;
   EventSums well_clear;
-  double induced = 0;   // NMAC with the system and not without
+  double induced = 0;  // NMAC with the system and not without
+  // NMACs with the system and without it, by what failed: never in the sensor's view before; in view, not declared in
+  // time; declared, but no manoeuvre before; a manoeuvre that did not suffice.
+  double out_of_view = 0, undeclared = 0, waiting = 0, insufficient = 0;
   double declared = 0;  // before the end
   double manoeuvred = 0;
   double clear = 0;        // without loss of well clear without the system
@@ -139,9 +143,10 @@ struct RiskTally {
   void add(const RiskTally& other);
 };
 
-// Classes of encounters by the courses at the closest approach (within 45 degrees of opposite, of equal, between) and
+// Classes of encounters by the courses at the closest approach (within 45 degrees of opposite; between; of equal, where
+// the faster one comes from behind) and
 // by the side on which the intruder is when both begin.
-inline constexpr std::array kRiskClasses{"all", "head-on", "crossing", "overtaking", "above", "below"};
+inline constexpr std::array kRiskClasses{"all", "head-on", "crossing", "same way", "above", "below"};
 using RiskTallies = std::array<RiskTally, kRiskClasses.size()>;
 
 struct RiskBatch {

@@ -74,6 +74,8 @@ glm::dvec2 view_of(const AircraftState& own, const glm::dvec3& offset_m) {
 }
 
 struct Decision {
+  std::optional<std::size_t> first_in_view;
+  std::size_t declared = 0;  // step of it, where is_declared
   bool is_declared = false;
   std::optional<double> declared_range_m;
   std::size_t begin = 0;  // step of the manoeuvre's begin; the number of steps: none
@@ -153,6 +155,7 @@ Result<Decision> seen_by_sensor(const RiskSettings& settings, const FlownPair& p
     const double time_s = static_cast<double>(k) * pair.step_s;
     bool is_detected = false;
     if (sensor.field_of_view.holds(view_of(own, offset_m))) {
+      if (!decision.first_in_view) decision.first_in_view = k;
       const HorizonSide side = std::abs(offset_m.z) < kHalfHeight_m ? HorizonSide::on
                                : offset_m.z < 0                     ? HorizonSide::above
                                                                     : HorizonSide::below;
@@ -163,9 +166,13 @@ Result<Decision> seen_by_sensor(const RiskSettings& settings, const FlownPair& p
     }
     was_in_reach = true;
     if (!draw.is_declared(is_detected)) continue;
-    if (!decision.is_declared) decision.declared_range_m = std::sqrt(range_square);
+    if (!decision.is_declared) {
+      decision.declared_range_m = std::sqrt(range_square);
+      decision.declared = k;
+    }
     decision.is_declared = true;
     if (range_square > settings.alert_range_m * settings.alert_range_m) continue;
+    if (glm::dot(offset_m, pair.intruder[k].velocity_mps - own.velocity_mps) > 0) continue;  // it recedes
     const Result<ManoeuvreKind> kind =
         decided(settings, logic, threat_of(sensor, own, pair.intruder[k], number, time_s, random));
     if (!kind) return fail(kind.error());
@@ -180,6 +187,7 @@ Result<Decision> seen_by_sensor(const RiskSettings& settings, const FlownPair& p
 Result<Decision> seen_in_images(const RiskSettings& settings, const RiskPair& recorded, const FlownPair& pair,
                                 std::int64_t number, const Logic& logic, Random& random) {
   Decision decision{.begin = pair.own.size()};
+  decision.first_in_view = 0;  // images tell no more
   if (!recorded.declared_s || pair.own.empty()) return decision;
   decision.is_declared = true;
   const double first_s = std::max(recorded.own.first_s, recorded.intruder.first_s);
@@ -187,6 +195,8 @@ Result<Decision> seen_in_images(const RiskSettings& settings, const RiskPair& re
   const auto k = std::min(pair.own.size() - 1, static_cast<std::size_t>(time_s / pair.step_s));
   const glm::dvec3 offset_m = pair.intruder[k].position_m - pair.own[k].position_m;
   decision.declared_range_m = glm::length(offset_m);
+  decision.declared = k;
+  if (glm::dot(offset_m, pair.intruder[k].velocity_mps - pair.own[k].velocity_mps) > 0) return decision;
   const Result<ManoeuvreKind> kind =
       decided(settings, logic, threat_of(settings.sensor, pair.own[k], pair.intruder[k], number, time_s, random));
   if (!kind) return fail(kind.error());
@@ -272,9 +282,11 @@ Result<FlownOutcome> flown_encounter(const RiskSettings& settings, std::int64_t 
                                         ? seen_in_images(settings, *recorded, pair, number, logic, random)
                                         : seen_by_sensor(settings, pair, steps, number, logic, random);
   if (!decision) return fail(decision.error());
-  outcome.is_declared = decision->is_declared;
+  // What comes after an NMAC is no help.
+  outcome.is_in_view = decision->first_in_view && *decision->first_in_view < without.nmac;
+  outcome.is_declared = decision->is_declared && decision->declared < without.nmac;
   outcome.declared_range_m = decision->declared_range_m;
-  outcome.is_manoeuvred = decision->begin < none;
+  outcome.is_manoeuvred = decision->begin < none && decision->begin <= without.nmac;
   outcome.nmac_with = outcome.nmac_without;
   outcome.lost_with = outcome.lost_without;
   if (!outcome.is_manoeuvred) return outcome;

@@ -33,7 +33,8 @@ struct FlownOutcome {
   bool is_above = false;  // the intruder, when both begin
   bool nmac_without = false, nmac_with = false;
   bool lost_without = false, lost_with = false;  // well clear
-  bool is_declared = false;
+  bool is_in_view = false;   // within the sensor's field and reach at some frame before an NMAC without the system
+  bool is_declared = false;  // before one
   bool is_manoeuvred = false;
   std::optional<double> declared_range_m = {};
 };

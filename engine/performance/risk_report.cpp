@@ -15,15 +15,33 @@ namespace sigs {
 namespace {
 
 // The numbers of a tally, in a fixed order, for the batches of shards.
-constexpr std::size_t kTallyNumbers = 18;
+constexpr std::size_t kTallyNumbers = 22;
 
 std::array<double, kTallyNumbers> numbers_of_tally(const RiskTally& tally) {
   const EventSums& a = tally.nmac;
   const EventSums& b = tally.well_clear;
-  return {double(tally.encounters), tally.weight,   tally.weight_squares, a.without,     a.with,
-          a.without_squares,        a.with_squares, a.both_squares,       b.without,     b.with,
-          b.without_squares,        b.with_squares, b.both_squares,       tally.induced, tally.declared,
-          tally.manoeuvred,         tally.clear,    tally.unnecessary};
+  return {double(tally.encounters),
+          tally.weight,
+          tally.weight_squares,
+          a.without,
+          a.with,
+          a.without_squares,
+          a.with_squares,
+          a.both_squares,
+          b.without,
+          b.with,
+          b.without_squares,
+          b.with_squares,
+          b.both_squares,
+          tally.induced,
+          tally.declared,
+          tally.manoeuvred,
+          tally.clear,
+          tally.unnecessary,
+          tally.out_of_view,
+          tally.undeclared,
+          tally.waiting,
+          tally.insufficient};
 }
 
 RiskTally tally_of_numbers(const std::array<double, kTallyNumbers>& n) {
@@ -33,6 +51,10 @@ RiskTally tally_of_numbers(const std::array<double, kTallyNumbers>& n) {
           .nmac = {n[3], n[4], n[5], n[6], n[7]},
           .well_clear = {n[8], n[9], n[10], n[11], n[12]},
           .induced = n[13],
+          .out_of_view = n[18],
+          .undeclared = n[19],
+          .waiting = n[20],
+          .insufficient = n[21],
           .declared = n[14],
           .manoeuvred = n[15],
           .clear = n[16],
@@ -49,6 +71,7 @@ Json limit_json(double number) {
 
 Json class_json(const char* name, const RiskTally& tally) {
   const auto share = [&](double part, double whole) { return ratio_json(weighted_share(part, whole, tally)); };
+  const auto part = [&](double sum) { return tally.nmac.without > 0 ? Json(sum / tally.nmac.without) : Json(nullptr); };
   return {{"class", name},
           {"encounters", tally.encounters},
           {"risk_ratio_nmac", ratio_json(risk_ratio(tally.nmac))},
@@ -58,6 +81,12 @@ Json class_json(const char* name, const RiskTally& tally) {
           {"p_lost_without", share(tally.well_clear.without, tally.weight)},
           {"p_lost_with", share(tally.well_clear.with, tally.weight)},
           {"induced_nmac_ratio", tally.nmac.without > 0 ? Json(tally.induced / tally.nmac.without) : Json(nullptr)},
+          {"remaining_nmac",
+           {{"out_of_view", part(tally.out_of_view)},
+            {"in_view_undeclared", part(tally.undeclared)},
+            {"declared_no_manoeuvre", part(tally.waiting)},
+            {"manoeuvre_insufficient", part(tally.insufficient)},
+            {"induced", part(tally.induced)}}},
           {"declared", share(tally.declared, tally.weight)},
           {"manoeuvred", share(tally.manoeuvred, tally.weight)},
           {"unnecessary_manoeuvres", share(tally.unnecessary, tally.clear)}};
@@ -67,21 +96,22 @@ Json settings_json(const RiskSettings& settings) {
   const RiskEncounters& e = settings.encounters;
   const Manoeuvre& m = settings.manoeuvre;
   const WellClearVolume& v = settings.well_clear;
+  // What recorded pairs do not use.
+  const auto if_drawn = [&](const auto& value) { return e.pairs.empty() ? Json(value) : Json(nullptr); };
   Json pairs = Json::array();
   for (const RiskPair& pair : e.pairs) pairs.push_back(line_text(pair.name));
   return {{"sensor", line_text(settings.sensor.detector)},
-          {"sensor_rate_hz", settings.sensor.rate_hz},
-          {"sensor_farthest_m", settings.sensor.range_m.back()},
+          {"sensor_model", Json::parse(sensor_model_json(settings.sensor))},
           {"pairs", pairs},
-          {"own_model", e.own_model.has_value()},
-          {"intruder_models", e.intruder_models.size()},
-          {"own_speed_mps", e.own_speed_mps},
-          {"intruder_speed_mps", e.intruder_speed_mps},
-          {"miss_m", e.miss_m},
-          {"vertical_miss_m", e.vertical_miss_m},
-          {"lead_s", e.lead_s},
+          {"own_model", if_drawn(e.own_model.has_value())},
+          {"intruder_models", if_drawn(e.intruder_models.size())},
+          {"own_speed_mps", if_drawn(e.own_speed_mps)},
+          {"intruder_speed_mps", if_drawn(e.intruder_speed_mps)},
+          {"miss_m", if_drawn(e.miss_m)},
+          {"vertical_miss_m", if_drawn(e.vertical_miss_m)},
+          {"lead_s", if_drawn(e.lead_s)},
           {"after_s", e.after_s},
-          {"importance_sampling", e.importance_sampling},
+          {"importance_sampling", if_drawn(e.importance_sampling)},
           {"manoeuvre", kManoeuvreNames[static_cast<std::size_t>(m.kind)]},
           {"delay_s", m.delay_s},
           {"turn_rate_deg_s", limit_json(deg_of_rad(m.turn_rate_radps))},
@@ -118,14 +148,23 @@ std::string ratio_text(const Json& ratio, int decimals) {
 std::vector<std::string> risk_sentences(const Json& json) {
   const Json& all = json.at("classes").at(0);
   const Json& settings = json.at("settings");
+  const Json& left = all.at("remaining_nmac");
   std::vector<std::string> lines{
       fmt::format("Risk ratio of NMAC (500 ft, 100 ft): {}; of losing well clear ({}): {}; {} encounters.",
                   ratio_text(all.at("risk_ratio_nmac"), 3), settings.at("well_clear").at("name").get<std::string>(),
                   ratio_text(all.at("risk_ratio_well_clear"), 3), all.at("encounters").get<std::int64_t>()),
-      fmt::format("Induced NMACs: {} of those without the system. Declared: {}. Manoeuvres where well clear would not "
-                  "have been lost: {} of such encounters.",
-                  number_of(all.at("induced_nmac_ratio"), 4), ratio_text(all.at("declared"), 3),
-                  ratio_text(all.at("unnecessary_manoeuvres"), 3)),
+      fmt::format(
+          "What is left of the NMACs, as shares of those without the system: {} never in the sensor's view, {} in "
+          "view but not declared in time, {} declared without a manoeuvre, {} where the manoeuvre did not "
+          "suffice; {} induced by it.",
+          number_of(left.at("out_of_view"), 3), number_of(left.at("in_view_undeclared"), 3),
+          number_of(left.at("declared_no_manoeuvre"), 3), number_of(left.at("manoeuvre_insufficient"), 3),
+          number_of(left.at("induced"), 3)),
+      fmt::format("Declared before an NMAC or the end: {}. Manoeuvres where well clear would not have been lost: {} of "
+                  "such encounters.",
+                  ratio_text(all.at("declared"), 3), ratio_text(all.at("unnecessary_manoeuvres"), 3)),
+      fmt::format("The intervals are those of the encounters alone. That the sensor was measured on {} is not in them.",
+                  count_text(settings.at("sensor_model").at("encounters").get<std::int64_t>(), "encounter")),
       fmt::format("Manoeuvre: {}, {} s after the declaration.", settings.at("manoeuvre").get<std::string>(),
                   number_of(settings.at("delay_s"), 1))};
   const Json& unnecessary = all.at("unnecessary_manoeuvres").at("value");

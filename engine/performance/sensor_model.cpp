@@ -226,8 +226,9 @@ Result<SensorModel> sensor_model_of(const std::string& text, const std::string& 
   const Result<Json> json = parsed_json(text, file, ErrorKind::bad_data);
   if (!json) return fail(json.error());
   if (!json->is_object() || json->value("sigs_sensor_model", Json()) != 1)
-    return fail(
-        file, "is no sensor model: it has no \"sigs_sensor_model\": 1; sigs evaluate performance --sensor writes one");
+    return fail(file,
+                "is no sensor model: it has no \"sigs_sensor_model\": 1; sigs evaluate performance --out DIR writes "
+                "one, DIR/sensor.json");
   SensorModel model;
   MemberReader root(*json, file + ": sensor model");
   if (root.has("detector") && (*json)["detector"].is_string()) model.detector = (*json)["detector"];

@@ -41,7 +41,7 @@ inline std::vector<ObservedEncounter> made_encounters(const MadeSensor& sensor, 
     for (std::size_t k = 0; k < encounter.frames.size(); ++k) {
       hits += encounter.frames[k].is_detected ? 1 : 0;
       if (k >= 5) hits -= encounter.frames[k - 5].is_detected ? 1 : 0;
-      encounter.frames[k].is_declared = hits >= 3;
+      encounter.frames[k].is_declared = hits >= 3 || encounter.declared.has_value();
       if (hits >= 3 && !encounter.declared)
         encounter.declared = {
             .time_s = encounter.frames[k].time_s, .range_m = encounter.frames[k].range_m, .time_left_s = 0};

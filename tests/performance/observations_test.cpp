@@ -47,7 +47,8 @@ TEST_CASE("a track is declared at the third match of five frames") {
   CHECK(*encounter.latency_s == doctest::Approx(1.0).epsilon(1e-12));
   CHECK(encounter.frames[24].is_declared);
   CHECK_FALSE(encounter.frames[23].is_declared);
-  CHECK_FALSE(encounter.frames[25].is_declared);  // frames 21 to 25 have two
+  CHECK(encounter.frames[99].is_declared);  // from then on
+  CHECK_FALSE(encounter.is_declared_at_once);
   // 60 m before the range is least, at 80 m/s: the clip's last frame is 2.5 s away from the point of closest approach
   // on straight flight; without positions nothing is known of it.
   CHECK(std::isnan(encounter.declared->time_left_s));
