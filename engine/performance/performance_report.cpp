@@ -209,7 +209,8 @@ std::string coverage_html(const Json& coverage) {
     for (const Json& bin : condition.at("bins")) {
       const auto encounters = bin.at("encounters").get<std::int64_t>();
       const std::string remark = !bin.at("in_domain").get<bool>() ? "not of the domain"
-                                 : encounters < least             ? "EMPTY"
+                                 : encounters == 0                ? "EMPTY"
+                                 : encounters < least             ? "too few"
                                                                   : "";
       const std::vector<std::string> cells{condition.at("name").get<std::string>(), domain_bin_text(bin),
                                            std::to_string(bin.at("frames").get<std::int64_t>()),

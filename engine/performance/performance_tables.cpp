@@ -68,8 +68,9 @@ std::string false_line(const char* where, const FalseTracks& tracks, const Inter
                                  count_text(tracks.clips, "clip"));
   if (tracks.declared == 0)
     return text + fmt::format(": below {} an hour (95 %, one-sided).", fixed_text(per_hour.high, 1));
-  return text +
-         fmt::format(": {} an hour ({}).", fixed_text(tracks.declared / tracks.hours, 1), interval_text(per_hour, 1));
+  const int decimals = tracks.declared >= 100 ? 0 : 1;
+  return text + fmt::format(": {} an hour ({}).", fixed_text(tracks.declared / tracks.hours, decimals),
+                            interval_text(per_hour, decimals));
 }
 
 std::string drop_out_line(const Performance& performance) {

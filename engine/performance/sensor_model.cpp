@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "base/input_file.h"
@@ -92,7 +93,16 @@ class MemberReader {
   MemberReader(const Json& json, std::string place) : json_(json), place_(std::move(place)) {}
 
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-  [[nodiscard]] bool has(const char* name) const { return json_.contains(name) && !json_[name].is_null(); }
+  [[nodiscard]] bool has(const char* name) {
+    known_.insert(name);
+    return json_.contains(name) && !json_[name].is_null();
+  }
+
+  // A member that nobody asked for is a misspelt one.
+  void check_unknown() {
+    for (const auto& [name, value] : json_.items())
+      if (!known_.contains(name) && name != "about") wrong(name, "is no member; docs/risk.md lists them");
+  }
 
   double number(const char* name, double low, double high, std::optional<double> otherwise = {}) {
     if (!has(name) && otherwise) return *otherwise;
@@ -124,7 +134,9 @@ class MemberReader {
     return {kNothing, place_ + "." + name};
   }
 
-  void take_error(const MemberReader& other) {
+  // When all of it was read.
+  void take_error(MemberReader& other) {
+    other.check_unknown();
     if (!error_) error_ = other.error_;
   }
   void wrong(const std::string& name, const std::string& what) {
@@ -134,6 +146,7 @@ class MemberReader {
  private:
   const Json& json_;
   std::string place_;
+  std::set<std::string, std::less<>> known_;
   std::optional<Error> error_;
 };
 
@@ -251,6 +264,8 @@ Result<SensorModel> sensor_model_of(const std::string& text, const std::string& 
   if (errors.has("range_sd")) model.range_sd = errors.number("range_sd", 0, 100);
   root.take_error(errors);
   if (root.has("false_tracks_per_hour")) model.false_tracks_per_hour = root.number("false_tracks_per_hour", 0, 1e9);
+  (void)root.has("sigs_sensor_model");
+  root.check_unknown();
   if (root.error()) return fail(*root.error());
   return model;
 }

@@ -2,6 +2,7 @@
 # From a recipe to the performance of a sensor and its risk ratio: dataset, a plain detector, report, risk, and the check
 # of the sensor model against the images. Needs a build (scripts/setup.sh, cmake) and python3-opencv.
 #   projects/performance/run.sh [FOLDER [VIDEOS]]   FOLDER: out/performance; VIDEOS: only the first so many of 200
+#   NETWORK=1 trains a small network as well and lets it look at the first 40 videos (python3-torch; some 20 minutes)
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 out=${1:-out/performance}
@@ -29,3 +30,22 @@ evaluate=("$sigs" evaluate performance "$out/dataset" --results "$out/plain" --e
 "$sigs" dataset "$out/dataset" --domain $here/domain.json --force --json "$out/coverage.json" >/dev/null
 "${evaluate[@]}" --out "$out/report" --risk "$out/risk.json" --coverage "$out/coverage.json"
 cat "$out/loop.txt"
+
+[ "${NETWORK:-}" = 1 ] || exit 0
+example=python/examples/train_detector.py
+"$sigs" dataset $here/images.json --out "$out/images" --resume
+[ -e "$out/network.pt" ] || python3 $example train "$out/images/labels/coco/all.json" --images "$out/images" \
+  --out "$out/network.pt" --steps 1500
+labels=() found=() plain=()
+for labels_file in $(ls "$out"/dataset/encounter-*/*.xml | head -40); do
+  name=$(basename "$labels_file" .xml)
+  labels+=("$labels_file")
+  found+=("$out/network/$name.csv")
+  plain+=("$out/plain/$name.csv")
+done
+[ -e "${found[-1]}" ] || python3 $example watch "${labels[@]/%.xml/.mp4}" --weights "$out/network.pt" --out "$out/network" --score 0.5
+for results in found plain; do
+  declare -n files=$results
+  "$sigs" evaluate performance "${labels[@]}" --results "${files[@]}" --calibration assets/calibrations/sample.xml \
+    --own-speed 22 --force --out "$out/report-$results"
+done

@@ -190,6 +190,37 @@ TEST_CASE("a field of view that looks away sees nothing; one that looks ahead no
   CHECK(risk_ratio(result.tallies[3].nmac).ratio > 0.9);   // equal courses: the faster intruder comes from behind
 }
 
+TEST_CASE("what is left of the NMACs is told by what failed, and adds up") {
+  RiskSettings settings = straight(300, 4);
+  settings.count = 4000;
+  settings.sensor.field_of_view = {.left_rad = -0.6, .right_rad = 0.6, .down_rad = -0.5, .up_rad = 0.5};
+  settings.alert_rate_radps = 0.1;
+  const RiskTally tally = flown(settings).tallies[0];
+  CHECK(tally.out_of_view > 0);
+  CHECK(tally.insufficient > 0);
+  CHECK(tally.out_of_view + tally.undeclared + tally.waiting + tally.insufficient + tally.induced ==
+        doctest::Approx(tally.nmac.with).epsilon(1e-9));
+  // All around and seen at once: nothing is out of view or undeclared.
+  settings.sensor = seeing_within(2000);
+  const RiskTally seen = flown(settings).tallies[0];
+  CHECK(seen.out_of_view == 0);
+  CHECK(seen.undeclared == 0);
+}
+
+TEST_CASE("what recedes leads to no manoeuvre") {
+  const auto line = [](double from_m, double speed_mps) {
+    SampledTrack track{.name = "a", .samples = {}};
+    for (const double t : {0.0, 40.0}) track.samples.push_back({t, {.position_m = {from_m + speed_mps * t, 0, -100}}});
+    return track_of(track);
+  };
+  RiskSettings settings = straight(5000, 5);
+  settings.count = 1;
+  settings.encounters.pairs = {{.name = "away", .own = line(0, 20), .intruder = line(200, 60)}};
+  const RiskTally tally = flown(settings).tallies[0];
+  CHECK(tally.declared == 1);
+  CHECK(tally.manoeuvred == 0);
+}
+
 TEST_CASE("courses and sides are told apart, and make up all encounters") {
   RiskSettings settings = straight(500, 4);
   settings.count = 4000;

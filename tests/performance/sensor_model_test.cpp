@@ -123,6 +123,9 @@ TEST_CASE("files that are no model are refused with the member's name") {
   CHECK(has(error_of("{}"), "is no sensor model"));
   CHECK(has(error_of("nonsense"), "sensor.json"));
   CHECK(has(error_of(R"({"sigs_sensor_model": 1})"), "frame_rate_hz"));
+  CHECK(has(error_of(head + R"("latencyy_s": 1, "detection": {"range_m": [100], "probability": [1]}})"), "latencyy_s"));
+  CHECK(
+      has(error_of(head + R"("detection": {"range_m": [100], "probability": [1], "shift": {"below": 1}}})"), "below"));
   CHECK(has(error_of(head + R"("detection": {"range_m": [100, 100], "probability": [1, 0]}})"), "range_m"));
   CHECK(has(error_of(head + R"("detection": {"range_m": [100], "probability": [1, 0]}})"), "probability"));
   CHECK(has(error_of(head + R"("detection": {"range_m": [], "probability": []}})"), "range_m"));
