@@ -8,11 +8,11 @@ cd "$(dirname "$0")/../.."
 out=${1:-out/performance}
 sigs=${SIGS:-build/release/sigs}
 here=projects/performance
-recipe=$here/encounters.json
+recipe=$here/performance.json
 mkdir -p "$out"
 if [ $# -gt 1 ]; then
   recipe=$here/.some.json
-  sed "s/\"videos\": 200/\"videos\": $2/" $here/encounters.json >$recipe
+  sed "s/\"videos\": 200/\"videos\": $2/" $here/performance.json >$recipe
   trap 'rm -f $here/.some.json' EXIT
 fi
 
