@@ -257,6 +257,7 @@ Result<void> make_sheet(const DatasetOptions& options) {
 // A folder as RECIPE, and options that do not go together.
 Result<void> check_modes(const DatasetOptions& options) {
   const auto& [json, plot, fill, force] = options.files;
+  std::error_code code;
   const bool is_made = is_folder(options.recipe);
   const bool counts = options.coverage || options.data_sheet;
   if (options.data_sheet && (options.coverage || options.dry_run || !options.domain.empty()))
@@ -265,7 +266,7 @@ Result<void> check_modes(const DatasetOptions& options) {
     return fail(options.recipe.string(),
                 "is a folder: a dataset that was made goes with --coverage, --domain or --data-sheet, without --out; "
                 "give the recipe's file for all else",
-                ErrorKind::usage);
+                fs::exists(options.recipe / kIndexName, code) ? ErrorKind::usage : ErrorKind::cannot_read);
   if (!fill.empty() && (options.domain.empty() || is_made))
     return fail("--fill",
                 is_made ? "needs the recipe, in whose folder its paths start: sigs dataset RECIPE --out DIR --coverage "
