@@ -7,6 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 out=${1:-out/performance}
 sigs=${SIGS:-build/release/sigs}
+python=${PYTHON:-python3}
 here=projects/performance
 recipe=$here/performance.json
 mkdir -p "$out"
@@ -18,7 +19,7 @@ fi
 
 "$sigs" dataset $recipe --out "$out/dataset" --resume
 "$sigs" dataset "$out/dataset" --data-sheet --force
-python3 $here/detect.py "$out"/dataset/*/*.mp4 assets/footage/sample.mp4 assets/footage/table1_clear.mp4 \
+"$python" $here/detect.py "$out"/dataset/*/*.mp4 assets/footage/sample.mp4 assets/footage/table1_clear.mp4 \
   assets/footage/table1_clouds.mp4 --out "$out/plain" --keep
 evaluate=("$sigs" evaluate performance "$out/dataset" --results "$out/plain" --empty assets/footage/sample.mp4
   assets/footage/table1_clear.mp4 assets/footage/table1_clouds.mp4 --own-speed 22 --force)
@@ -34,7 +35,7 @@ cat "$out/loop.txt"
 [ "${NETWORK:-}" = 1 ] || exit 0
 example=python/examples/train_detector.py
 "$sigs" dataset $here/images.json --out "$out/images" --resume
-[ -e "$out/network.pt" ] || python3 $example train "$out/images/labels/coco/all.json" --images "$out/images" \
+[ -e "$out/network.pt" ] || "$python" $example train "$out/images/labels/coco/all.json" --images "$out/images" \
   --out "$out/network.pt" --steps 1500
 labels=() found=() plain=()
 for labels_file in $(ls "$out"/dataset/encounter-*/*.xml | head -40); do
@@ -43,7 +44,7 @@ for labels_file in $(ls "$out"/dataset/encounter-*/*.xml | head -40); do
   found+=("$out/network/$name.csv")
   plain+=("$out/plain/$name.csv")
 done
-[ -e "${found[-1]}" ] || python3 $example watch "${labels[@]/%.xml/.mp4}" --weights "$out/network.pt" --out "$out/network" --score 0.5
+[ -e "${found[-1]}" ] || "$python" $example watch "${labels[@]/%.xml/.mp4}" --weights "$out/network.pt" --out "$out/network" --score 0.5
 for results in found plain; do
   declare -n files=$results
   "$sigs" evaluate performance "${labels[@]}" --results "${files[@]}" --calibration assets/calibrations/sample.xml \
