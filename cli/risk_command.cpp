@@ -33,7 +33,6 @@ constexpr const char* kRiskFooter =
     "Examples:\n"
     "  sigs risk report/sensor.json\n"
     "  sigs risk report/sensor.json --intruder uncor_1200only_fwse_v1p2.txt --manoeuvre descend --json risk.json\n"
-    "  sigs risk report/sensor.json --pairs headon.csv converging.csv --count 2000\n"
     "  sigs risk report/sensor.json --labels datasets/mine --results found    # images and sensor model side by side\n"
     "  sigs risk report/sensor.json --shard 1/4 --json part1.json             # then, of all four:\n"
     "  sigs risk --merge part1.json part2.json part3.json part4.json --json risk.json";
@@ -212,7 +211,9 @@ Result<Json> merged(const RiskOptions& options) {
 Result<Json> compared(const RiskOptions& options, RiskSettings settings, const Logic& logic) {
   Result<ReadPerformance> read = read_performance(options.images);
   if (!read) return fail(read.error());
-  if (!options.pairs.empty()) return fail("--pairs", "and --labels exclude each other", ErrorKind::usage);
+  if (!options.pairs.empty() || !options.intruders.empty() || !options.own.empty() || !options.own_speed.empty() ||
+      !options.intruder_speed.empty())
+    return fail("--labels", "excludes --pairs, --own, --intruder and speeds: it has its flights", ErrorKind::usage);
   const std::vector<ObservedEncounter>& observed = read->observations.encounters;
   for (const PerformanceClip& clip : read->clips)
     for (const TargetTruth& target : clip.detected.truth.targets) {
