@@ -77,7 +77,6 @@ struct Decision {
   std::optional<std::size_t> first_in_view;
   std::size_t declared = 0;  // step of it, where is_declared
   bool is_declared = false;
-  std::optional<double> declared_range_m;
   std::size_t begin = 0;  // step of the manoeuvre's begin; the number of steps: none
   ManoeuvreKind kind = ManoeuvreKind::none;
 };
@@ -135,6 +134,26 @@ std::size_t step_of_begin(const RiskSettings& settings, const FlownPair& pair, d
                                                       : pair.own.size();
 }
 
+// What is decided at a step at which a track is declared, known so late; the manoeuvre's begin is set where there is
+// one. A track waits while it is too far away, recedes or turns too fast.
+Result<void> decide_at(Decision& decision, std::size_t k, double latency_s, const RiskSettings& settings,
+                       const FlownPair& pair, std::int64_t number, const Logic& logic, Random& random) {
+  if (!decision.is_declared) decision.declared = k;
+  decision.is_declared = true;
+  const AircraftState& own = pair.own[k];
+  const AircraftState& intruder = pair.intruder[k];
+  const glm::dvec3 offset_m = intruder.position_m - own.position_m;
+  if (glm::length(offset_m) > settings.alert_range_m) return {};
+  if (glm::dot(offset_m, intruder.velocity_mps - own.velocity_mps) > 0) return {};
+  const double time_s = static_cast<double>(k) * pair.step_s;
+  const Result<ManoeuvreKind> kind =
+      decided(settings, logic, threat_of(settings.sensor, own, intruder, number, time_s, random));
+  if (!kind) return fail(kind.error());
+  decision.kind = *kind;
+  if (*kind != ManoeuvreKind::none) decision.begin = step_of_begin(settings, pair, time_s + latency_s);
+  return {};
+}
+
 Result<Decision> seen_by_sensor(const RiskSettings& settings, const FlownPair& pair, const Steps& steps,
                                 std::int64_t number, const Logic& logic, Random& random) {
   const SensorModel& sensor = settings.sensor;
@@ -166,43 +185,27 @@ Result<Decision> seen_by_sensor(const RiskSettings& settings, const FlownPair& p
     }
     was_in_reach = true;
     if (!draw.is_declared(is_detected)) continue;
-    if (!decision.is_declared) {
-      decision.declared_range_m = std::sqrt(range_square);
-      decision.declared = k;
-    }
-    decision.is_declared = true;
-    if (range_square > settings.alert_range_m * settings.alert_range_m) continue;
-    if (glm::dot(offset_m, pair.intruder[k].velocity_mps - own.velocity_mps) > 0) continue;  // it recedes
-    const Result<ManoeuvreKind> kind =
-        decided(settings, logic, threat_of(sensor, own, pair.intruder[k], number, time_s, random));
-    if (!kind) return fail(kind.error());
-    if (*kind == ManoeuvreKind::none) continue;
-    decision.kind = *kind;
-    decision.begin = step_of_begin(settings, pair, time_s + sensor.latency_s);
-    return decision;
+    if (const Result<void> done = decide_at(decision, k, sensor.latency_s, settings, pair, number, logic, random);
+        !done)
+      return fail(done.error());
+    if (decision.kind != ManoeuvreKind::none) return decision;
   }
   return decision;
 }
 
+// From the declaration on, which has the latency in it, at each of the sensor's frames.
 Result<Decision> seen_in_images(const RiskSettings& settings, const RiskPair& recorded, const FlownPair& pair,
-                                std::int64_t number, const Logic& logic, Random& random) {
-  Decision decision{.begin = pair.own.size()};
-  decision.first_in_view = 0;  // images tell no more
-  if (!recorded.declared_s || pair.own.empty()) return decision;
-  decision.is_declared = true;
+                                const Steps& steps, std::int64_t number, const Logic& logic, Random& random) {
+  Decision decision{.first_in_view = 0, .begin = pair.own.size()};  // images tell no more
+  if (!recorded.declared_s) return decision;
   const double first_s = std::max(recorded.own.first_s, recorded.intruder.first_s);
-  const double time_s = std::max(0.0, *recorded.declared_s - first_s);
-  const auto k = std::min(pair.own.size() - 1, static_cast<std::size_t>(time_s / pair.step_s));
-  const glm::dvec3 offset_m = pair.intruder[k].position_m - pair.own[k].position_m;
-  decision.declared_range_m = glm::length(offset_m);
-  decision.declared = k;
-  if (glm::dot(offset_m, pair.intruder[k].velocity_mps - pair.own[k].velocity_mps) > 0) return decision;
-  const Result<ManoeuvreKind> kind =
-      decided(settings, logic, threat_of(settings.sensor, pair.own[k], pair.intruder[k], number, time_s, random));
-  if (!kind) return fail(kind.error());
-  if (*kind == ManoeuvreKind::none) return decision;
-  decision.kind = *kind;
-  decision.begin = step_of_begin(settings, pair, time_s);
+  const auto declared = static_cast<std::size_t>(std::max(0.0, *recorded.declared_s - first_s) / pair.step_s);
+  for (std::size_t k = std::min(pair.own.size() - 1, declared); k < pair.own.size();
+       k += static_cast<std::size_t>(steps.of_frame)) {
+    if (const Result<void> done = decide_at(decision, k, 0, settings, pair, number, logic, random); !done)
+      return fail(done.error());
+    if (decision.kind != ManoeuvreKind::none) break;
+  }
   return decision;
 }
 
@@ -279,13 +282,12 @@ Result<FlownOutcome> flown_encounter(const RiskSettings& settings, std::int64_t 
       recorded ? none / 2 : std::min(none - 1, static_cast<std::size_t>(settings.encounters.lead_s / pair.step_s));
   outcome.geometry = geometry_of(pair.own[near], pair.intruder[near]);
   const Result<Decision> decision = recorded && recorded->is_from_images
-                                        ? seen_in_images(settings, *recorded, pair, number, logic, random)
+                                        ? seen_in_images(settings, *recorded, pair, steps, number, logic, random)
                                         : seen_by_sensor(settings, pair, steps, number, logic, random);
   if (!decision) return fail(decision.error());
   // What comes after an NMAC is no help.
   outcome.is_in_view = decision->first_in_view && *decision->first_in_view < without.nmac;
   outcome.is_declared = decision->is_declared && decision->declared < without.nmac;
-  outcome.declared_range_m = decision->declared_range_m;
   outcome.is_manoeuvred = decision->begin < none && decision->begin <= without.nmac;
   outcome.nmac_with = outcome.nmac_without;
   outcome.lost_with = outcome.lost_without;

@@ -36,7 +36,6 @@ struct FlownOutcome {
   bool is_in_view = false;   // within the sensor's field and reach at some frame before an NMAC without the system
   bool is_declared = false;  // before one
   bool is_manoeuvred = false;
-  std::optional<double> declared_range_m = {};
 };
 
 // The encounter of this number: the same for the same settings, on any thread. Errors: those of the logic.

@@ -277,10 +277,6 @@ std::string risk_text(const Json& json) {
   return text + "\n" + aligned(risk_table(json));
 }
 
-std::string risk_text(const RiskSettings& settings, const RiskResult& result) {
-  return risk_text(risk_json(settings, result));
-}
-
 Result<void> check_risk_json(const Json& json, const std::string& file) {
   try {  // the table reads every member that the others need
     if (json.at("sigs_risk") == 1 && !json.at("classes").empty()) {

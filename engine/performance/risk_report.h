@@ -12,8 +12,6 @@ namespace sigs {
 
 // The result of a simulation of risk, for people and for programs.
 
-[[nodiscard]] std::string risk_text(const RiskSettings& settings, const RiskResult& result);
-
 // All settings and figures, NaN as null. A shard of several has its batches too, which risk_shard_of() reads.
 [[nodiscard]] Json risk_json(const RiskSettings& settings, const RiskResult& result);
 

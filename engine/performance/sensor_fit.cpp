@@ -378,7 +378,7 @@ SensorModelCheck checked_sensor_model(const Performance& performance) {
       }
     }
   }
-  // The draws of one encounter are alike in how it flew: they weigh as one sample.
+  // So many draws stand for the model's own distribution: the number of the images' encounters decides.
   check.distance = distribution_distance(check.images_m, check.model_m);
   const auto share = [](const std::vector<double>& ranges) {
     return ranges.empty()

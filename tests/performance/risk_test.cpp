@@ -296,6 +296,13 @@ TEST_CASE("recorded pairs are flown as they are, and images declare where they d
   CHECK(with(22.6).nmac.with == 1);
   CHECK(with(22.2).nmac.without == 1);
   CHECK(with(22.2).declared == 1);
+  // What was declared waits as the sensor's tracks do: until it is within 700 m, 23 s; that is too late.
+  settings.alert_range_m = 1000;
+  CHECK(with(5).nmac.with == 0);
+  settings.alert_range_m = 700;
+  CHECK(with(5).nmac.with == 1);
+  CHECK(with(5).manoeuvred == 1);
+  settings.alert_range_m = kAtOnce;
   pair.is_from_images = false;
   settings.sensor = seeing_within(1000);
   settings.encounters.pairs = {pair};
