@@ -27,6 +27,7 @@ double bytes_a_pixel(const ExportSettings& output) {
     case VideoCodec::ffv1:
       return 0.38;
     case VideoCodec::h264:
+    case VideoCodec::source:
       return 0.017;
     case VideoCodec::hevc:
     case VideoCodec::av1:

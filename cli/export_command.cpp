@@ -50,7 +50,7 @@ struct SettingText {
 };
 
 constexpr SettingText kSettings[] = {
-    {"--codec", "export.video.codec", "NAME", "ffv1, h264, hevc, av1, mjpeg, png, tiff, jpeg or raw"},
+    {"--codec", "export.video.codec", "NAME", "ffv1, h264, hevc, av1, mjpeg, png, tiff, jpeg, raw or source"},
     {"--crf", "export.video.crf", "N", "quality: 0 lossless to 51 worst (h264, hevc), 63 (av1)"},
     {"--container", "export.video.container", "NAME", "mkv, mp4, avi, nut or y4m"},
     {"--quality", "export.video.quality", "N", "quality of jpeg: 1 worst to 100 best"},
@@ -125,6 +125,8 @@ Result<void> prepare_for_stream(Project& project, const ExportOptions& options) 
     return wrong("--masks " + masks, "is for files; standard output has the video alone");
   if (writes_images(output.codec))
     return wrong("--out -", "numbered images are files; choose the codec ffv1, h264, mjpeg or raw");
+  if (output.codec == VideoCodec::source)
+    return wrong("--out -", "source copies a file into a file; choose the codec ffv1, h264, mjpeg or raw");
   const bool can_stream = output.container == ContainerChoice::nut || output.container == ContainerChoice::y4m;
   if (!can_stream && !given(options, "export.video.container").empty())
     return wrong("--container " + given(options, "export.video.container"),
@@ -160,6 +162,12 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
     request.frames = *range;
   }
   return request;
+}
+
+// Of the codec source.
+void print_copied(const ExportReport& report) {
+  std::fprintf(stderr, "%d of %d frames copied as they are in the footage, %d encoded\n", report.copied_frames,
+               report.frames, report.frames - report.copied_frames);
 }
 
 void print_times(const ExportReport& report) {
@@ -211,6 +219,7 @@ Result<void> run(const ExportOptions& options) {
   if (options.labels_descriptor != STDOUT_FILENO)
     for (const std::filesystem::path& path : report->written) std::printf("%s\n", path.c_str());
   if (options.times) print_times(*report);
+  if (options.progress != "none" && request->project.output.codec == VideoCodec::source) print_copied(*report);
   if (options.progress != "none") print_visibilities(request->project, report->visibilities);
   return {};
 }

@@ -224,11 +224,13 @@ OutputPaths output_paths(const ExportRequest& request, const VideoFormat& video,
 
 }  // namespace
 
-Result<ExportFiles::OpenedVideo> ExportFiles::open_video(const fs::path& path, const VideoFormat& format) {
+Result<ExportFiles::OpenedVideo> ExportFiles::open_video(const fs::path& path, const VideoFormat& format,
+                                                         const SplicePlan* splice, const std::atomic<bool>* cancel) {
   const Result<fs::path> staged =
       writes_images(format.codec) ? outputs_.add_folder(path, check_image_folder) : outputs_.add_file(path);
   if (!staged) return fail(staged.error());
-  Result<VideoWriter> writer = VideoWriter::open(*staged, format);
+  Result<VideoWriter> writer =
+      splice == nullptr ? VideoWriter::open(*staged, format) : VideoWriter::open_splice(*staged, *splice, cancel);
   if (!writer) return fail(writer.error());
   return OpenedVideo{*staged, std::make_unique<WriterThread>(std::move(*writer))};
 }
@@ -254,22 +256,23 @@ Result<void> ExportFiles::write_encounters(const fs::path& path, const Project& 
 }
 
 Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                      const FrameRange& range, const std::atomic<bool>* cancel) {
+                                      const FrameRange& range, const SplicePlan* splice,
+                                      const std::atomic<bool>* cancel) {
   if (request.video_descriptor < 0)
     if (const Result<void> folder = make_inner_folder(request.folder); !folder) return fail(folder.error());
   ExportFiles files(request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  const Result<void> opened = files.open_all(request, footage, scene, range, cancel);
+  const Result<void> opened = files.open_all(request, footage, scene, range, splice, cancel);
   if (!opened) return fail(files.outputs_.with_final_names(opened.error()));
   return files;
 }
 
 Result<void> ExportFiles::open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                   const FrameRange& range, const std::atomic<bool>* cancel) {
+                                   const FrameRange& range, const SplicePlan* splice, const std::atomic<bool>* cancel) {
   if (request.labels_descriptor >= 0) {
     const LabelSequence sequence = label_sequence(request.project, footage, scene, range, "");
     if (const Result<void> opened = open_label_stream(request, sequence, cancel); !opened) return opened;
   }
-  if (request.video_descriptor < 0) return open_files(request, footage, scene, range);
+  if (request.video_descriptor < 0) return open_files(request, footage, scene, range, splice, cancel);
   if (!request.project.output.encounter.empty()) {
     Result<ExportedEncounters> encounters = ExportedEncounters::of(request.project, scene, range);
     if (!encounters) return fail(encounters.error());
@@ -300,13 +303,14 @@ Result<void> ExportFiles::open_label_stream(const ExportRequest& request, const 
 }
 
 Result<void> ExportFiles::open_files(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                     const FrameRange& range) {
+                                     const FrameRange& range, const SplicePlan* splice,
+                                     const std::atomic<bool>* cancel) {
   const ExportSettings& output = request.project.output;
   const VideoFormat format = video_format(output, footage, encoder_threads());
   const VideoFormat masks = mask_format(format, output.masks);
   const OutputPaths paths = output_paths(request, format, masks);
   if (const Result<void> kept = check_inputs_not_overwritten(request.project, paths.all, "export"); !kept) return kept;
-  Result<OpenedVideo> video = open_video(paths.video, format);
+  Result<OpenedVideo> video = open_video(paths.video, format, splice, cancel);
   if (!video) return fail(video.error());
   video_ = std::move(video->writer);
   if (writes_images(format.codec)) image_folder_ = video->staged;
@@ -343,7 +347,8 @@ Result<void> ExportFiles::write(ComposedFrame frame) {
   const int number = frame.truth.index;
   const double time_s = frame.image.time_s;
   bool goes_on = write_labels(frame.truth);
-  if (goes_on) goes_on = video_->put(std::move(frame.image), number);
+  const bool is_copied = frame.image.planes[0].empty();
+  if (goes_on && !is_copied) goes_on = video_->put(std::move(frame.image), number);
   if (masks_) {
     WriterThread& masks = *masks_;
     goes_on &= frame.mask.empty() ? masks.put_blank(time_s, number)

@@ -75,9 +75,10 @@ class WriterThread {
 // caller's. A frame's labels are written before its image is passed on.
 class ExportFiles {
  public:
+  //   splice  of the codec source; null: another codec. Frames that it copies are written without an image
   //   cancel  while it is true, waiting for the reader of a stream soon ends; null, or outlives the files
   [[nodiscard]] static Result<ExportFiles> open(const ExportRequest& request, const VideoInfo& footage,
-                                                const Scene& scene, const FrameRange& range,
+                                                const Scene& scene, const FrameRange& range, const SplicePlan* splice,
                                                 const std::atomic<bool>* cancel);
 
   // Frames in order. An error is that of the first frame that could not be written, which may be an earlier one.
@@ -104,14 +105,18 @@ class ExportFiles {
     std::unique_ptr<WriterThread> writer;
   };
   [[nodiscard]] Result<void> open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                      const FrameRange& range, const std::atomic<bool>* cancel);
+                                      const FrameRange& range, const SplicePlan* splice,
+                                      const std::atomic<bool>* cancel);
   [[nodiscard]] Result<void> open_files(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                        const FrameRange& range);
+                                        const FrameRange& range, const SplicePlan* splice,
+                                        const std::atomic<bool>* cancel);
   [[nodiscard]] Result<void> open_video_stream(const ExportRequest& request, const VideoInfo& footage,
                                                const std::atomic<bool>* cancel);
   [[nodiscard]] Result<void> open_label_stream(const ExportRequest& request, const LabelSequence& sequence,
                                                const std::atomic<bool>* cancel);
-  [[nodiscard]] Result<OpenedVideo> open_video(const std::filesystem::path& path, const VideoFormat& format);
+  [[nodiscard]] Result<OpenedVideo> open_video(const std::filesystem::path& path, const VideoFormat& format,
+                                               const SplicePlan* splice = nullptr,
+                                               const std::atomic<bool>* cancel = nullptr);
   [[nodiscard]] Result<Labels> open_labels(const std::filesystem::path& path, const LabelFormat& format,
                                            const LabelSequence& sequence);
   [[nodiscard]] Result<void> write_encounters(const std::filesystem::path& path, const Project& project,

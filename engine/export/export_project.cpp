@@ -128,6 +128,50 @@ ExportReport begun_report(const Scene& scene, const FrameRange& range, const std
   return report;
 }
 
+// Which frames of the range an intruder changes.
+Result<ChangedFrames> changed_frames(const Scene& scene, const FrameRange& range, const ExportControl& control) {
+  ComposeContext context;
+  const VisibilityEstimator estimator(scene);
+  ChangedFrames frames{.first = range.first};
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    if (const Result<void> on = check_interrupt(control.cancel); !on) return fail(on.error());
+    const std::vector<VisibilityEstimate> estimates = estimator.all_at(frame);
+    constexpr double kSurely_px = 4;  // what is smaller may be too faint: it is drawn to see
+    const bool surely = std::any_of(estimates.begin(), estimates.end(), [](const VisibilityEstimate& estimate) {
+      return estimate.visibility_state == VisibilityState::in_view && estimate.size_px > kSurely_px;
+    });
+    if (surely) {
+      frames.changed.push_back(true);
+      continue;
+    }
+    const Result<std::optional<FrameTruth>> truth = truth_without_image(scene, frame, context);
+    if (!truth) return fail(truth.error());
+    frames.changed.push_back(!truth->has_value());
+  }
+  return frames;
+}
+
+// Of the codec source; none: another codec.
+Result<std::optional<SplicePlan>> splice_plan(const ExportRequest& request, const VideoInfo& footage,
+                                              const Scene& scene, const FrameRange& range,
+                                              const ExportControl& control) {
+  if (request.project.output.codec != VideoCodec::source) return std::optional<SplicePlan>();
+  const Result<ChangedFrames> frames = changed_frames(scene, range, control);
+  if (!frames) return fail(frames.error());
+  Result<SplicePlan> plan = plan_splice(footage, *frames, control.cancel);
+  if (plan) return std::optional(*std::move(plan));
+  if (plan.error().kind != ErrorKind::usage) return fail(plan.error());
+  return fail(request.project.file.string() + ": export.video.codec",
+              fmt::format("source cannot be used: {} {}", plan.error().where, plan.error().what),
+              ErrorKind::bad_project);
+}
+
+void tell(const std::optional<SplicePlan>& splice, const ExportControl& control, ExportReport& report) {
+  if (!splice) return;
+  for (const Warning& warning : splice->warnings) say(control, report, warning);
+  report.copied_frames = static_cast<int>(std::count(splice->encoded.begin(), splice->encoded.end(), false));
+}
+
 // Gives the files their names, once all frames are written.
 Result<void> finish(const ExportRequest& request, const VideoInfo& footage, ExportFiles& files, const Stopwatch& watch,
                     const ExportControl& control, ExportReport& report) {
@@ -157,10 +201,15 @@ Result<ExportReport> exported(const ExportRequest& request, const ExportControl&
   if (!range) return fail(range.error());
   ExportReport report = begun_report(scene, *range, opened->warnings, control);
   warn_of_other_container(project, video, control, report);
-  Result<ExportFiles> files = ExportFiles::open(request, video, scene, *range, control.cancel);
+  Result<std::optional<SplicePlan>> splice = splice_plan(request, video, scene, *range, control);
+  if (!splice) return fail(splice.error());
+  tell(*splice, control, report);
+  Result<ExportFiles> files =
+      ExportFiles::open(request, video, scene, *range, *splice ? &**splice : nullptr, control.cancel);
   if (!files) return fail(files.error());
   {
-    FramePipeline pipeline(scene, opened->source, *range, std::max(1, request.jobs));
+    FramePipeline pipeline(scene, opened->source, *range, std::max(1, request.jobs),
+                           *splice ? (*splice)->encoded : std::vector<bool>());
     if (const Result<void> step = write_frames(pipeline, *range, *opened, request, *files, control, report); !step)
       return fail(step.error());
   }
@@ -182,7 +231,10 @@ Result<ExportReport> exported_frame(const ExportRequest& request, FrameRenderer&
   ENSURE(range->first == range->last);
   ExportReport report = begun_report(*opened->scene, *range, opened->warnings, control);
   warn_of_other_container(project, video, control, report);
-  Result<ExportFiles> files = ExportFiles::open(request, video, *opened->scene, *range, control.cancel);
+  const Result<std::optional<SplicePlan>> splice = splice_plan(request, video, *opened->scene, *range, control);
+  if (!splice) return fail(splice.error());
+  Result<ExportFiles> files =
+      ExportFiles::open(request, video, *opened->scene, *range, *splice ? &**splice : nullptr, control.cancel);
   if (!files) return fail(files.error());
   Result<ComposedFrame> frame = renderer.render(project, range->first, {}, control.cancel);
   if (!frame) return fail(frame.error());
@@ -220,6 +272,13 @@ bool has_even_times(const VideoInfo& footage) {
   return true;
 }
 
+// What footage is in already, for the codec source.
+Container own_container_of(const VideoInfo& footage) {
+  if (footage.container.starts_with("matroska")) return Container::mkv;
+  if (footage.container == "avi") return Container::avi;
+  return lower_case(footage.path.extension().string()) == ".mov" ? Container::mov : Container::mp4;
+}
+
 }  // namespace
 
 Container container_of(const ExportSettings& output, const VideoInfo& footage) {
@@ -246,6 +305,8 @@ Container container_of(const ExportSettings& output, const VideoInfo& footage) {
       return has_even_times(footage) ? Container::avi : Container::mkv;
     case VideoCodec::raw:
       return Container::nut;
+    case VideoCodec::source:
+      return own_container_of(footage);
     default:
       return Container::mkv;
   }
@@ -256,6 +317,7 @@ Result<void> check_output(const Project& project, const VideoInfo& footage) {
     return fail(project.file.string() + ": export.video.container",
                 "y4m has no place for RGB, which the footage is; use nut", ErrorKind::bad_project);
   const Container container = container_of(project.output, footage);
+  if (project.output.codec == VideoCodec::source) return {};
   const bool has_times = container != Container::avi && container != Container::y4m;
   if (!has_times && !writes_images(project.output.codec) && !has_even_times(footage))
     return fail(

@@ -47,6 +47,7 @@ struct ExportReport {
   std::vector<Warning> warnings;
   int frames = 0;
   int damaged_frames = 0;
+  int copied_frames = 0;  // of the codec source: their packets are the footage's
   StageTimes times;
   std::vector<Visibility> visibilities;  // of each intruder in the frames written, by the truth
   std::string renderer_description;      // what Renderer::description says; empty: no intruder came into view
@@ -74,8 +75,8 @@ struct ExportControl {
 [[nodiscard]] std::string labels_without_images(const ExportSettings& output);
 
 // The container that a project is exported into. auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for
-// raw; mkv in place of avi, which has no times, where a frame lies more than 1 ms beside the nominal rate.
-// Images: of no meaning.
+// raw, the footage's own for source; mkv in place of avi, which has no times, where a frame lies more than 1 ms beside
+// the nominal rate. Images: of no meaning.
 [[nodiscard]] Container container_of(const ExportSettings& output, const VideoInfo& footage);
 
 // Errors in a project's outputs that only the footage can show: h264 of an odd size, avi or y4m, which have no times,

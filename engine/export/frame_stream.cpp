@@ -14,8 +14,14 @@
 
 namespace sigs {
 
-FramePipeline::FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs)
-    : scene_(scene), source_(source), range_(range), decoded_(2), finished_(range.first, 2 * jobs + 2) {
+FramePipeline::FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs,
+                             std::vector<bool> needed)
+    : scene_(scene),
+      source_(source),
+      range_(range),
+      needed_(std::move(needed)),
+      decoded_(2),
+      finished_(range.first, 2 * jobs + 2) {
   threads_.reserve(static_cast<std::size_t>(jobs) + 1);
   start(&FramePipeline::decode);
   if (!threads_.empty())
@@ -58,8 +64,16 @@ std::string FramePipeline::renderer_description() {
   return renderer_description_;
 }
 
+bool FramePipeline::is_needed(int number) const {
+  return needed_.empty() || needed_[static_cast<std::size_t>(number - range_.first)];
+}
+
 void FramePipeline::decode() {
   for (int number = range_.first; number <= range_.last; ++number) {
+    if (!is_needed(number)) {
+      if (!decoded_.put({number, {.time_s = source_.info().times_s[static_cast<std::size_t>(number)]}})) break;
+      continue;
+    }
     const Stopwatch watch;
     Result<Frame> frame = guarded([&] { return source_.read(number); });
     decode_s_ = decode_s_ + watch.elapsed_s();
@@ -72,16 +86,26 @@ void FramePipeline::decode() {
   decoded_.close();
 }
 
+Result<ComposedFrame> FramePipeline::composed(DecodedFrame decoded, ComposeContext& context) const {
+  if (is_needed(decoded.number)) return compose_frame(scene_, decoded.number, std::move(decoded.image), context);
+  Result<std::optional<FrameTruth>> truth = truth_without_image(scene_, decoded.number, context);
+  if (!truth) return fail(truth.error());
+  ENSURE(truth->has_value());
+  ComposedFrame composed{.image = std::move(decoded.image)};
+  composed.truth = **std::move(truth);
+  return composed;
+}
+
 void FramePipeline::compose() {
   ComposeContext context;
   // Where the first frame needs OpenGL it is made while that is decoded. If it fails, the frame's error gives the
   // reason.
   if (any_in_view(scene_, range_.first)) static_cast<void>(context.renderer());
   while (std::optional<DecodedFrame> decoded = decoded_.take()) {
-    Result<ComposedFrame> composed =
-        guarded([&] { return compose_frame(scene_, decoded->number, std::move(decoded->image), context); });
-    if (composed && composed->op_counts.pixels_drawn > 0) remember(context.renderer_description());
-    if (!finished_.put(decoded->number, std::move(composed))) break;
+    const int number = decoded->number;
+    Result<ComposedFrame> frame = guarded([&] { return composed(std::move(*decoded), context); });
+    if (frame && frame->op_counts.pixels_drawn > 0) remember(context.renderer_description());
+    if (!finished_.put(number, std::move(frame))) break;
   }
 }
 

@@ -73,7 +73,10 @@ class FramePipeline {
  public:
   // Scene and source must outlive it; no other code may read the source. jobs, 1 or more: frames composed in parallel,
   // fewer where the system gives no more threads.
-  FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs);
+  //   needed  by number from the first of the range: frames that are not are not decoded and have a truth without an
+  //           image; each of them has truth_without_image(). Empty: all are needed
+  FramePipeline(const Scene& scene, FrameSource& source, const FrameRange& range, int jobs,
+                std::vector<bool> needed = {});
   ~FramePipeline();
 
   FramePipeline(const FramePipeline&) = delete;
@@ -95,13 +98,16 @@ class FramePipeline {
   };
   void start(void (FramePipeline::*work)());
   void give_up(const Error& error);
+  [[nodiscard]] bool is_needed(int number) const;
   void decode();
+  [[nodiscard]] Result<ComposedFrame> composed(DecodedFrame decoded, ComposeContext& context) const;
   void compose();
   void remember(std::string description);
 
   const Scene& scene_;
   FrameSource& source_;
   FrameRange range_;
+  std::vector<bool> needed_;
   BoundedQueue<DecodedFrame> decoded_;
   ReorderBuffer<Result<ComposedFrame>> finished_;
   std::atomic<double> decode_s_{0};

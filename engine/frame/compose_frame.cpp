@@ -361,6 +361,23 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   return composed;
 }
 
+Result<std::optional<FrameTruth>> truth_without_image(const Scene& scene, int frame, ComposeContext& context) {
+  const SceneMoment moment = scene_at(scene, frame);
+  std::vector<IntruderLayers> far_to_near;
+  for (const PlacedIntruder& placed : moment.intruders) {
+    Result<IntruderLayers> layers = intruder_layers(scene, moment, placed, context);
+    if (!layers) return fail(layers.error());
+    const bool draws =
+        !layers->occluded.empty() || !layers->contrail.empty() || !layers->shadow.empty() || !layers->lamps.empty();
+    if (draws) return std::optional<FrameTruth>();
+    far_to_near.push_back(std::move(*layers));
+  }
+  const ComposedFrame nothing;
+  return std::optional(
+      truth_of(scene, moment, frame, nothing,
+               intruder_truths(scene, moment, nothing, far_to_near, std::vector<FootageLuma>(far_to_near.size()))));
+}
+
 Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background, ComposeContext& context,
                                     Stages stages) {
   return compose_frame(scene, frame, cloned(background), context, stages);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "base/result.h"
 #include "frame/composed_frame.h"
 #include "frame/render_plan.h"
 #include "scene/scene.h"
+#include "truth/annotation.h"
 #include "video/frame.h"
 
 namespace sigs {
@@ -20,6 +23,11 @@ namespace sigs {
                                                   ComposeContext& context, Stages stages = Stages::leave_out);
 [[nodiscard]] Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background,
                                                   ComposeContext& context, Stages stages = Stages::leave_out);
+
+// The truth of a frame in which nothing is drawn, as compose_frame() has it, without the footage's frame. None where
+// something is, or may be: where only the footage tells whether a cloud hides it.
+[[nodiscard]] Result<std::optional<FrameTruth>> truth_without_image(const Scene& scene, int frame,
+                                                                    ComposeContext& context);
 
 // The stages of one intruder before blending, as compose_frame goes through them; for tests and measurements of single
 // stages.

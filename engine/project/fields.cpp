@@ -114,9 +114,10 @@ void add_geo(FieldList list, GeoSettings& geo) {
 
 void add_output(FieldList list, ExportSettings& output) {
   list.add("video.codec",
-           choice_of(output.codec, {"ffv1", "h264", "hevc", "av1", "mjpeg", "png", "tiff", "jpeg", "raw"}), "",
+           choice_of(output.codec, {"ffv1", "h264", "hevc", "av1", "mjpeg", "png", "tiff", "jpeg", "raw", "source"}),
+           "",
            "ffv1: lossless; h264: small; hevc, av1: smaller, slower; mjpeg; png, tiff, jpeg: numbered images; raw: "
-           "uncompressed");
+           "uncompressed; source: the footage's own, copied where no intruder is");
   list.add("video.container", choice_of(output.container, {"auto", "mkv", "mp4", "avi", "nut", "y4m"}), "",
            "auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg (mkv where the footage's frames are not "
            "evenly spaced), nut for raw");

@@ -137,6 +137,8 @@ void check_output(const ExportSettings& output, Problems& problems) {
   if (writes_images(output.codec) && container != ContainerChoice::automatic)
     problems.push_back(
         {"export.video.container", "png, tiff and jpeg write numbered images, not a container; use auto"});
+  if (output.codec == VideoCodec::source && container != ContainerChoice::automatic)
+    problems.push_back({"export.video.container", "source keeps the footage's container; use auto"});
   if (container == ContainerChoice::y4m && output.codec != VideoCodec::raw)
     problems.push_back({"export.video.container", "y4m holds uncompressed video alone; use the codec raw"});
   const bool holds_raw =

@@ -181,6 +181,7 @@ struct VideoWriter::State {
   VideoFormat format;
   std::optional<libav::VideoFile> file;  // empty: another one
   std::optional<Y4mFile> y4m;            // empty: another one, or a folder of images
+  std::optional<SpliceWriter> splice;    // empty: another one
   bool finished = false;
 };
 
@@ -223,6 +224,16 @@ Result<VideoWriter> VideoWriter::open_stream(OutputStream out, const VideoFormat
   });
 }
 
+Result<VideoWriter> VideoWriter::open_splice(const fs::path& path, const SplicePlan& plan,
+                                             const std::atomic<bool>* cancel) {
+  Result<SpliceWriter> splice = SpliceWriter::create(path, plan, cancel);
+  if (!splice) return fail(splice.error());
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->splice.emplace(std::move(*splice));
+  return VideoWriter(std::move(state));
+}
+
 VideoWriter::VideoWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
@@ -241,6 +252,7 @@ Result<void> VideoWriter::write(const Frame& frame, int number) {
   ENSURE(!state_->finished);
   return guarded([&] {
     if (state_->file) return state_->file->write(frame);
+    if (state_->splice) return state_->splice->write(frame, number);
     if (state_->y4m) return state_->y4m->write(frame);
     return write_numbered_image(state_->path, state_->format, frame, number);
   });
@@ -262,6 +274,7 @@ Result<void> VideoWriter::finish() {
   state_->finished = true;
   return guarded([this] {
     if (state_->y4m) return state_->y4m->finish();
+    if (state_->splice) return state_->splice->finish();
     return state_->file ? state_->file->finish() : Result<void>();
   });
 }
@@ -272,6 +285,7 @@ int max_bit_depth(VideoCodec codec) {
     case VideoCodec::png:
     case VideoCodec::tiff:
     case VideoCodec::raw:
+    case VideoCodec::source:
       return 16;
     case VideoCodec::hevc:
     case VideoCodec::av1:
@@ -305,6 +319,8 @@ const char* name_of(VideoCodec codec) {
       return "jpeg";
     case VideoCodec::raw:
       return "raw";
+    case VideoCodec::source:
+      return "source";
   }
   return "";
 }
@@ -326,6 +342,8 @@ const char* extension_of(Container container) {
       return "nut";
     case Container::y4m:
       return "y4m";
+    case Container::mov:
+      return "mov";
   }
   return "";
 }

@@ -8,12 +8,14 @@
 #include "base/output_stream.h"
 #include "base/result.h"
 #include "video/frame.h"
+#include "video/stream_splice.h"
 
 namespace sigs {
 
-// png, tiff and jpeg: numbered images; raw: uncompressed.
-enum class VideoCodec { ffv1, h264, hevc, av1, mjpeg, png, tiff, jpeg, raw };
-enum class Container { mkv, mp4, avi, nut, y4m };
+// png, tiff and jpeg: numbered images; raw: uncompressed; source: the footage's own, most of which is copied
+// (video/stream_splice.h).
+enum class VideoCodec { ffv1, h264, hevc, av1, mjpeg, png, tiff, jpeg, raw, source };
+enum class Container { mkv, mp4, avi, nut, y4m, mov };
 
 // What is written, and into which file format.
 struct VideoFormat {
@@ -50,6 +52,10 @@ class VideoWriter {
   VideoWriter& operator=(VideoWriter&&) noexcept;
   ~VideoWriter();
 
+  // A copy of the footage with other frames in it (video/stream_splice.h). Errors as of SpliceWriter::create.
+  [[nodiscard]] static Result<VideoWriter> open_splice(const std::filesystem::path& path, const SplicePlan& plan,
+                                                       const std::atomic<bool>* cancel);
+
   // Prepares in advance what the first images would have to wait for. Optional: the bytes are the same without it.
   void warm_up();
 
@@ -72,9 +78,9 @@ class VideoWriter {
   std::unique_ptr<State> state_;
 };
 
-// The most bits of a sample that a codec stores: ffv1, png, tiff, raw 16; hevc, av1 12; h264 10; mjpeg, jpeg 8. Deeper
-// frames are rounded to it. Footage of a depth that the codec lacks (9 bits, 14 bits) is stored with the next higher
-// one that it has.
+// The most bits of a sample that a codec stores: ffv1, png, tiff, raw, source 16; hevc, av1 12; h264 10; mjpeg, jpeg 8.
+// Deeper frames are rounded to it. Footage of a depth that the codec lacks (9 bits, 14 bits) is stored with the next
+// higher one that it has.
 [[nodiscard]] int max_bit_depth(VideoCodec codec);
 
 // "h264".
@@ -83,7 +89,7 @@ class VideoWriter {
 // The highest crf of a codec: 51 for h264 and hevc, 63 for av1; 0 for codecs without one.
 [[nodiscard]] int max_crf(VideoCodec codec);
 
-// The extension of a container's file name, without the dot: "mkv", "mp4", "avi", "nut", "y4m".
+// The extension of a container's file name, without the dot: "mkv", "mp4", "avi", "nut", "y4m", "mov".
 [[nodiscard]] const char* extension_of(Container container);
 
 // Whether a codec writes a folder of numbered images instead of a video: png, tiff, jpeg.

@@ -88,6 +88,7 @@ const char* encoder_of(VideoCodec codec) {
     case VideoCodec::png:
     case VideoCodec::tiff:
     case VideoCodec::jpeg:
+    case VideoCodec::source:
       break;
   }
   ENSURE(false);

@@ -31,7 +31,8 @@ const char* muxer_of(Container container) {
     case Container::nut:
       return "nut";
     case Container::y4m:
-      break;  // VideoWriter writes it
+    case Container::mov:
+      break;  // others write it
   }
   return "";
 }

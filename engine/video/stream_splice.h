@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "video/frame.h"
+#include "video/frame_source.h"
+
+namespace sigs {
+
+namespace libav {
+class SpliceFile;
+struct Splice;
+}  // namespace libav
+
+// A copy of a video in which some frames are other ones. Groups of pictures without such a frame keep their packets,
+// byte by byte; the others are encoded as the stream is: codec, profile, level, sample format, keyframes, quantisers.
+// The other streams (sound, telemetry) are copied.
+
+// The frames of a range, by number from the first: whether each one changes.
+struct ChangedFrames {
+  int first = 0;
+  std::vector<bool> changed;
+
+  [[nodiscard]] int last() const { return first + static_cast<int>(changed.size()) - 1; }
+};
+
+struct SplicePlan {
+  std::vector<bool> encoded;      // by number from the first of the range; SpliceWriter needs these frames
+  int copied_packets = 0;         // of the video
+  std::string extension;          // of the file: "mp4", "mov", "mkv", "avi"
+  std::vector<Warning> warnings;  // a stream that the file has no place for; groups encoded though nothing changes
+  std::shared_ptr<const libav::Splice> splice;
+};
+
+// Groups with a changed frame, and those that the range cuts, are encoded, and those after them until a picture that
+// decoding can begin at: an IDR or BLA picture, or a CRA of HEVC.
+//   frames  of the footage, within it and not empty
+//   cancel  while it is true, reading soon ends; null: none
+// Errors: usage (what the footage has that cannot be spliced, and the codec to use instead: no H.264, HEVC, MJPEG, FFV1
+// or ProRes; interlaced; another container than MP4, MOV, Matroska, or AVI of intra codecs; images), unavailable (no
+// encoder), cannot_read, interrupted.
+[[nodiscard]] Result<SplicePlan> plan_splice(const VideoInfo& footage, const ChangedFrames& frames,
+                                             const std::atomic<bool>* cancel = nullptr);
+
+// Writes the copy.
+class SpliceWriter {
+ public:
+  // Creates the file and writes the container's header. Errors: cannot_create, cannot_read, unavailable.
+  [[nodiscard]] static Result<SpliceWriter> create(const std::filesystem::path& path, const SplicePlan& plan,
+                                                   const std::atomic<bool>* cancel = nullptr);
+  SpliceWriter(SpliceWriter&&) noexcept;
+  SpliceWriter& operator=(SpliceWriter&&) noexcept;
+  ~SpliceWriter();
+
+  // The frames that the plan encodes, in order; frames that it copies are passed over.
+  //   number  of the frame in the footage
+  // Errors: write_failed, cannot_read (the footage has changed), interrupted.
+  [[nodiscard]] Result<void> write(const Frame& frame, int number);
+
+  // Copies the rest, ends the file and reads it once to see that each frame is there at its time. Error write_failed.
+  [[nodiscard]] Result<void> finish();
+
+ private:
+  explicit SpliceWriter(std::unique_ptr<libav::SpliceFile> file);
+  std::unique_ptr<libav::SpliceFile> file_;
+};
+
+}  // namespace sigs
