@@ -23,9 +23,13 @@ struct Muxer {
   const char* extension = "";
 };
 
+bool codes_each_alone(AVCodecID codec) {
+  return libav::is_intra_only(codec) || codec == AV_CODEC_ID_FFV1;
+}
+
 // The container of the footage itself.
-Result<Muxer> own_muxer(const AVFormatContext& input, const fs::path& path, bool intra_only) {
-  const std::string_view format = input.iformat->name;
+Result<Muxer> own_muxer(const libav::Demuxer& demuxer, const fs::path& path) {
+  const std::string_view format = demuxer.format().iformat->name;
   if (format.starts_with("matroska")) return Muxer{"matroska", "mkv"};
   if (format.starts_with("mov,mp4")) {
     std::string extension = path.extension().string();
@@ -33,7 +37,7 @@ Result<Muxer> own_muxer(const AVFormatContext& input, const fs::path& path, bool
                    [](unsigned char c) { return std::tolower(c); });
     return extension == ".mov" ? Muxer{"mov", "mov"} : Muxer{"mp4", "mp4"};
   }
-  if (format == "avi" && intra_only) return Muxer{"avi", "avi"};
+  if (format == "avi" && codes_each_alone(demuxer.stream().codecpar->codec_id)) return Muxer{"avi", "avi"};
   return fail("",
               fmt::format("is in the container {}, whose index or times cannot be relied on: copy it into mp4 or mkv "
                           "first (ffmpeg -i FILE -map 0 -c copy OUT.mkv), or use the codec h264",
@@ -44,8 +48,7 @@ Result<Muxer> own_muxer(const AVFormatContext& input, const fs::path& path, bool
 // By the packets; in AVI, of codecs that code each picture alone, as they come.
 Result<libav::FrameOrder> packet_order(const libav::PacketTable& table, const libav::Demuxer& demuxer) {
   if (auto order = libav::order_from_packets(table, demuxer.format(), demuxer.stream())) return std::move(*order);
-  const AVCodecID codec = demuxer.stream().codecpar->codec_id;
-  if (!libav::is_intra_only(codec) && codec != AV_CODEC_ID_FFV1)
+  if (!codes_each_alone(demuxer.stream().codecpar->codec_id))
     return fail("", "does not tell by its packets which picture is shown when; use the codec h264", ErrorKind::usage);
   libav::FrameOrder order{.intra_only = true};
   for (int i = 0; i < table.size(); ++i)
@@ -123,12 +126,12 @@ Result<SplicePlan> planned(const VideoInfo& footage, const ChangedFrames& frames
   if (!demuxer) return fail(demuxer.error());
   if (const Result<void> known = libav::check_group_codec(*demuxer->stream().codecpar); !known)
     return fail(known.error());
+  const Result<Muxer> muxer = own_muxer(*demuxer, footage.path);
+  if (!muxer) return fail(muxer.error());
   const libav::PacketTable table = libav::PacketTable::read(*demuxer);
   if (const Result<void> on = demuxer->check_interrupt(); !on) return fail(on.error());
   const Result<libav::FrameOrder> order = packet_order(table, *demuxer);
   if (!order) return fail(order.error());
-  const Result<Muxer> muxer = own_muxer(demuxer->format(), footage.path, order->intra_only);
-  if (!muxer) return fail(muxer.error());
   if (static_cast<int>(order->ordinals.size()) != footage.frame_count())
     return fail("", "begins with pictures that cannot be decoded, or shows some twice; use the codec h264",
                 ErrorKind::usage);

@@ -286,7 +286,7 @@ Result<GroupQuality> SpliceFile::quality_of_waiting() {
   }
   const double any = mean_of(PictureType::intra, mean_of(PictureType::predicted, 0));
   quality.qp_predicted = mean_of(PictureType::predicted, any);
-  quality.qp_intra = mean_of(PictureType::intra, quality.qp_predicted);
+  quality.qp_intra = mean_of(PictureType::intra, quality.qp_predicted - 3);  // x264's own difference
   quality.qp_bidirectional = mean_of(PictureType::bidirectional, quality.qp_predicted + 2);
   return quality;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/splice_layout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -60,7 +62,7 @@ class Layout {
       const bool begins = order_.intra_only || (table_[ordinal].key && frame >= 0);
       if (groups_.empty() || (begins && groups_.back().shows_any())) {
         if (!groups_.empty()) groups_.back().end = ordinal;
-        groups_.push_back({.begin = ordinal, .key_frame = frame, .first_frame = frame});
+        groups_.push_back({.begin = ordinal});
       }
       PacketGroup& group = groups_.back();
       group.end = ordinal + 1;
@@ -76,7 +78,9 @@ class Layout {
     int behind = -1;
     for (const PacketGroup& group : groups_) {
       if (!group.shows_any()) continue;
-      if (group.first_frame != behind + 1) return fail("", "its groups of pictures are shown interleaved");
+      if (group.first_frame != behind + 1)
+        return fail("", fmt::format("its groups of pictures are shown interleaved: frame {} after {}",
+                                    group.first_frame, behind));
       behind = group.last_frame;
     }
     return {};
@@ -229,17 +233,59 @@ class Layout {
     for (int frame = part.groups.front().first; frame <= part.groups.back().last; ++frame)
       part.replaced.push_back(order_.ordinals[static_cast<std::size_t>(frame)]);
     std::sort(part.replaced.begin(), part.replaced.end());
-    for (const int ordinal : part.replaced) part.dts.push_back(layout_.dts[static_cast<std::size_t>(ordinal)]);
-    if (takes_leading) give_latest_time_to(part, part.next);
+    set_decoding_times(part, takes_leading);
     layout_.parts.push_back(std::move(part));
   }
 
-  // The key packet now comes after the frames shown before it.
-  void give_latest_time_to(EncodedPart& part, int next) {
-    std::int64_t& dts = layout_.dts[static_cast<std::size_t>(next)];
-    part.dts.push_back(dts);
+  // Whether the range takes some of a group's frames alone, whose packets then are not those of whole groups.
+  [[nodiscard]] bool is_cut(const EncodedPart& part) const {
+    const bool at_begin = frames_.first > 0 && part.groups.front().first == frames_.first;
+    return at_begin || (part.groups.back().last == frames_.last() && frames_.last() + 1 < frame_count());
+  }
+  [[nodiscard]] int frame_count() const { return static_cast<int>(order_.ordinals.size()); }
+
+  // By how many frames packets are decoded before they are shown, by their time stamps.
+  [[nodiscard]] int delay_in_frames() const {
+    int delay = order_.reorder_depth;
+    int place = 0;  // in the order of the file, of packets that are shown
+    for (int ordinal = 0; ordinal < table_.size(); ++ordinal) {
+      if (frame_of(ordinal) < 0) continue;
+      const std::int64_t dts = layout_.dts[static_cast<std::size_t>(ordinal)];
+      const auto shown = std::upper_bound(layout_.pts.begin(), layout_.pts.end(), dts) - layout_.pts.begin();
+      if (shown > 0) delay = std::max(delay, place - static_cast<int>(shown) + 1);
+      ++place;
+    }
+    return delay;
+  }
+
+  // Those of presentation, as many frames earlier as packets are decoded ahead, and after the packets before the part.
+  [[nodiscard]] std::vector<std::int64_t> decoding_times_of(const EncodedPart& part, int count) const {
+    const std::int64_t step = frame_count() > 1 ? std::max<std::int64_t>(1, layout_.pts[1] - layout_.pts[0]) : 1;
+    const int before = part.replaced.front() - 1;
+    const bool follows = before >= 0 && layout_.is_copied[static_cast<std::size_t>(before)];
+    const int delay = delay_in_frames();
+    std::vector<std::int64_t> times;
+    for (int i = 0; i < count; ++i) {
+      const int frame = part.groups.front().first + i - delay;
+      std::int64_t time = frame >= 0 ? layout_.pts[static_cast<std::size_t>(frame)] : layout_.pts[0] + frame * step;
+      if (i == 0 && follows) time = std::max(time, layout_.dts[static_cast<std::size_t>(before)] + 1);
+      if (i > 0) time = std::max(time, times.back() + 1);
+      times.push_back(time);
+    }
+    return times;
+  }
+
+  // With the frames shown before the next key frame, its packet comes after them: it gets the latest time.
+  void set_decoding_times(EncodedPart& part, bool takes_leading) {
+    std::vector<int> ordinals = part.replaced;
+    if (takes_leading) ordinals.push_back(part.next);
+    if (is_cut(part))
+      part.dts = decoding_times_of(part, static_cast<int>(ordinals.size()));
+    else
+      for (const int ordinal : ordinals) part.dts.push_back(layout_.dts[static_cast<std::size_t>(ordinal)]);
     std::sort(part.dts.begin(), part.dts.end());
-    dts = part.dts.back();
+    if (!takes_leading) return;
+    layout_.dts[static_cast<std::size_t>(part.next)] = part.dts.back();
     part.dts.pop_back();
   }
 
