@@ -223,7 +223,7 @@ Result<void> SpliceFile::write(const Frame& frame, int number) {
   if (part_ >= splice_->layout.parts.size() || number < part().groups[group_].first) return {};
   const bool begins_part = group_ == 0 && number == part().groups[0].first;
   if (begins_part)
-    if (const Result<void> copied = copy_up_to(part().replaced.front()); !copied) return copied;
+    if (const Result<void> copied = copy_up_to(std::min(part().replaced.front(), part().next)); !copied) return copied;
   const EncodedGroup group = part().groups[group_];
   ENSURE(number <= group.last);
   if (encoder_) {
