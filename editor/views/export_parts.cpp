@@ -64,9 +64,16 @@ bool open_with_desktop(const fs::path& path) {
 }
 
 // In the order of the project's choices.
-constexpr std::array kCodecs{
-    "ffv1 (lossless)",       "h264 (small)",           "hevc (smaller, slower)", "av1 (smaller, slow)", "mjpeg",
-    "png (numbered images)", "tiff (numbered images)", "jpeg (numbered images)", "raw (uncompressed)"};
+constexpr std::array kCodecs{"ffv1 (lossless)",
+                             "h264 (small)",
+                             "hevc (smaller, slower)",
+                             "av1 (smaller, slow)",
+                             "mjpeg",
+                             "png (numbered images)",
+                             "tiff (numbered images)",
+                             "jpeg (numbered images)",
+                             "raw (uncompressed)",
+                             "source (copied where no intruder is)"};
 constexpr std::array kContainers{"auto", "mkv", "mp4", "avi", "nut", "y4m"};
 constexpr std::array kMasks{"none", "video", "png (numbered images)"};
 
@@ -150,7 +157,9 @@ void draw_video_choices(const ViewContext& context) {
   if (choose(context, "container", kContainers, output.container, scaled(90)))
     context.edits.change("container", [container = output.container](Project& p) { p.output.container = container; });
   ImGui::EndDisabled();
-  tooltip_for_item("Container; auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for raw");
+  tooltip_for_item(
+      "Container; auto: mkv for ffv1, mp4 for h264, hevc and av1, avi for mjpeg, nut for raw, the footage's own for "
+      "source");
 }
 
 void draw_quality(const ViewContext& context) {

@@ -97,6 +97,7 @@ Result<OpenedProject> open_project(const Project& project, const std::atomic<boo
 Quantisers quantisers_for(const Project& project) {
   const CodecMatchSettings& codec = project.appearance.codec;
   const bool direct = project.compositing.method == MethodChoice::direct;
+  if (project.output.codec == VideoCodec::source) return Quantisers::read;
   return direct && codec.match != CodecMatchChoice::none ? Quantisers::read : Quantisers::leave_out;
 }
 
@@ -158,7 +159,7 @@ std::vector<Warning> depth_warnings_of(const Project& project, const VideoInfo& 
 // Of the codec match.
 std::vector<Warning> match_warnings_of(const Project& project, const VideoInfo& video) {
   const CodecMatchSettings& codec = project.appearance.codec;
-  if (quantisers_for(project) == Quantisers::leave_out) return {};
+  if (codec.match == CodecMatchChoice::none || project.compositing.method != MethodChoice::direct) return {};
   if (video.bit_depth > 8)
     return {
         {project.file.string() + ": appearance.codec.match",

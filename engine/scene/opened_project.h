@@ -43,7 +43,8 @@ struct OpenedProject {
 //   cancel  set to true: ends soon with the error `interrupted`. May be null; must outlive the opened project.
 [[nodiscard]] Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel);
 
-// Whether the frames of a project's footage need their quantisers: where the codec match is to be by the footage's own.
+// Whether the frames of a project's footage need their quantisers: where the codec match is to be by the footage's own,
+// and where groups of its pictures are encoded as the others are (codec source).
 [[nodiscard]] Quantisers quantisers_for(const Project& project);
 
 // The footage of a project: a video, or images with the times that the project states. Errors and arguments are those

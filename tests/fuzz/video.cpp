@@ -5,6 +5,7 @@
 #include "fuzz/fuzz_input.h"
 #include "video/data_streams.h"
 #include "video/frame_source.h"
+#include "video/stream_splice.h"
 
 namespace sigs::fuzz {
 
@@ -34,6 +35,18 @@ void try_frames(const std::filesystem::path& path, Quantisers quantisers) {
   }
 }
 
+// What a copy of it with a changed frame would be.
+void try_splice(const std::filesystem::path& path) {
+  const Result<FrameSource> source = FrameSource::open(path);
+  if (!source) return;
+  std::vector<bool> changed(static_cast<std::size_t>(source->info().frame_count()), false);
+  changed[changed.size() / 2] = true;
+  const Result<SplicePlan> plan = plan_splice(source->info(), {.first = 0, .changed = std::move(changed)});
+  if (!plan) return check_message(plan.error());
+  check_messages(plan->warnings);
+  ENSURE(plan->encoded[plan->encoded.size() / 2]);
+}
+
 void try_data(const std::filesystem::path& path) {
   const Result<std::vector<DataStream>> streams = data_streams_of(path);
   if (!streams) return check_message(streams.error());
@@ -50,6 +63,7 @@ void try_video(const FuzzInput& input) {
   try_frames(path, Quantisers::leave_out);
   try_frames(path, Quantisers::read);
   try_data(path);
+  try_splice(path);
 }
 
 }  // namespace sigs::fuzz

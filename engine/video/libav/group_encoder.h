@@ -37,6 +37,14 @@ struct GroupQuality {
   JpegTables tables{};  // all 0: as fine as the encoder gives
 };
 
+// What the first pictures of a group were quantised by in the footage, as frames state it. None where they do not and
+// the codec needs it (H.264, HEVC).
+[[nodiscard]] std::optional<GroupQuality> stated_quality(const std::vector<Frame>& first, const GroupFormat& format);
+
+// The quality by which the first pictures of a group take so many bytes. Errors as of GroupEncoder.
+[[nodiscard]] Result<GroupQuality> quality_by_size(const std::vector<Frame>& first, double bytes,
+                                                   const GroupFormat& format);
+
 struct EncodedPacket {
   Bytes bytes;  // as the stream's other packets: with lengths or start codes
   std::int64_t pts = 0;

@@ -96,10 +96,6 @@ std::string name_of(const AVStream& stream) {
                      handler == nullptr ? "" : fmt::format(", \"{}\"", handler->value));
 }
 
-double log2_of(double bytes) {
-  return std::log2(std::max(bytes, 1.0));
-}
-
 }  // namespace
 
 Result<void> choose_streams(Splice& splice, std::vector<Warning>& warnings, const std::atomic<bool>* cancel) {
@@ -257,65 +253,18 @@ Result<void> SpliceFile::encode_waiting() {
   return put_encoded(packets);
 }
 
-// What the first pictures of the group were quantised by in the footage.
+// Where the stream does not tell, by the bytes of the first packets of the part.
 Result<GroupQuality> SpliceFile::quality_of_waiting() {
-  std::array<double, 4> sums{};
-  std::array<int, 4> counts{};
-  GroupQuality quality;
-  for (const Frame& frame : waiting_) {
-    if (!frame.quantisers) continue;
-    const cv::Size stored_px(format_.stream->width, format_.stream->height);
-    if (frame.quantisers->kind == QuantiserKind::jpeg)
-      quality.tables =
-          oriented(frame.quantisers, oriented(stored_px, format_.orientation), inverse(format_.orientation))->tables;
-    if (frame.quantisers->kind != QuantiserKind::h264) continue;
-    const auto type = static_cast<std::size_t>(frame.quantisers->type);
-    sums[type] += frame.quantisers->mean;
-    ++counts[type];
-  }
-  const AVCodecID codec = format_.stream->codec_id;
-  if (codec != AV_CODEC_ID_H264 && codec != AV_CODEC_ID_HEVC) return quality;
-  const auto mean_of = [&](PictureType type, double otherwise) {
-    const auto i = static_cast<std::size_t>(type);
-    return counts[i] > 0 ? sums[i] / counts[i] : otherwise;
-  };
-  if (counts[1] + counts[2] + counts[3] == 0) {
-    const Result<double> qp = qp_by_size();
-    if (!qp) return fail(qp.error());
-    return GroupQuality{*qp - 2, *qp, *qp + 2, {}};
-  }
-  const double any = mean_of(PictureType::intra, mean_of(PictureType::predicted, 0));
-  quality.qp_predicted = mean_of(PictureType::predicted, any);
-  quality.qp_intra = mean_of(PictureType::intra, quality.qp_predicted - 3);  // x264's own difference
-  quality.qp_bidirectional = mean_of(PictureType::bidirectional, quality.qp_predicted + 2);
-  return quality;
-}
-
-// The QP by which the waiting frames take as many bytes as their packets in the footage: interpolated between two, as
-// the logarithm of the size is nearly straight over QP.
-Result<double> SpliceFile::qp_by_size() {
-  if (qp_) return *qp_;
-  double wanted = 0;
+  if (std::optional<GroupQuality> stated = stated_quality(waiting_, format_)) return *std::move(stated);
+  if (quality_) return *quality_;
+  double bytes = 0;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const auto number = static_cast<std::size_t>(part().groups[group_].first) + i;
-    wanted += splice_->layout.bytes[static_cast<std::size_t>(splice_->layout.ordinals[number])];
+    bytes += splice_->layout.bytes[static_cast<std::size_t>(splice_->layout.ordinals[number])];
   }
-  constexpr std::array<double, 2> kTried{22, 34};
-  std::array<double, 2> bytes{};
-  for (std::size_t i = 0; i < kTried.size(); ++i) {
-    Result<GroupEncoder> encoder = GroupEncoder::open(format_, {kTried[i] - 2, kTried[i], kTried[i] + 2, {}});
-    if (!encoder) return fail(encoder.error());
-    std::vector<EncodedPacket> packets;
-    std::int64_t pts = 0;
-    for (const Frame& frame : waiting_)
-      if (const Result<void> added = encoder->add(frame, pts++, packets); !added) return fail(added.error());
-    if (const Result<void> ended = encoder->finish(packets); !ended) return fail(ended.error());
-    for (const EncodedPacket& packet : packets) bytes[i] += static_cast<double>(packet.bytes.size());
-  }
-  const double fall = log2_of(bytes[0]) - log2_of(bytes[1]);
-  if (!(fall > 0.01)) return *(qp_ = kTried[0]);
-  return *(
-      qp_ = std::clamp(kTried[0] + (kTried[1] - kTried[0]) * (log2_of(bytes[0]) - log2_of(wanted)) / fall, 4.0, 48.0));
+  Result<GroupQuality> found = quality_by_size(waiting_, bytes, format_);
+  if (found) quality_ = *found;
+  return found;
 }
 
 Result<void> SpliceFile::put_encoded(const std::vector<EncodedPacket>& packets) {
@@ -355,7 +304,7 @@ Result<void> SpliceFile::end_group() {
   ++part_;
   group_ = 0;
   encoded_ = 0;
-  qp_.reset();
+  quality_.reset();
   return {};
 }
 

@@ -54,7 +54,6 @@ class SpliceFile {
   [[nodiscard]] Result<void> put(AVPacket& packet, int output, AVRational tick);
   [[nodiscard]] Result<void> encode_waiting();
   [[nodiscard]] Result<GroupQuality> quality_of_waiting();
-  [[nodiscard]] Result<double> qp_by_size();
   [[nodiscard]] Result<void> put_encoded(const std::vector<EncodedPacket>& packets);
   [[nodiscard]] Result<void> put_encoded(const EncodedPacket& encoded);
   [[nodiscard]] Result<void> end_group();
@@ -76,7 +75,7 @@ class SpliceFile {
   GroupFormat format_;
   std::optional<GroupEncoder> encoder_;  // of the group; none: its first frames wait
   std::vector<Frame> waiting_;           // for what they are quantised by to be known
-  std::optional<double> qp_;             // where the stream does not tell: of this part
+  std::optional<GroupQuality> quality_;  // where the stream does not tell: of this part
   std::size_t encoded_ = 0;              // packets of the part that are written
 };
 
