@@ -2,10 +2,22 @@
 # Error of `sigs appearance` against the truth and against run time, by frames used and image size: clips with known blur and noise, made by
 # FFmpeg, the samples, whose haze and light are known, and made footage with known airlight and sun (bench_surroundings).
 #   bench/appearance.sh [BUILD]     default: build/release; some three minutes on two processors
+#   bench/appearance.sh time [--write] [RUNS] [BUILD] [CLIP...]     wall-clock and processor time of `sigs appearance` and `sigs mask` beside
+#       decoding the same frames. Medians of 5 interleaved runs on the sample clips and those of ../shared/data; --write puts the table into
+#       docs/speed.md.
 # Clips are left in BUILD/appearance.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+mode=errors
+write=
+if [ "${1:-}" = time ]; then
+  mode=time && shift
+  if [ "${1:-}" = --write ]; then write=1 && shift; fi
+  runs=${1:-5}
+  [ $# -gt 0 ] && shift
+fi
 build=${1:-build/release}
+[ $# -gt 0 ] && shift
 folder=$build/appearance
 mkdir -p "$folder"
 sigs=$build/sigs
@@ -72,6 +84,56 @@ least, decoding = (min(pair[k] for pair in pairs) for k in (0, 1))
 print('| %s | %s | %.2f | %.2f | %.2f |' % (name, frames, least, decoding, least / decoding))
 END
 }
+
+# Decoding the same frames: FFmpeg decodes the clip from its first frame to the last one that the command reads, with its usual threads, and drops
+# them. `sigs mask` reads all frames up to own_body.frames, 1500. `sigs appearance` reads the middles of 24 equal parts and the frame after each
+# (appearance.cpp); those between are decoded to reach them, from the last keyframe on.
+times() { # CLIP...
+  python3 - "$runs" "$sigs" "$folder" "$@" <<'END'
+import os, re, statistics, subprocess, sys, time
+runs, sigs, folder, clips = int(sys.argv[1]), sys.argv[2], sys.argv[3], sys.argv[4:]
+def measured(command):
+    began = time.monotonic()
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode not in (0, 65):  # 65: a mask that cannot be decided
+        sys.exit('error: %s failed' % ' '.join(command))
+    return time.monotonic() - began, used.ru_utime + used.ru_stime
+def decoding(clip, frames):
+    return ['ffmpeg', '-nostdin', '-v', 'error', '-i', clip, '-map', '0:v:0', '-frames:v', str(frames), '-fps_mode', 'passthrough', '-f', 'null', '-']
+print('| clip | frames | decoding: s | processor s | `appearance`: s | ratio | processor s | ratio | `mask`: s | ratio | processor s | ratio |')
+print('|' + '---|' * 12)
+for clip in clips:
+    info = subprocess.run([sigs, 'info', clip], capture_output=True, text=True, check=True).stdout
+    count = int(re.search(r'frames: (\d+)', info).group(1))
+    samples = min(24, max(1, count - 1))
+    reached = min(count, (2 * samples - 1) * (count - 1) // (2 * samples) + 2)
+    commands = {'appearance': [sigs, 'appearance', clip, '--json'], 'decoding for appearance': decoding(clip, reached),
+                'mask': [sigs, 'mask', clip, '--out', folder + '/mask.png', '--force'], 'decoding for mask': decoding(clip, min(count, 1500))}
+    times = [{name: measured(command) for name, command in commands.items()} for _ in range(runs + 1)][1:]  # the first reads the files
+    cell = lambda name, k: statistics.median(run[name][k] for run in times)
+    ratio = lambda name, k: statistics.median(run[name][k] / run['decoding for ' + name][k] for run in times)
+    ours = ' | '.join('%.2f | **%.2f** | %.2f | **%.2f**' % (cell(name, 0), ratio(name, 0), cell(name, 1), ratio(name, 1)) for name in ('appearance', 'mask'))
+    size = re.search(r'\d+x\d+', info).group(0)
+    print('| %s, %s | %d | %.2f | %.2f | %s |' % (os.path.basename(clip), size, count, cell('decoding for mask', 0), cell('decoding for mask', 1), ours), flush=True)
+END
+}
+
+if [ $mode = time ]; then
+  clips=("$@")
+  if [ ${#clips[@]} = 0 ]; then
+    sample=assets/footage/sample.mp4
+    for width in 320 640; do ffmpeg -nostdin -v error -y -i $sample -vf scale=$width:-2:flags=area -c:v libx264 -crf 18 "$folder/sample-$width.mp4"; done
+    clips=("$folder"/sample-{320,640}.mp4 $sample assets/footage/table1_{clear,clouds,vibration}.mp4)
+    for clip in ../shared/data/{video/*.{avi,mp4},track/V_{AIRPLANE_001,AIRPLANE_044,HELICOPTER_045,DRONE_004,BIRD_002}.mp4,thermal/IR_AIRPLANE_00[24].mp4}; do
+      if [ -e "$clip" ]; then clips+=("$clip"); fi
+    done
+  fi
+  times "${clips[@]}" | tee "$folder/times.md"
+  if [ -n "$write" ]; then bench/fill.sh docs/speed.md appearance "$folder/times.md"; fi
+  exit
+fi
 
 echo "| checkerboard, sigma px | image | frames used | point spread found, px | sharpening, truth 0 |"
 echo "|---|---|---|---|---|"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "appearance/appearance.h"
+#include "base/allocator.h"
 #include "base/json.h"
 #include "base/text.h"
 #include "cli/commands.h"
@@ -236,6 +237,7 @@ Result<void> check_lit_like(const AppearanceOptions& options) {
 }
 
 Result<void> run(const AppearanceOptions& options) {
+  tune_allocator();
   std::vector<fs::path> inputs{options.file};
   if (!options.into.empty()) inputs.push_back(options.into);
   if (const Result<void> named = check_outputs(outputs_of(options), inputs); !named) return named;

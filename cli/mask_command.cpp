@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/allocator.h"
 #include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/result.h"
@@ -322,6 +323,7 @@ void warn_of_doubtful_mask(const OwnBody& found, const VideoInfo& footage, int f
 }
 
 Result<void> run(const MaskOptions& options) {
+  tune_allocator();
   const Result<Project> project = project_of(options);
   if (!project) return fail(project.error());
   Result<FrameSource> footage = footage_of(*project);

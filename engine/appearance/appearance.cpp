@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <set>
 #include <thread>
@@ -87,6 +89,8 @@ constexpr int kSamples = 24;
 constexpr int kSurroundings = 12;  // samples for haze, tone, light and sun, which change little from one to the next
 constexpr int kTraces = 4;         // for traces of the codec, likewise
 
+constexpr int kThreads = 2;  // on which the estimators look at a frame, beside the one that decodes
+
 // First frames of the pairs that are looked at.
 Result<std::vector<int>> sample_numbers(const VideoInfo& info, const AppearanceFrames& frames) {
   const int last = std::min(frames.last.value_or(info.frame_count() - 1), info.frame_count() - 1);
@@ -128,10 +132,16 @@ class Estimators {
 
   // next: the frame that follows directly; null: it is not there or damaged.
   void add(const Frame& frame, const Frame* next, const View& view) {
-    point_spread_.add(frame, view.own_body);
-    noise_.add(frame, next);
-    if (added_ % surroundings_every_ == 0) surroundings_.add(frame, view);
-    codec_.add(frame, added_ % traces_every_ == 0);
+    const bool look_around = added_ % surroundings_every_ == 0;
+    const bool look_for_traces = added_ % traces_every_ == 0;
+    const std::array<std::function<void()>, 3> parts{[&] { noise_.add(frame, next); },
+                                                     [&] { point_spread_.add(frame, view.own_body); },
+                                                     [&] {
+                                                       if (look_around) surroundings_.add(frame, view);
+                                                       codec_.add(frame, look_for_traces);
+                                                     }};
+    // Each estimator has state of its own; they share nothing but the frames, which none of them changes.
+    parallel_for(static_cast<int>(parts.size()), kThreads, [&](int i) { parts[static_cast<std::size_t>(i)](); });
     ++added_;
     if (next != nullptr) codec_.add(*next, false);
   }

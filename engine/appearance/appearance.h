@@ -52,9 +52,10 @@ struct Appearance {
   CodecEstimate codec;
 };
 
-// Looks at the footage once, from its first frame used to the last; decoding runs ahead on a thread of its own. Damaged
-// frames are left out. The footage should have been opened with Quantisers::read. What cannot be told says so
-// (Estimate) and is no error. Errors: usage (no such frames), cannot_read, bad_data, interrupted.
+// Looks at the footage once, from its first frame used to the last; decoding runs ahead on a thread of its own, and two
+// threads look at each frame. Damaged frames are left out. The footage should have been opened with Quantisers::read.
+// What cannot be told says so (Estimate) and is no error. Errors: usage (no such frames), cannot_read, bad_data,
+// interrupted.
 [[nodiscard]] Result<Appearance> estimate_appearance(FrameSource& footage, const AppearanceFrames& frames,
                                                      const AppearanceHints& hints, const AppearanceControl& control);
 

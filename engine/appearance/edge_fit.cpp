@@ -2,9 +2,12 @@
 #include "appearance/edge_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <optional>
+#include <utility>
 
 namespace sigs {
 
@@ -40,14 +43,63 @@ void sharpen(std::vector<double>& values, const EdgeShape& shape) {
     sum += (k == 0 ? 1 : 2) * kernel[k];
   }
   const auto count = static_cast<int>(values.size());
-  std::vector<double> padded(count + 2 * reach);
+  std::vector<double> padded(count + 2 * reach), blurred(count);
   for (int i = 0; i < count + 2 * reach; ++i) padded[i] = values[std::clamp(i - reach, 0, count - 1)];
-  for (int i = 0; i < count; ++i) {
-    double blurred = kernel[0] * padded[i + reach];
-    for (int k = 1; k <= reach; ++k) blurred += kernel[k] * (padded[i + reach - k] + padded[i + reach + k]);
-    values[i] += shape.sharpening * (values[i] - blurred / sum);
+  for (int i = 0; i < count; ++i) blurred[i] = kernel[0] * padded[i + reach];
+  for (int k = 1; k <= reach; ++k) {
+    const double weight = kernel[k];
+    const double* const before = padded.data() + reach - k;
+    const double* const after = padded.data() + reach + k;
+    for (int i = 0; i < count; ++i) blurred[i] += weight * (before[i] + after[i]);
   }
+  for (int i = 0; i < count; ++i) values[i] += shape.sharpening * (values[i] - blurred[i] / sum);
 }
+
+// The table of an EdgeCurve before sharpening.
+std::vector<double> unsharpened(double sigma_px, const EdgeLevels& levels, glm::dvec2 normal) {
+  constexpr int kHalf = static_cast<int>(kReach_px / kStep_px);
+  constexpr double kNarrowest_px = 0.01;  // of a box, so that nothing is divided by zero
+  const double a = levels.pixel_px * std::max(std::abs(normal.x), kNarrowest_px);
+  const double b = levels.pixel_px * std::max(std::abs(normal.y), kNarrowest_px);
+  sigma_px = std::max(sigma_px, kMinSigma_px);
+  const double dark = linear_of_display(levels.transfer, levels.dark);
+  const double bright = linear_of_display(levels.transfer, levels.bright);
+  std::vector<double> values(2 * kHalf + 1);
+  const double flat_px = 4 * sigma_px + levels.pixel_px;  // beyond it the share is 0 or 1 to 1e-4
+  for (int i = -kHalf; i <= kHalf; ++i) {
+    const double x = i * kStep_px;
+    double& value = values[i + kHalf];
+    if (std::abs(x) > flat_px) {
+      value = x < 0 ? 0 : 1;
+      continue;
+    }
+    const double share = light_share(x, sigma_px, a, b);
+    const double display = display_of_linear(levels.transfer, dark + share * (bright - dark));
+    value = (display - levels.dark) / (levels.bright - levels.dark);
+  }
+  return values;
+}
+
+// Curves of one edge. The two last sigmas are kept: a fit moves sharpening while sigma stays, and where it moves sigma
+// it comes back to the one before.
+class RecentCurves {
+ public:
+  [[nodiscard]] EdgeCurve curve(const EdgeSample& edge, const EdgeShape& shape) {
+    if (kept_[last_].values.empty() || kept_[last_].sigma_px != shape.sigma_px) last_ = 1 - last_;
+    Kept& kept = kept_[last_];
+    if (kept.values.empty() || kept.sigma_px != shape.sigma_px)
+      kept = {shape.sigma_px, unsharpened(shape.sigma_px, edge.levels, edge.normal)};
+    return {kept.values, shape};
+  }
+
+ private:
+  struct Kept {
+    double sigma_px = 0;
+    std::vector<double> values = {};
+  };
+  std::array<Kept, 2> kept_;
+  std::size_t last_ = 0;
+};
 
 // Code = level + contrast * curve(d - shift), by weighted least squares.
 struct Placed {
@@ -56,43 +108,57 @@ struct Placed {
   double contrast = 1;
 };
 
+double slope_of(const EdgeCurve& curve, double at) {
+  return (curve(at + kStep_px) - curve(at - kStep_px)) / (2 * kStep_px);
+}
+
+// The normal equations' solution for level, contrast and contrast times shift, at the place that is known so far.
+std::optional<cv::Vec3d> solved(const EdgeBins& bins, const EdgeCurve& curve, double shift_px) {
+  cv::Matx33d normal = cv::Matx33d::zeros();
+  cv::Vec3d right(0, 0, 0);
+  for (std::size_t i = 0; i < bins.code.size(); ++i) {
+    const double at = bins.distance_px[i] - shift_px;
+    const cv::Vec3d row(1, curve(at), slope_of(curve, at));
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) normal(r, c) += bins.count[i] * row[r] * row[c];
+      right[r] += bins.count[i] * row[r] * bins.code[i];
+    }
+  }
+  cv::Vec3d solution;
+  if (!cv::solve(normal, right, solution, cv::DECOMP_SVD)) return std::nullopt;
+  return solution;
+}
+
 // The residuals in tolerances, the place of the edge and its levels being fitted.
 std::vector<double> residuals_of(const EdgeSample& edge, const EdgeCurve& curve, Placed& placed) {
   const EdgeBins& bins = edge.bins;
   std::vector<double> residuals(bins.code.size());
+  std::optional<cv::Vec3d> last;
   for (int round = 0; round < 3; ++round) {
-    cv::Matx33d normal = cv::Matx33d::zeros();
-    cv::Vec3d right(0, 0, 0);
-    for (std::size_t i = 0; i < bins.code.size(); ++i) {
-      const double at = bins.distance_px[i] - placed.shift_px;
-      const double slope = (curve(at + kStep_px) - curve(at - kStep_px)) / (2 * kStep_px);
-      const cv::Vec3d row(1, curve(at), slope);
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) normal(r, c) += bins.count[i] * row[r] * row[c];
-        right[r] += bins.count[i] * row[r] * bins.code[i];
-      }
-    }
-    cv::Vec3d solution;
-    if (!cv::solve(normal, right, solution, cv::DECOMP_SVD)) break;
-    placed.level = solution[0];
-    placed.contrast = solution[1];
-    if (round < 2 && std::abs(solution[1]) > 1e-6)
-      placed.shift_px = std::clamp(placed.shift_px - std::clamp(solution[2] / solution[1], -0.5, 0.5), -2.0, 2.0);
-    for (std::size_t i = 0; i < bins.code.size(); ++i) {
-      const double at = bins.distance_px[i] - placed.shift_px;
-      const double slope = (curve(at + kStep_px) - curve(at - kStep_px)) / (2 * kStep_px);
-      const double model = solution[0] + solution[1] * curve(at) + solution[2] * slope;
-      residuals[i] = (bins.code[i] - model) * std::sqrt(bins.count[i]) / edge.tolerance;
-    }
+    const std::optional<cv::Vec3d> solution = solved(bins, curve, placed.shift_px);
+    if (!solution) break;
+    last = solution;
+    placed.level = (*solution)[0];
+    placed.contrast = (*solution)[1];
+    if (round < 2 && std::abs(placed.contrast) > 1e-6)
+      placed.shift_px =
+          std::clamp(placed.shift_px - std::clamp((*solution)[2] / placed.contrast, -0.5, 0.5), -2.0, 2.0);
+  }
+  if (!last) return residuals;
+  for (std::size_t i = 0; i < bins.code.size(); ++i) {
+    const double at = bins.distance_px[i] - placed.shift_px;
+    const double model = (*last)[0] + (*last)[1] * curve(at) + (*last)[2] * slope_of(curve, at);
+    residuals[i] = (bins.code[i] - model) * std::sqrt(bins.count[i]) / edge.tolerance;
   }
   return residuals;
 }
 
-std::vector<double> residuals_of(std::span<const EdgeSample> edges, const EdgeShape& shape) {
+std::vector<double> residuals_of(std::span<const EdgeSample> edges, const EdgeShape& shape,
+                                 std::vector<RecentCurves>& recent) {
   std::vector<double> all;
-  for (const EdgeSample& edge : edges) {
+  for (std::size_t i = 0; i < edges.size(); ++i) {
     Placed placed;
-    const std::vector<double> one = residuals_of(edge, EdgeCurve(shape, edge.levels, edge.normal), placed);
+    const std::vector<double> one = residuals_of(edges[i], recent[i].curve(edges[i], shape), placed);
     all.insert(all.end(), one.begin(), one.end());
   }
   return all;
@@ -173,27 +239,10 @@ Minimum least_squares(std::vector<double> p,
 
 }  // namespace
 
-EdgeCurve::EdgeCurve(const EdgeShape& shape, const EdgeLevels& levels, glm::dvec2 normal) {
-  constexpr int kHalf = static_cast<int>(kReach_px / kStep_px);
-  constexpr double kNarrowest_px = 0.01;  // of a box, so that nothing is divided by zero
-  const double a = levels.pixel_px * std::max(std::abs(normal.x), kNarrowest_px);
-  const double b = levels.pixel_px * std::max(std::abs(normal.y), kNarrowest_px);
-  const double sigma_px = std::max(shape.sigma_px, kMinSigma_px);
-  const double dark = linear_of_display(levels.transfer, levels.dark);
-  const double bright = linear_of_display(levels.transfer, levels.bright);
-  values_.resize(2 * kHalf + 1);
-  const double flat_px = 4 * sigma_px + levels.pixel_px;  // beyond it the share is 0 or 1 to 1e-4
-  for (int i = -kHalf; i <= kHalf; ++i) {
-    const double x = i * kStep_px;
-    double& value = values_[i + kHalf];
-    if (std::abs(x) > flat_px) {
-      value = x < 0 ? 0 : 1;
-      continue;
-    }
-    const double share = light_share(x, sigma_px, a, b);
-    const double display = display_of_linear(levels.transfer, dark + share * (bright - dark));
-    value = (display - levels.dark) / (levels.bright - levels.dark);
-  }
+EdgeCurve::EdgeCurve(const EdgeShape& shape, const EdgeLevels& levels, glm::dvec2 normal)
+    : EdgeCurve(unsharpened(shape.sigma_px, levels, normal), shape) {}
+
+EdgeCurve::EdgeCurve(std::vector<double> unsharpened, const EdgeShape& shape) : values_(std::move(unsharpened)) {
   if (shape.sharpening != 0) sharpen(values_, shape);
 }
 
@@ -221,7 +270,8 @@ Fitted fitted_sigma(const EdgeSample& edge, const EdgeShape& shape) {
 ShapeFit fitted_shape(std::span<const EdgeSample> edges, const EdgeShape& start, bool with_sharpening) {
   EdgeShape fixed = start;
   if (!with_sharpening) fixed.sharpening = 0;
-  const auto residuals = [&](const std::vector<double>& p) { return residuals_of(edges, shape_of(p, fixed)); };
+  std::vector<RecentCurves> recent(edges.size());
+  const auto residuals = [&](const std::vector<double>& p) { return residuals_of(edges, shape_of(p, fixed), recent); };
   std::vector<double> first{std::log(std::clamp(start.sigma_px, 0.1, kMaxSigma_px))};
   if (with_sharpening) {
     first.push_back(std::log(1 + start.sharpening));

@@ -35,6 +35,8 @@ struct EdgeLevels {
 class EdgeCurve {
  public:
   EdgeCurve(const EdgeShape& shape, const EdgeLevels& levels, glm::dvec2 normal);
+  // From the table of the curve that has the same sigma and no sharpening.
+  EdgeCurve(std::vector<double> unsharpened, const EdgeShape& shape);
   [[nodiscard]] double operator()(double distance_px) const;
 
  private:

@@ -83,15 +83,22 @@ LightGrid light_grid_of(const Frame& frame, const View& view) {
   grid.light.create(size);
   grid.luma.create(size);
   grid.hidden = hidden_cells(view.own_body, grid.frame_px, size);
-  for (int y = 0; y < size.height; ++y)
+  const bool is_bt709 = bt709 == cv::Matx33f::eye();
+  for (int y = 0; y < size.height; ++y) {
+    std::array<const float*, 3> rows{};
+    for (int k = 0; k < frame.plane_count(); ++k) rows[k] = codes[k].ptr<float>(y);
+    cv::Vec3f* const light_row = grid.light[y];
+    float* const luma_row = grid.luma[y];
     for (int x = 0; x < size.width; ++x) {
       cv::Vec3f code = map.offset;
-      for (int k = 0; k < frame.plane_count(); ++k) code[k] = codes[k].at<float>(y, x);
+      for (int k = 0; k < frame.plane_count(); ++k) code[k] = rows[k][x];
       const cv::Vec3f rgb = map.to_rgb * (code - map.offset);
-      const cv::Vec3f light = bt709 * cv::Vec3f(linear(rgb[0]), linear(rgb[1]), linear(rgb[2]));
-      for (int k = 0; k < 3; ++k) grid.light(y, x)[k] = std::max(light[k], 0.0F);
-      grid.luma(y, x) = 0.2126F * rgb[0] + 0.7152F * rgb[1] + 0.0722F * rgb[2];
+      cv::Vec3f light(linear(rgb[0]), linear(rgb[1]), linear(rgb[2]));
+      if (!is_bt709) light = bt709 * light;
+      for (int k = 0; k < 3; ++k) light_row[x][k] = std::max(light[k], 0.0F);
+      luma_row[x] = 0.2126F * rgb[0] + 0.7152F * rgb[1] + 0.0722F * rgb[2];
     }
+  }
   return grid;
 }
 
@@ -330,8 +337,10 @@ cv::Mat_<float> elevations_of(const LightImage& image) {
 }  // namespace
 
 std::optional<double> LightImage::elevation_rad(int column, int row) const {
-  if (elevations_rad.empty() || std::isnan(elevations_rad(row, column))) return std::nullopt;
-  return static_cast<double>(elevations_rad(row, column));
+  if (elevations_rad.data == nullptr) return std::nullopt;
+  const float elevation_rad = elevations_rad(row, column);
+  if (std::isnan(elevation_rad)) return std::nullopt;
+  return static_cast<double>(elevation_rad);
 }
 
 LightImage LightImageReader::read(const Frame& frame, const View& view) {

@@ -40,11 +40,11 @@ Floor floor_of(const std::vector<double>& variances, double start, double reach)
   if (std::ssize(variances) < kFewestBlocks) return {};
   Floor found{.value = std::max(quantile(variances, start), kNone)};
   for (int round = 0; round < 10; ++round) {
+    const double limit = reach * found.value;
     double sum = 0, n = 0;
-    for (const double variance : variances) {
-      if (variance > reach * found.value) continue;
-      sum += variance;
-      n += 1;
+    for (const double variance : variances) {  // without branches, which processors guess wrongly here
+      sum += variance > limit ? 0 : variance;
+      n += variance > limit ? 0 : 1;
     }
     found.value = std::max(sum / std::max(n, 1.0), kNone);
   }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <span>
 
 #include "video/frame_source.h"
 
@@ -14,106 +16,151 @@ namespace {
 
 constexpr int kMaxBlocks = 6000;  // of a frame
 
-template <int n>
-using Rest = std::array<float, n * n>;
+constexpr int kSide = kNoiseBlock_px;
 
-struct Plane {
-  float level = 0, slope_x = 0, slope_y = 0;
-};
+// Numbers of four blocks: each block is computed as if it were alone, four at a time.
+constexpr int kTogether = 4;
+using Four = float __attribute__((vector_size(kTogether * sizeof(float))));
+using FourCorners = std::array<cv::Point, kTogether>;
+using FourRests = std::array<Four, kSide * kSide>;  // by sample, row by row
 
-// A block less its plane. Centred coordinates make level and slopes independent of each other.
-template <int n>
-Plane take_plane(const cv::Mat& image, cv::Point corner, Rest<n>& rest) {
-  constexpr float kMiddle = 0.5F * (n - 1);
-  float sum = 0, sum_x = 0, sum_y = 0;
-  for (int y = 0; y < n; ++y) {
-    const uchar* const row = image.ptr<uchar>(corner.y + y) + corner.x;
-    float row_sum = 0;
-    for (int x = 0; x < n; ++x) {
-      row_sum += row[x];
-      sum_x += (static_cast<float>(x) - kMiddle) * row[x];
+FourRests samples_of(const cv::Mat& image, const FourCorners& corners) {
+  FourRests samples;
+  for (int y = 0; y < kSide; ++y) {
+    std::array<const uchar*, kTogether> rows;
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = image.ptr<uchar>(corners[k].y + y) + corners[k].x;
+    for (int x = 0; x < kSide; ++x)
+      samples[y * kSide + x] = Four{static_cast<float>(rows[0][x]), static_cast<float>(rows[1][x]),
+                                    static_cast<float>(rows[2][x]), static_cast<float>(rows[3][x])};
+  }
+  return samples;
+}
+
+// The levels of blocks; their planes are subtracted. Centred coordinates make level and slopes independent of each
+// other.
+Four take_planes(FourRests& blocks) {
+  constexpr float kMiddle = 0.5F * (kSide - 1);
+  Four sum{}, sum_x{}, sum_y{};
+  for (int y = 0; y < kSide; ++y) {
+    Four row_sum{};
+    for (int x = 0; x < kSide; ++x) {
+      row_sum += blocks[y * kSide + x];
+      sum_x += (static_cast<float>(x) - kMiddle) * blocks[y * kSide + x];
     }
     sum += row_sum;
     sum_y += (static_cast<float>(y) - kMiddle) * row_sum;
   }
-  constexpr float kSquares = n * n * (n * n - 1) / 12.0F;  // sum of squares of either coordinate over the block
-  const Plane plane{sum / (n * n), sum_x / kSquares, sum_y / kSquares};
-  for (int y = 0; y < n; ++y) {
-    const uchar* const row = image.ptr<uchar>(corner.y + y) + corner.x;
-    const float start = plane.level + plane.slope_y * (static_cast<float>(y) - kMiddle) - plane.slope_x * kMiddle;
-    for (int x = 0; x < n; ++x) rest[y * n + x] = row[x] - start - plane.slope_x * static_cast<float>(x);
+  constexpr float kSquares =
+      kSide * kSide * (kSide * kSide - 1) / 12.0F;  // sum of squares of either coordinate over the block
+  const Four level = sum / static_cast<float>(kSide * kSide), slope_x = sum_x / kSquares, slope_y = sum_y / kSquares;
+  for (int y = 0; y < kSide; ++y) {
+    const Four start = level + slope_y * (static_cast<float>(y) - kMiddle) - slope_x * kMiddle;
+    for (int x = 0; x < kSide; ++x)
+      blocks[y * kSide + x] = blocks[y * kSide + x] - start - slope_x * static_cast<float>(x);
   }
-  return plane;
+  return level;
 }
 
-template <int n>
-double covariance_of(const Rest<n>& a, const Rest<n>& b) {
-  float sum = 0;
-  for (int i = 0; i < n * n; ++i) sum += a[i] * b[i];
-  return sum / (n * n - 3);
+Four covariances_of(const FourRests& a, const FourRests& b) {
+  Four sum{};
+  for (int i = 0; i < kSide * kSide; ++i) sum += a[i] * b[i];
+  return sum / static_cast<float>(kSide * kSide - 3);
 }
 
-double neighbours_of(const Rest<kNoiseBlock_px>& rest) {
-  constexpr int n = kNoiseBlock_px;
-  float across = 0, down = 0;
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x + 1 < n; ++x) across += rest[y * n + x] * rest[y * n + x + 1];
-  for (int i = 0; i + n < n * n; ++i) down += rest[i] * rest[i + n];
-  return (across + down) / (2 * n * (n - 1));
+Four neighbours_of(const FourRests& rests) {
+  Four across{}, down{};
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x + 1 < kSide; ++x) across += rests[y * kSide + x] * rests[y * kSide + x + 1];
+  for (int i = 0; i + kSide < kSide * kSide; ++i) down += rests[i] * rests[i + kSide];
+  return (across + down) / static_cast<float>(2 * kSide * (kSide - 1));
 }
 
-bool is_clipped(const cv::Mat& image, cv::Point corner, int lowest, int highest) {
-  int clipped = 0;  // counted to the end, as that is faster than to stop
-  for (int y = corner.y; y < corner.y + kNoiseBlock_px; ++y) {
-    const uchar* const row = image.ptr<uchar>(y) + corner.x;
-    for (int x = 0; x < kNoiseBlock_px; ++x) clipped += row[x] <= lowest || row[x] >= highest ? 1 : 0;
+// Of each column, whether one of the rows of blocks that begin at y is clipped there.
+std::vector<uchar> clipped_columns(const cv::Mat& image, int y, uchar lowest, uchar highest) {
+  std::vector<uchar> clipped(static_cast<std::size_t>(image.cols));
+  for (int i = 0; i < kSide; ++i) {
+    const uchar* const row = image.ptr<uchar>(y + i);
+    for (std::size_t x = 0; x < clipped.size(); ++x) clipped[x] |= (row[x] <= lowest) | (row[x] >= highest);
   }
-  return clipped > 0;
+  return clipped;
 }
 
-double chroma_variance(const Frame& frame, cv::Point corner) {
-  constexpr int n = 8;  // as many samples as in luma
+// Blocks of one row of them, at most four, with their corners; unused places repeat the first block.
+struct Group {
+  FourCorners corners;
+  std::size_t count = 0;
+
+  void add(cv::Point corner) {
+    if (count == 0) corners.fill(corner);
+    corners[count++] = corner;
+  }
+};
+
+// Of as many samples as in luma.
+void set_chroma(const Frame& frame, const Group& group, std::span<NoiseBlock> blocks) {
   const cv::Size step = chroma_step(frame.layout);
-  const cv::Point at(corner.x / step.width, corner.y / step.height);
-  double sum = 0;
-  for (const int plane : {1, 2}) {
-    if (at.x + n > frame.planes[plane].cols || at.y + n > frame.planes[plane].rows) return -1;
-    Rest<n> rest;
-    take_plane<n>(frame.planes[plane], at, rest);
-    sum += covariance_of<n>(rest, rest) / 2;
+  Group inside;
+  std::array<std::size_t, kTogether> places{};
+  for (std::size_t k = 0; k < group.count; ++k) {
+    const cv::Point at(group.corners[k].x / step.width, group.corners[k].y / step.height);
+    if (at.x + kSide > frame.planes[1].cols || at.y + kSide > frame.planes[1].rows) continue;
+    places[inside.count] = k;
+    inside.add(at);
   }
-  return sum;
+  if (inside.count == 0) return;
+  for (std::size_t k = 0; k < inside.count; ++k) blocks[places[k]].chroma = 0;
+  for (const int plane : {1, 2}) {
+    FourRests rests = samples_of(frame.planes[plane], inside.corners);
+    take_planes(rests);
+    const Four variances = covariances_of(rests, rests);
+    for (std::size_t k = 0; k < inside.count; ++k) blocks[places[k]].chroma += static_cast<double>(variances[k]) / 2;
+  }
+}
+
+// What luma shows of them, and chroma where there is any.
+std::array<NoiseBlock, kTogether> measured(const Frame& frame, const cv::Mat& luma, const cv::Mat& next_luma,
+                                           const Group& group) {
+  std::array<NoiseBlock, kTogether> blocks;
+  FourRests rests = samples_of(luma, group.corners);
+  const Four levels = take_planes(rests), variances = covariances_of(rests, rests), neighbours = neighbours_of(rests);
+  for (std::size_t k = 0; k < group.count; ++k)
+    blocks[k] = {.mean = levels[k], .variance = variances[k], .neighbours = neighbours[k]};
+  if (!next_luma.empty()) {
+    FourRests later = samples_of(next_luma, group.corners);
+    take_planes(later);
+    const Four next_variances = covariances_of(later, later), covariances = covariances_of(rests, later);
+    for (int i = 0; i < kSide * kSide; ++i) later[i] -= rests[i];
+    const Four change = neighbours_of(later);
+    for (std::size_t k = 0; k < group.count; ++k) {
+      blocks[k].next_variance = next_variances[k];
+      blocks[k].covariance = covariances[k];
+      blocks[k].change_neighbours = static_cast<double>(change[k]) / 2;
+    }
+  }
+  if (frame.layout != PixelLayout::gray && frame.layout != PixelLayout::rgb) set_chroma(frame, group, blocks);
+  return blocks;
 }
 
 }  // namespace
 
 std::vector<NoiseBlock> noise_blocks(const Frame& frame, const Frame* next) {
-  constexpr int n = kNoiseBlock_px;
   const cv::Mat luma = luma_of(frame);
   const cv::Mat next_luma = next == nullptr ? cv::Mat() : luma_of(*next);
   const bool is_limited = frame.layout != PixelLayout::rgb && frame.color.range == ColorRange::limited;
-  const bool has_chroma = frame.layout != PixelLayout::gray && frame.layout != PixelLayout::rgb;
-  const int rows = luma.rows / n, columns = luma.cols / n;
+  const uchar lowest = is_limited ? 16 : 0, highest = is_limited ? 235 : 255;
+  const int rows = luma.rows / kSide, columns = luma.cols / kSide;
   const int every = std::max(1, rows * columns / kMaxBlocks);
   std::vector<NoiseBlock> blocks;
   for (int i = 0; i < rows; i += every) {
+    const std::vector<uchar> clipped = clipped_columns(luma, i * kSide, lowest, highest);
+    Group group;
     for (int j = 0; j < columns; ++j) {
-      const cv::Point corner(j * n, i * n);
-      if (is_clipped(luma, corner, is_limited ? 16 : 0, is_limited ? 235 : 255)) continue;
-      Rest<n> rest;
-      NoiseBlock block{.mean = take_plane<n>(luma, corner, rest).level};
-      block.variance = covariance_of<n>(rest, rest);
-      block.neighbours = neighbours_of(rest);
-      if (!next_luma.empty()) {
-        Rest<n> later;
-        take_plane<n>(next_luma, corner, later);
-        block.next_variance = covariance_of<n>(later, later);
-        block.covariance = covariance_of<n>(rest, later);
-        for (int k = 0; k < n * n; ++k) later[k] -= rest[k];
-        block.change_neighbours = neighbours_of(later) / 2;
-      }
-      if (has_chroma) block.chroma = chroma_variance(frame, corner);
-      blocks.push_back(block);
+      const auto first = clipped.begin() + static_cast<std::ptrdiff_t>(j) * kSide;
+      if (std::find(first, first + kSide, 1) == first + kSide) group.add({j * kSide, i * kSide});
+      if (group.count < kTogether && j + 1 < columns) continue;
+      const std::array<NoiseBlock, kTogether> found = measured(frame, luma, next_luma, group);
+      blocks.insert(blocks.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(group.count));
+      group = {};
     }
   }
   return blocks;

@@ -140,7 +140,8 @@ std::optional<EdgeLine> refined(const Gradients& gradients, EdgeLine line) {
   for (const double half_width_px : {4.0, 4.0, 5.0}) {
     std::array<double, kSlices> weight{}, sum_d{}, sum_t{};
     each_near(line, half_width_px, gradients.x.size(), [&](int x, int y, double t, double d) {
-      const double slope = std::max(0.0, glm::dot(gradient_at(gradients, x, y), line.normal));
+      const double slope = glm::dot(gradient_at(gradients, x, y), line.normal);
+      if (!(slope > 0)) return;
       const int slice = std::clamp(static_cast<int>((t / line.half_length_px + 1) * kSlices / 2), 0, kSlices - 1);
       const double w = slope * slope;
       weight[slice] += w;
@@ -178,17 +179,29 @@ struct Side {
   double deviation = 0;
 };
 
-Side side_of(const cv::Mat& luma, const EdgeLine& line, double sign) {
-  double n = 0, sum = 0, squares = 0;
+struct Sides {
+  Side dark, bright;
+};
+
+Sides sides_of(const cv::Mat& luma, const EdgeLine& line) {
+  struct Sums {
+    double n = 0, sum = 0, squares = 0;
+
+    [[nodiscard]] Side side() const {
+      if (n < 1) return {0, INFINITY};
+      return {sum / n, std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)))};
+    }
+  };
+  Sums dark, bright;
   each_near(line, kEdgeHalfWidth_px, luma.size(), [&](int x, int y, double, double d) {
-    if (sign * d < 5) return;
+    if (std::abs(d) < 5) return;
+    Sums& side = d < 0 ? dark : bright;
     const double code = luma.at<uchar>(y, x);
-    n += 1;
-    sum += code;
-    squares += code * code;
+    side.n += 1;
+    side.sum += code;
+    side.squares += code * code;
   });
-  if (n < 1) return {0, INFINITY};
-  return {sum / n, std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)))};
+  return {dark.side(), bright.side()};
 }
 
 // Whether every quarter of a pixel near the edge has samples.
@@ -224,8 +237,7 @@ std::optional<StraightEdge> edge_along(const cv::Mat& luma, const Gradients& gra
   if (glm::any(glm::lessThan(fitted->at_px - reach, glm::dvec2(1))) ||
       glm::any(glm::greaterThan(fitted->at_px + reach, last)))
     return std::nullopt;
-  const Side dark = side_of(luma, *fitted, -1);
-  const Side bright = side_of(luma, *fitted, 1);
+  const auto [dark, bright] = sides_of(luma, *fitted);
   const double contrast = bright.mean - dark.mean;
   if (!(contrast >= kMinContrast)) return std::nullopt;
   StraightEdge edge{.line = *fitted, .dark = dark.mean, .bright = bright.mean};
@@ -252,8 +264,14 @@ EdgeBins binned(const cv::Mat& plane, const PlaneGrid& grid, const EdgeLine& lin
       glm::max(glm::ivec2(0), glm::ivec2(glm::ceil((line.at_px - reach - grid.offset_px) / grid.step_px)));
   const glm::ivec2 high = glm::min(glm::ivec2(plane.cols - 1, plane.rows - 1),
                                    glm::ivec2(glm::floor((line.at_px + reach - grid.offset_px) / grid.step_px)));
+  const double first_x = grid.offset_px.x - line.at_px.x;  // of the plane's first column, from the line's middle
   for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) {
+    const double down = y * grid.step_px.y + grid.offset_px.y - line.at_px.y;
+    const Span row{low.x * grid.step_px.x + first_x, high.x * grid.step_px.x + first_x};
+    const Span span = within(within(row, along, down, line.half_length_px), line.normal, down, half_width_px);
+    const int end = std::min(high.x, static_cast<int>(std::floor((span.to - first_x) / grid.step_px.x)) + 1);
+    for (int x = std::max(low.x, static_cast<int>(std::ceil((span.from - first_x) / grid.step_px.x)) - 1); x <= end;
+         ++x) {
       const glm::dvec2 from = glm::dvec2(x, y) * grid.step_px + grid.offset_px - line.at_px;
       const double d = glm::dot(from, line.normal);
       if (std::abs(glm::dot(from, along)) > line.half_length_px) continue;

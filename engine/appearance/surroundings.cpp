@@ -28,12 +28,19 @@ std::size_t level_of(float luma) {
   return static_cast<std::size_t>(std::clamp(luma, 0.0F, 1.0F) * 255.0F + 0.5F);
 }
 
-// How far red, green and blue are from each other, as displayed. The difference in light is divided by the slope of a
-// gamma of 2.2, since that of the footage is close to it.
-double chroma_of(const cv::Vec3f& light) {
-  const auto display = [](float value) { return std::pow(std::max(value, 0.0F), 1 / 2.2F); };
+// Whether red, green and blue are further from each other, as displayed, than kNoColor. The difference in light is
+// divided by the slope of a gamma of 2.2, since that of the footage is close to it. With a and b the largest and the
+// least of them, a^g - b^g for g = 1/2.2 lies between g (a - b) a^(g-1), as powers below 1 are concave, and a^g times
+// g (1 - b/a) (b/a)^(g-1); powers are computed only where these bounds, with a margin of 5 %, do not tell.
+bool is_colored(const cv::Vec3f& light) {
   const auto [low, high] = std::minmax({light[0], light[1], light[2]});
-  return static_cast<double>(display(high) - display(low));
+  const auto a = static_cast<double>(high), b = static_cast<double>(low);
+  if (b >= 0 && a <= 1) {
+    if (2 * b >= a && a - b < 1.4 * kNoColor * a) return false;          // 2^(1-g) / 2.2 = 0.664; a^g <= 1
+    if ((a - b) * (a - b) > 5.4 * kNoColor * kNoColor * a) return true;  // a^(g-1) >= a^-0.5; (1.05 * 2.2)^2 = 5.34
+  }
+  const auto display = [](float value) { return std::pow(std::max(value, 0.0F), 1 / 2.2F); };
+  return static_cast<double>(display(high) - display(low)) > kNoColor;
 }
 
 bool is_neutral(const glm::dvec3& light) {
@@ -54,7 +61,7 @@ void Tone::add(const LightImage& image) {
       ++levels_[level];
       ++cells_;
       light_[level] += luminance(light);
-      if (luminance(light) > 0.003 && chroma_of(image.grid.light(y, x)) > kNoColor) ++colored_;
+      if (luminance(light) > 0.003 && is_colored(image.grid.light(y, x))) ++colored_;
       const auto up = image.elevation_rad(x, y);
       const bool is_sky = image.skyline ? up && *up > 0.02 : y < size.height / 2;
       if (!is_sky) continue;

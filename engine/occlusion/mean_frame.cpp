@@ -65,12 +65,36 @@ struct Slope {
   cv::Mat x, y;
 };
 
+// Half of the differences between the neighbours; at a border the pixel itself is one of them.
 Slope slope_of(const cv::Mat& image) {
-  const cv::Mat half = (cv::Mat_<float>(1, 3) << -0.5F, 0, 0.5F);
-  Slope slope;
-  cv::filter2D(image, slope.x, CV_32F, half, {-1, -1}, 0, cv::BORDER_REPLICATE);
-  cv::filter2D(image, slope.y, CV_32F, half.t(), {-1, -1}, 0, cv::BORDER_REPLICATE);
+  Slope slope{cv::Mat(image.size(), CV_32FC1), cv::Mat(image.size(), CV_32FC1)};
+  const int right = image.cols - 1;
+  for (int y = 0; y < image.rows; ++y) {
+    const auto* const above = image.ptr<float>(std::max(0, y - 1));
+    const auto* const row = image.ptr<float>(y);
+    const auto* const below = image.ptr<float>(std::min(image.rows - 1, y + 1));
+    auto* const along_x = slope.x.ptr<float>(y);
+    auto* const along_y = slope.y.ptr<float>(y);
+    along_x[0] = (row[std::min(1, right)] - row[0]) * 0.5F;
+    for (int x = 1; x < right; ++x) along_x[x] = (row[x + 1] - row[x - 1]) * 0.5F;
+    along_x[right] = (row[right] - row[std::max(0, right - 1)]) * 0.5F;
+    for (int x = 0; x <= right; ++x) along_y[x] = (below[x] - above[x]) * 0.5F;
+  }
   return slope;
+}
+
+// value_of(pixels...) for the pixels at each place of images of one size, CV_32FC1.
+template <class Value, class... Images>
+cv::Mat by_pixel(const Value& value_of, const cv::Mat& first, const Images&... more) {
+  cv::Mat values(first.size(), CV_32FC1);
+  for (int y = 0; y < values.rows; ++y) {
+    auto* const out = values.ptr<float>(y);
+    const auto fill = [&](const auto*... rows) {
+      for (int x = 0; x < values.cols; ++x) out[x] = value_of(rows[x]...);
+    };
+    fill(first.ptr<float>(y), more.template ptr<float>(y)...);
+  }
+  return values;
 }
 
 cv::Mat shrunk(const cv::Mat& image) {
@@ -109,23 +133,40 @@ class ShiftFinder {
 
   [[nodiscard]] Shift shift_of(const cv::Mat& difference) const {
     Slope change = slope_of(difference);
-    const cv::Mat contrast = windowed(change.x.mul(slope_.x) + change.y.mul(slope_.y)) / slope_square_;
-    change.x -= contrast.mul(slope_.x);
-    change.y -= contrast.mul(slope_.y);
-    const cv::Mat to_x = windowed(second_xx_.mul(change.x) + second_xy_.mul(change.y));
-    const cv::Mat to_y = windowed(second_xy_.mul(change.x) + second_yy_.mul(change.y));
-    Shift shift{.x = cv::Mat(yy_.mul(to_x) - xy_.mul(to_y)) / determinant_,
-                .y = cv::Mat(xx_.mul(to_y) - xy_.mul(to_x)) / determinant_};
-    shift.explained = shift.x.mul(to_x) + shift.y.mul(to_y);
-    shift.change = windowed(change.x.mul(change.x) + change.y.mul(change.y));
+    const cv::Mat contrast = windowed_products(change.x, slope_.x, change.y, slope_.y) / slope_square_;
+    const auto less = [](float value, float share, float of) { return value - share * of; };
+    change.x = by_pixel(less, change.x, contrast, slope_.x);
+    change.y = by_pixel(less, change.y, contrast, slope_.y);
+    const cv::Mat to_x = windowed_products(second_xx_, change.x, second_xy_, change.y);
+    const cv::Mat to_y = windowed_products(second_xy_, change.x, second_yy_, change.y);
+    const auto solved = [](float a, float to_a, float b, float to_b, float determinant) {
+      return (a * to_a - b * to_b) / determinant;
+    };
+    Shift shift{.x = by_pixel(solved, yy_, to_x, xy_, to_y, determinant_),
+                .y = by_pixel(solved, xx_, to_y, xy_, to_x, determinant_)};
+    shift.explained = by_pixel(kSumOfProducts, shift.x, to_x, shift.y, to_y);
+    shift.change = windowed_products(change.x, change.x, change.y, change.y);
     return shift;
   }
 
  private:
-  [[nodiscard]] cv::Mat windowed(const cv::Mat& values) const {
-    cv::Mat sums;
-    cv::boxFilter(values.mul(weight_), sums, CV_32F, {kShiftWindow, kShiftWindow}, {-1, -1}, true, cv::BORDER_REFLECT);
-    return sums;
+  static constexpr auto kSumOfProducts = [](float a, float b, float c, float d) { return a * b + c * d; };
+
+  [[nodiscard]] cv::Mat windowed(const cv::Mat& values) const { return window_means(values.mul(weight_)); }
+
+  // windowed(a * b + c * d)
+  [[nodiscard]] cv::Mat windowed_products(const cv::Mat& a, const cv::Mat& b, const cv::Mat& c,
+                                          const cv::Mat& d) const {
+    const auto weighted = [](float va, float vb, float vc, float vd, float weight) {
+      return (va * vb + vc * vd) * weight;
+    };
+    return window_means(by_pixel(weighted, a, b, c, d, weight_));
+  }
+
+  [[nodiscard]] static cv::Mat window_means(const cv::Mat& values) {
+    cv::Mat means;
+    cv::boxFilter(values, means, CV_32F, {kShiftWindow, kShiftWindow}, {-1, -1}, true, cv::BORDER_REFLECT);
+    return means;
   }
 
   cv::Mat weight_;
@@ -213,8 +254,9 @@ cv::Mat drifting(const std::vector<MeanFrame>& segments, const cv::Mat& ratio) {
   ShiftFinder::Shift before;
   for (const cv::Mat& image : images) {
     ShiftFinder::Shift shift = finder.shift_of(image - mean);
-    if (!before.x.empty()) agreeing += before.x.mul(shift.x) + before.y.mul(shift.y);
-    square += shift.x.mul(shift.x) + shift.y.mul(shift.y);
+    const auto with_products = [](float sum, float a, float b, float c, float d) { return sum + (a * b + c * d); };
+    if (!before.x.empty()) agreeing = by_pixel(with_products, agreeing, before.x, shift.x, before.y, shift.y);
+    square = by_pixel(with_products, square, shift.x, shift.x, shift.y, shift.y);
     explained += shift.explained;
     change += shift.change;
     before = std::move(shift);

@@ -52,6 +52,10 @@ struct Known {
   cv::Mat free;    // CV_8UC1, non-zero: to be labelled
 };
 
+cv::Mat square(int radius) {
+  return cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8UC1);
+}
+
 cv::Mat numbered(const cv::Mat& free) {
   cv::Mat numbers(free.size(), CV_32SC1, cv::Scalar(-1));
   int count = 0;
@@ -73,18 +77,21 @@ void add_link(Graph& graph, const Known& known, const cv::Mat& numbers, cv::Poin
 cv::Mat cut(const CutCosts& costs, const Known& known) {
   const cv::Rect image({}, costs.boundary.size());
   const cv::Mat numbers = numbered(known.free);
+  cv::Mat linked;
+  cv::dilate(known.free, linked, square(1));  // and the neighbours of free pixels
   const auto pixels = static_cast<unsigned>(cv::countNonZero(known.free));
   Graph graph(pixels + 2, (pixels + 1) * 2 * static_cast<unsigned>(kNeighbours.size()));
   for (unsigned i = 0; i < pixels + 2; ++i) graph.addVtx();
   graph.addEdges(static_cast<int>(pixels), static_cast<int>(pixels) + 1, 0, 0);  // GCGraph needs at least one link
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
+      if (linked.at<std::uint8_t>(y, x) == 0) continue;
       const int number = numbers.at<int>(y, x);
       if (number >= 0)
         graph.addTermWeights(number, whole(costs.as_world.at<float>(y, x)), whole(costs.as_body.at<float>(y, x)));
       for (const Neighbour& to : kNeighbours) {
         const cv::Point other(x + to.dx, y + to.dy);
-        if (!image.contains(other)) continue;
+        if (!image.contains(other) || (number < 0 && numbers.at<int>(other) < 0)) continue;
         const double open = border_cost(costs.boundary.at<float>(y, x), costs.boundary.at<float>(other));
         add_link(graph, known, numbers, {x, y}, other, whole(to.length * open));
       }
@@ -143,10 +150,6 @@ constexpr double kNext = 1.5;  // pixels: between the distance of the eight neig
 constexpr int kBandShare =
     160;                       // of the width: at this share of it from the outline, the blur of the outline has ended
 constexpr int kBandWidth = 2;  // in units of that distance
-
-cv::Mat square(int radius) {
-  return cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8UC1);
-}
 
 double median_in(const cv::Mat& values, const cv::Mat& mask) {
   std::vector<float> inside;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "base/threads.h"
 #include "occlusion/detect.h"
 #include "occlusion/mean_frame.h"
 #include "occlusion/region_cut.h"
@@ -47,11 +51,10 @@ struct Trust {
   bool is_doubt_still = false;  // a pixel that does not count as moving counts as still
   double still_near_cost = 0;   // of labelling a still pixel world where everything around moves
   double lone_boundary = 1;     // share that is left of a boundary beside which nothing moves
-  double body_cost = 0;         // of labelling any pixel body
 };
 constexpr Trust kCareful{.sure_reach = 3, .still_near_cost = 0.04};
-constexpr Trust kSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.01};
-constexpr Trust kMaxSparing{.sure_reach = 3, .still_near_cost = 0.04, .body_cost = 0.02};
+constexpr double kSparingCost = 0.01;  // of labelling any pixel body
+constexpr double kMaxSparingCost = 0.02;
 constexpr Trust kTrusting{.sure_reach = 5, .is_doubt_still = true, .still_near_cost = 0.12, .lone_boundary = 0.7};
 constexpr int kTrustReach = 10;  // pixels beside the borders
 constexpr int kSoftRounds =
@@ -86,26 +89,48 @@ cv::Mat boundary_of(const Boundaries& boundaries, const cv::Mat& moving, const T
   return cv::max(boundaries.ridge, boundaries.motion).mul(beside * (1 - trust.lone_boundary) + trust.lone_boundary);
 }
 
-CutCosts costs_of(const StableDecision& decision, const cv::Mat& drift, const Trust& trust) {
+// What the costs of cuts with the same trust share, whatever their drift and the cost of any body.
+struct CutGround {
+  cv::Mat moving_cost;         // of labelling what moves body
+  cv::Mat far;                 // how little moves around, 0..1
+  cv::Mat as_world, boundary;  // CutCosts
+};
+
+CutGround ground_of(const StableDecision& decision, const Trust& trust) {
   cv::Mat moving;
   cv::erode(decision.motion.moving, moving, disc(trust.sure_reach));
   cv::Mat near;
   cv::boxFilter(moving, near, CV_32F, {kNear, kNear}, {-1, -1}, true, cv::BORDER_REFLECT);
   const cv::Mat still = 1.0 - (trust.is_doubt_still ? moving : decision.motion.moving);
-  const cv::Mat far = cv::max(1.0 - near / kFarShare, 0.0);
-  return {.as_body = moving.mul(moving).mul(moving) * kMovingCost + drift.mul(far) * kDriftingCost + trust.body_cost,
+  return {.moving_cost = moving.mul(moving).mul(moving) * kMovingCost,
+          .far = cv::max(1.0 - near / kFarShare, 0.0),
           .as_world = still.mul(near * trust.still_near_cost + kStillCost / moving.rows) +
                       decision.boundaries.staying.mul(1.0 - decision.moving) * kStayingCost,
           .boundary = boundary_of(decision.boundaries, moving, trust)};
 }
 
+CutCosts costs_of(const CutGround& ground, const cv::Mat& drift, double body_cost) {
+  return {.as_body = ground.moving_cost + drift.mul(ground.far) * kDriftingCost + body_cost,
+          .as_world = ground.as_world,
+          .boundary = ground.boundary};
+}
+
 // Drift beside strong edges may be a highlight that drifts over the body, or a cloud that ends there: cuts with it and
 // without it.
 std::vector<cv::Mat> labellings_of(const StableDecision& decision, const cv::Mat& drift_away) {
-  return {cheapest_cut(costs_of(decision, decision.drift, kCareful)),
-          cheapest_cut(costs_of(decision, drift_away, kCareful)),
-          cheapest_cut(costs_of(decision, decision.drift, kSparing)),
-          cheapest_cut(costs_of(decision, drift_away, kMaxSparing))};
+  struct Way {
+    const cv::Mat& drift;
+    double body_cost;
+  };
+  const std::array<Way, 4> ways{Way{decision.drift, 0}, Way{drift_away, 0}, Way{decision.drift, kSparingCost},
+                                Way{drift_away, kMaxSparingCost}};
+  const CutGround ground = ground_of(decision, kCareful);
+  std::vector<cv::Mat> labellings(ways.size());
+  parallel_for(static_cast<int>(ways.size()), static_cast<int>(std::thread::hardware_concurrency()), [&](int i) {
+    const Way& way = ways[static_cast<std::size_t>(i)];
+    labellings[static_cast<std::size_t>(i)] = cheapest_cut(costs_of(ground, way.drift, way.body_cost));
+  });
+  return labellings;
 }
 
 // How much more likely than not a part is body, 0..1: 0 where it is not.
@@ -141,11 +166,16 @@ cv::Mat confidence_of(const cv::Mat& moving, const cv::Mat& body, const BodyPart
   return certainty.mul(cv::min(cv::Mat(inside + outside) / kUnsureBorder, 1.0)) + 0.5;
 }
 
-std::optional<std::string> why_undecided(const StableDecision& decision, const StableOwnBodySettings& settings) {
-  const auto pixels = static_cast<double>(decision.moving.total());
-  const double moving_percent = 100 * cv::countNonZero(decision.moving > 0.5) / pixels;
+// Before anything is cut.
+std::optional<std::string> why_too_little_moves(const cv::Mat& moving, double min_moving_percent) {
+  const double moving_percent = 100 * cv::countNonZero(moving > 0.5) / static_cast<double>(moving.total());
   if (moving_percent < kNothingPercent) return "nothing moves";
-  if (moving_percent < settings.min_moving_percent) return "too little moves";
+  if (moving_percent < min_moving_percent) return "too little moves";
+  return std::nullopt;
+}
+
+std::optional<std::string> why_undecided(const StableDecision& decision) {
+  const auto pixels = static_cast<double>(decision.moving.total());
   if (cv::countNonZero(decision.body) > kMaxShare * pixels) return "nearly everything stays";
   if (cv::countNonZero(decision.body) == 0 && cv::countNonZero(decision.labels) > kDoubtfulShare * pixels)
     return "too little moves";
@@ -164,12 +194,14 @@ cv::Mat root(const cv::Mat& values) {
   return roots;
 }
 
-// settings: lengths in pixels of the means.
+// settings: lengths in pixels of the means. Where too little moves the result has its steps with KeepStages::yes alone.
 StableDecision decision_by(const MotionEvidence& gradients, MotionEvidence motion, const cv::Mat& drift, int rounds,
-                           const StableOwnBodySettings& settings) {
+                           const StableOwnBodySettings& settings, KeepStages keep) {
   StableDecision decision{.motion = std::move(motion), .drift = drift};
-  decision.boundaries = boundaries_of(gradients, decision.motion);
   decision.moving = cv::max(decision.motion.moving, decision.drift);
+  decision.undecided = why_too_little_moves(decision.moving, settings.min_moving_percent);
+  if (decision.undecided && keep == KeepStages::no) return decision;
+  decision.boundaries = boundaries_of(gradients, decision.motion);
   const cv::Mat away = decision.drift.mul(away_from_edges(decision));
   const std::vector<cv::Mat> labellings = labellings_of(decision, away);
   decision.labels = labellings.front();
@@ -181,13 +213,13 @@ StableDecision decision_by(const MotionEvidence& gradients, MotionEvidence motio
   const BodyParts parts =
       body_parts(labellings, inside, settings.min_area_percent / 100 * static_cast<double>(decision.labels.total()));
   decision.body = parts.kept;
-  const CutCosts costs = costs_of(decision, away, kTrusting);
+  const CutCosts costs = costs_of(ground_of(decision, kTrusting), away, 0);
   for (int round = 0; round < rounds; ++round) {
     const cv::Mat before = std::exchange(decision.body, cheapest_cut_near(decision.body, kTrustReach, costs));
     if (cv::countNonZero(before != decision.body) == 0) break;
   }
   decision.confidence = confidence_of(decision.moving, decision.body, parts);
-  decision.undecided = why_undecided(decision, settings);
+  if (!decision.undecided) decision.undecided = why_undecided(decision);
   return decision;
 }
 
@@ -197,16 +229,25 @@ double share_moving_beside(const StableDecision& decision) {
   return cv::countNonZero((decision.moving > 0.5) & world) / std::max(1.0, 1.0 * cv::countNonZero(world));
 }
 
+// By brightness, where it decides.
+std::optional<StableDecision> soft_decision(const MotionEvidence& gradients, const std::vector<MeanFrame>& segments,
+                                            const cv::Mat& drift, StableOwnBodySettings settings) {
+  // A body of kMaxShare leaves the least world, of which kSoftWorld must move.
+  settings.min_moving_percent = std::max(settings.min_moving_percent, 100 * kSoftWorld * (1 - kMaxShare));
+  StableDecision soft = decision_by(gradients, brightness_motion_of(segments, gradients, settings.vibration_px), drift,
+                                    kSoftRounds, settings, KeepStages::no);
+  if (soft.undecided || share_moving_beside(soft) < kSoftWorld) return std::nullopt;
+  return soft;
+}
+
 StableDecision stable_decision(const GradientMoments& moments, const std::vector<MeanFrame>& segments,
-                               const StableOwnBodySettings& settings) {
+                               const StableOwnBodySettings& settings, KeepStages keep) {
   const MotionEvidence gradients = motion_of(moments, settings.vibration_px);
   const cv::Mat drift = drifting(segments, gradients.ratio);
-  StableDecision decision = decision_by(gradients, gradients, drift, 1, settings);
+  StableDecision decision = decision_by(gradients, gradients, drift, 1, settings, keep);
   if (!decision.undecided) return decision;
-  StableDecision soft = decision_by(gradients, brightness_motion_of(segments, gradients, settings.vibration_px), drift,
-                                    kSoftRounds, settings);
-  if (soft.undecided || share_moving_beside(soft) < kSoftWorld) return decision;
-  return soft;
+  std::optional<StableDecision> soft = soft_decision(gradients, segments, drift, settings);
+  return soft ? std::move(*soft) : decision;
 }
 
 // The steps as images, CV_8UC1 of the means' size, without the result.
@@ -242,7 +283,7 @@ class StableMethod final : public DetectionMethod {
   [[nodiscard]] Verdict verdict(KeepStages keep) const override;
 
  private:
-  [[nodiscard]] StableDecision decision() const;
+  [[nodiscard]] StableDecision decision(KeepStages keep) const;
   [[nodiscard]] Verdict undecided(std::string reason) const;
   [[nodiscard]] cv::Mat at_full_size(const cv::Mat& small) const;
   [[nodiscard]] std::vector<DetectionStage> stages_of(const StableDecision& decision, const cv::Mat& mask) const;
@@ -263,15 +304,15 @@ void StableMethod::add(const cv::Mat& luma) {
   averager_.clear();
 }
 
-StableDecision StableMethod::decision() const {
+StableDecision StableMethod::decision(KeepStages keep) const {
   StableOwnBodySettings settings = settings_;
   settings.vibration_px /= averager_.scale();
-  if (averager_.waiting() == 0) return stable_decision(gradients_.moments(), segments_.segments(), settings);
+  if (averager_.waiting() == 0) return stable_decision(gradients_.moments(), segments_.segments(), settings, keep);
   GradientSums gradients = gradients_.clone();
   FootageSegments segments = segments_;
   gradients.add(averager_.image());
   segments.add(averager_.image());
-  return stable_decision(gradients.moments(), segments.segments(), settings);
+  return stable_decision(gradients.moments(), segments.segments(), settings, keep);
 }
 
 Verdict StableMethod::undecided(std::string reason) const {
@@ -304,7 +345,7 @@ std::vector<DetectionStage> StableMethod::stages_of(const StableDecision& decisi
 
 Verdict StableMethod::verdict(KeepStages keep) const {
   if (averager_.frames() < 2) return undecided("fewer than 2 frames");
-  const StableDecision decided = decision();
+  const StableDecision decided = decision(keep);
   Verdict verdict = decided.undecided
                         ? undecided(*decided.undecided)
                         : Verdict{.own_body = at_full_size(gaussian_blurred(decided.body, averager_.scale())) >= 0.5,

@@ -2,6 +2,7 @@
 #include "occlusion/stable_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -200,6 +201,83 @@ void find_ends_of_motion(const MotionEvidence& motion, const MotionEvidence& gra
   boundaries.motion = sharp.mul(cv::max(place, crest)) * kMotionBoundary;
 }
 
+// The rows of an image, blurred as cv::GaussianBlur of 3 x 3 pixels does: by 1 2 1 both ways, reflected at the borders.
+// One row after the other is made, with those above and below.
+class BlurredRows {
+ public:
+  explicit BlurredRows(const cv::Mat& image) : image_(image) {
+    for (std::vector<float>& row : along_) row.resize(static_cast<std::size_t>(image.cols));
+    for (std::vector<float>& row : blurred_) row.resize(static_cast<std::size_t>(image.cols));
+  }
+
+  // y: from 0 on, each in turn. At the top and the bottom the row itself stands for the one beyond.
+  void go_to(int y) {
+    if (y == 0) {
+      for (const int first : {0, 1}) blur_along(std::min(first, image_.rows - 1));
+      blur_down(0);
+    }
+    y_ = y;
+    if (y + 2 < image_.rows) blur_along(y + 2);
+    if (y + 1 < image_.rows) blur_down(y + 1);
+  }
+
+  [[nodiscard]] const std::vector<float>& above() const { return blurred_[place(std::max(0, y_ - 1))]; }
+  [[nodiscard]] const std::vector<float>& here() const { return blurred_[place(y_)]; }
+  [[nodiscard]] const std::vector<float>& below() const { return blurred_[place(std::min(image_.rows - 1, y_ + 1))]; }
+
+ private:
+  [[nodiscard]] static std::size_t place(int y) { return static_cast<std::size_t>(y % 3); }
+
+  // In the order in which cv::GaussianBlur adds, so that the sums are the same to the last bit.
+  static float blurred(float before, float here, float after) { return here * 0.5F + (before + after) * 0.25F; }
+
+  void blur_along(int y) {
+    const auto* row = image_.ptr<float>(y);
+    float* const out = along_[place(y)].data();
+    const int right = image_.cols - 1;
+    out[0] = blurred(row[std::min(1, right)], row[0], row[std::min(1, right)]);
+    for (int x = 1; x < right; ++x) out[x] = blurred(row[x - 1], row[x], row[x + 1]);
+    if (right > 0) out[right] = blurred(row[right - 1], row[right], row[right - 1]);
+  }
+
+  void blur_down(int y) {
+    const int bottom = image_.rows - 1;
+    const int before = y > 0 ? y - 1 : std::min(1, bottom);
+    const int after = y < bottom ? y + 1 : std::max(0, bottom - 1);
+    const float* const above = along_[place(before)].data();
+    const float* const row = along_[place(y)].data();
+    const float* const below = along_[place(after)].data();
+    float* const out = blurred_[place(y)].data();
+    for (int x = 0; x < image_.cols; ++x) out[x] = blurred(above[x], row[x], below[x]);
+  }
+
+  const cv::Mat& image_;                       // CV_32FC1
+  std::array<std::vector<float>, 3> along_;    // the rows y - 1 to y + 1, blurred along x alone; by y % 3
+  std::array<std::vector<float>, 3> blurred_;  // likewise, both ways
+  int y_ = 0;
+};
+
+// Half of the difference between the neighbours on both sides; at an end of the row the sample itself is one of them.
+void half_differences(const std::vector<float>& row, std::vector<float>& out) {
+  const std::size_t right = row.size() - 1;
+  out[0] = (row[std::min<std::size_t>(1, right)] - row[0]) * 0.5F;
+  for (std::size_t x = 1; x < right; ++x) out[x] = (row[x + 1] - row[x - 1]) * 0.5F;
+  if (right > 0) out[right] = (row[right] - row[right - 1]) * 0.5F;
+}
+
+void half_differences(const std::vector<float>& above, const std::vector<float>& below, std::vector<float>& out) {
+  for (std::size_t x = 0; x < out.size(); ++x) out[x] = (below[x] - above[x]) * 0.5F;
+}
+
+void add_weighted(const std::vector<float>& values, float weight, float* sums) {
+  for (std::size_t x = 0; x < values.size(); ++x) sums[x] += weight * values[x];
+}
+
+void add_squares(const std::vector<float>& x_values, const std::vector<float>& y_values, float weight, float* sums) {
+  for (std::size_t x = 0; x < x_values.size(); ++x)
+    sums[x] += weight * (x_values[x] * x_values[x] + y_values[x] * y_values[x]);
+}
+
 }  // namespace
 
 GradientSums::GradientSums(cv::Size size)
@@ -209,28 +287,16 @@ GradientSums::GradientSums(cv::Size size)
 
 void GradientSums::add(const MeanFrame& image) {
   ENSURE(image.luma.size() == sum_x_.size() && image.luma.type() == CV_32FC1);
-  cv::Mat blurred;
-  cv::GaussianBlur(image.luma, blurred, {3, 3}, 0);
   const auto weight = static_cast<float>(image.frames);
-  const int right = blurred.cols - 1;
-  const int bottom = blurred.rows - 1;
-  for (int y = 0; y <= bottom; ++y) {
-    const auto* above = blurred.ptr<float>(std::max(0, y - 1));
-    const auto* here = blurred.ptr<float>(y);
-    const auto* below = blurred.ptr<float>(std::min(bottom, y + 1));
-    auto* sum_x = sum_x_.ptr<float>(y);
-    auto* sum_y = sum_y_.ptr<float>(y);
-    auto* sum_square = sum_square_.ptr<float>(y);
-    const auto add_at = [&](int x, int before, int after) {
-      const float gx = (here[after] - here[before]) * 0.5F;
-      const float gy = (below[x] - above[x]) * 0.5F;
-      sum_x[x] += weight * gx;
-      sum_y[x] += weight * gy;
-      sum_square[x] += weight * (gx * gx + gy * gy);
-    };
-    add_at(0, 0, std::min(1, right));
-    for (int x = 1; x < right; ++x) add_at(x, x - 1, x + 1);
-    if (right > 0) add_at(right, right - 1, right);
+  BlurredRows rows(image.luma);
+  std::vector<float> slope_x(static_cast<std::size_t>(image.luma.cols)), slope_y(slope_x.size());
+  for (int y = 0; y < image.luma.rows; ++y) {
+    rows.go_to(y);
+    half_differences(rows.here(), slope_x);
+    half_differences(rows.above(), rows.below(), slope_y);
+    add_weighted(slope_x, weight, sum_x_.ptr<float>(y));
+    add_weighted(slope_y, weight, sum_y_.ptr<float>(y));
+    add_squares(slope_x, slope_y, weight, sum_square_.ptr<float>(y));
   }
   frames_ += image.frames;
   ++mean_frames_;

@@ -86,7 +86,8 @@ struct FrameSource::State {
   [[nodiscard]] Result<void> open(libav::Demuxer demuxer);
   [[nodiscard]] Result<void> open_images(const SequenceTiming& timing);
   [[nodiscard]] Result<Shown> show(int n);
-  [[nodiscard]] Result<Frame> read(int n);
+  // luma_alone: of footage with luma, the result has no other planes and is gray.
+  [[nodiscard]] Result<Frame> read(int n, bool luma_alone);
   [[nodiscard]] bool has_changed() const { return seeker && !(state_of(info.path) == file); }
 };
 
@@ -184,7 +185,7 @@ Result<FrameSource::State::Shown> FrameSource::State::show(int n) {
   return Shown{found->image->frame.get(), found->n, orientation, found->image->quantisers, info.path};
 }
 
-Result<Frame> FrameSource::State::read(int n) {
+Result<Frame> FrameSource::State::read(int n, bool luma_alone) {
   const Result<Shown> shown = show(n);
   if (!shown) return fail(libav::named(shown.error(), info.path));
   const std::string where = stills ? shown->file.string() : fmt::format("{}: frame {}", info.path.string(), n);
@@ -196,7 +197,9 @@ Result<Frame> FrameSource::State::read(int n) {
   if (size != info.size_px)
     return fail(where, fmt::format("the image's size changes from {} to {}", image_size_text(info.size_px),
                                    image_size_text(size)));
-  Result<Frame> frame = libav::frame_of(image, {.layout = info.layout, .bit_depth = info.bit_depth}, info.color);
+  const libav::Conversion wanted{.layout = info.layout, .bit_depth = info.bit_depth};
+  Result<Frame> frame =
+      luma_alone ? libav::luma_frame_of(image, wanted, info.color) : libav::frame_of(image, wanted, info.color);
   if (!frame) return fail(where, frame.error().what);
   if (!(shown->orientation == libav::Orientation{})) frame = libav::oriented(*frame, shown->orientation);
   frame->quantisers = libav::oriented(shown->quantisers, stored_px, shown->orientation);
@@ -206,8 +209,18 @@ Result<Frame> FrameSource::State::read(int n) {
 }
 
 Result<Frame> FrameSource::read(int n) {
+  return read(n, false);
+}
+
+Result<LumaFrame> FrameSource::read_luma(int n) {
+  const Result<Frame> frame = read(n, true);
+  if (!frame) return fail(frame.error());
+  return guarded([&]() -> Result<LumaFrame> { return LumaFrame{n, luma_of(*frame), frame->damaged}; });
+}
+
+Result<Frame> FrameSource::read(int n, bool luma_alone) {
   ENSURE(n >= 0 && n < state_->info.frame_count());
-  Result<Frame> frame = guarded([&] { return state_->read(n); });
+  Result<Frame> frame = guarded([&] { return state_->read(n, luma_alone); });
   // After a cancellation the result may be incomplete.
   if (state_->cancel != nullptr && state_->cancel->load()) return libav::interrupted();
   // Checked after reading: the result may mix the old and the new file.
@@ -283,10 +296,9 @@ std::optional<Result<LumaFrame>> LumaStream::next() {
 
 void LumaStream::decode(FrameSource& footage, const FrameSteps& steps) {
   for (int i = 0; i < steps.count; ++i) {
-    const Result<Frame> frame = footage.read(steps.at(i));
-    const bool wanted =
-        frame ? ahead_.put(LumaFrame{steps.at(i), luma_of(*frame), frame->damaged}) : ahead_.put(fail(frame.error()));
-    if (!wanted || !frame) break;
+    Result<LumaFrame> frame = footage.read_luma(steps.at(i));
+    const bool is_read = frame.has_value();
+    if (!ahead_.put(std::move(frame)) || !is_read) break;
   }
   ahead_.close();
 }

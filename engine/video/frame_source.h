@@ -40,6 +40,13 @@ struct VideoInfo {
   [[nodiscard]] int frame_count() const { return static_cast<int>(times_s.size()); }
 };
 
+// The luma of a frame.
+struct LumaFrame {
+  int number = 0;        // of the frame in the footage
+  cv::Mat luma;          // CV_8UC1, as of luma_of()
+  bool damaged = false;  // as Frame::damaged
+};
+
 // Whether frames come with the quantisers that the codec has used for them (Frame::quantisers).
 enum class Quantisers { leave_out, read };
 
@@ -74,9 +81,13 @@ class FrameSource {
   // Errors: bad_data (the image's size changes), cannot_read (the file has changed since it was opened), interrupted.
   [[nodiscard]] Result<Frame> read(int n);
 
+  // The luma of the same frame, without a copy of its chroma.
+  [[nodiscard]] Result<LumaFrame> read_luma(int n);
+
  private:
   struct State;
   explicit FrameSource(std::unique_ptr<State> state);
+  [[nodiscard]] Result<Frame> read(int n, bool luma_alone);
   std::unique_ptr<State> state_;
 };
 
@@ -95,12 +106,6 @@ struct FrameSteps {
 
   // Number of the i-th frame used, from 0.
   [[nodiscard]] int at(int i) const { return first + i * every; }
-};
-
-struct LumaFrame {
-  int number = 0;        // of the frame in the footage
-  cv::Mat luma;          // CV_8UC1
-  bool damaged = false;  // as Frame::damaged
 };
 
 // Decodes frames on a thread of its own, up to 8 ahead of the caller, and gives their luma in order. No other code may

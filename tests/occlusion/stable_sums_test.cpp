@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "occlusion/mean_frame.h"
@@ -113,6 +114,26 @@ TEST_CASE("the gradient's moments are those of a plain double loop over the imag
       CHECK(std::abs(moments.mean_y.at<float>(y, x) - mean.y / frames) < 1e-3);
       CHECK(moments.mean_square.at<float>(y, x) == doctest::Approx(square / frames).epsilon(1e-4));
     }
+}
+
+TEST_CASE("images of any size are blurred as OpenCV does") {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(2, 1), cv::Size(1, 3), cv::Size(2, 2), cv::Size(37, 11)}) {
+    cv::Mat luma, blurred;
+    random_luma(size, 3).convertTo(luma, CV_32F, 1.0 / 3);  // means of three frames have fractions
+    cv::GaussianBlur(luma, blurred, {3, 3}, 0);
+    GradientSums sums(size);
+    sums.add({luma, 1});
+    const GradientMoments moments = sums.moments();
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x) {
+        const auto at = [&](int column, int row) {
+          return blurred.at<float>(std::clamp(row, 0, size.height - 1), std::clamp(column, 0, size.width - 1));
+        };
+        // Codes up to 85 have 24 bits each; OpenCV may add them in another order.
+        CHECK(std::abs(moments.mean_x.at<float>(y, x) - (at(x + 1, y) - at(x - 1, y)) / 2) < 1e-4F);
+        CHECK(std::abs(moments.mean_y.at<float>(y, x) - (at(x, y + 1) - at(x, y - 1)) / 2) < 1e-4F);
+      }
+  }
 }
 
 TEST_CASE("a clone of the sums is independent") {

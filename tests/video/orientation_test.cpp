@@ -42,6 +42,7 @@ TEST_CASE("footage with a display matrix is upright, every sample as after FFmpe
       for (int n = 0; n < source.info().frame_count(); ++n) {
         const Result<Frame> frame = source.read(n);
         REQUIRE(frame.has_value());
+        CHECK(cv::norm(source.read_luma(n).value().luma, frame->planes[0], cv::NORM_INF) == 0);
         const Samples samples = samples_of(*frame);
         REQUIRE(place + samples.size() <= raw.size());
         const bool same = std::equal(samples.begin(), samples.end(), raw.begin() + static_cast<std::ptrdiff_t>(place));

@@ -158,3 +158,24 @@ TEST_CASE("an image that players rotate is upright, with a warning") {
   CHECK(source.info().warnings[0].what.find("rotate") != std::string::npos);
   CHECK(opened(folder / "flat.mp4").info().warnings.empty());
 }
+
+TEST_CASE("the luma of a frame read alone is that of the whole frame") {
+  const TemporaryFolder folder;
+  for (const char* options : {"-c:v libx264 -pix_fmt yuv420p", "-c:v ffv1 -pix_fmt yuv422p10le",
+                              "-c:v ffv1 -pix_fmt gray", "-c:v ffv1 -pix_fmt gbrp", "-c:v rawvideo -pix_fmt yuyv422",
+                              "-c:v rawvideo -pix_fmt yuv411p", "-c:v png -pix_fmt pal8"}) {
+    CAPTURE(std::string(options));
+    if (!make_clip(options, folder / "clip.nut")) continue;
+    FrameSource source = opened(folder / "clip.nut");
+    for (const int n : {0, 7, 3}) {
+      const Result<Frame> frame = source.read(n);
+      const Result<LumaFrame> alone = source.read_luma(n);
+      REQUIRE(frame.has_value());
+      REQUIRE(alone.has_value());
+      CHECK(alone->number == n);
+      CHECK(alone->damaged == frame->damaged);
+      CHECK(cv::norm(alone->luma, luma_of(*frame), cv::NORM_INF) == 0);
+    }
+    std::filesystem::remove(folder / "clip.nut");
+  }
+}

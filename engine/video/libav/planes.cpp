@@ -258,6 +258,16 @@ Result<Frame> frame_of(const AVFrame& image, const Conversion& wanted, const Col
   return picked(**plain, descriptor_of(plain_format(wanted.layout, wanted.bit_depth)), wanted.layout, color);
 }
 
+Result<Frame> luma_frame_of(const AVFrame& image, const Conversion& wanted, const ColorInfo& color) {
+  const auto pixel_format = static_cast<AVPixelFormat>(image.format);
+  const AVPixFmtDescriptor& format = descriptor_of(pixel_format);
+  const Conversion own = conversion_of(pixel_format);
+  if (!can_pick(format) || own.layout == PixelLayout::rgb || own.layout != wanted.layout ||
+      own.bit_depth != wanted.bit_depth)
+    return frame_of(image, wanted, color);
+  return picked(image, format, PixelLayout::gray, color);
+}
+
 void fill(AVFrame& image, const Frame& frame) {
   const AVPixFmtDescriptor& format = descriptor_of(static_cast<AVPixelFormat>(image.format));
   for (int i = 0; i < frame.plane_count(); ++i) {

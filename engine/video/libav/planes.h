@@ -25,6 +25,10 @@ struct Conversion {
 // Errors bad_data: the image's format has another layout or depth than `wanted`; swscale does not know the format.
 [[nodiscard]] Result<Frame> frame_of(const AVFrame& image, const Conversion& wanted, const ColorInfo& color);
 
+// The luma of such an image alone, as a gray frame, of formats with luma whose samples need no conversion; the whole
+// frame of all others. Errors as above.
+[[nodiscard]] Result<Frame> luma_frame_of(const AVFrame& image, const Conversion& wanted, const ColorInfo& color);
+
 // The planar pixel format with a layout and depth, of this machine's byte order; packed 32 bits of RGB for 8-bit RGB
 // where `packed_rgb`. AV_PIX_FMT_NONE where FFmpeg has none.
 [[nodiscard]] AVPixelFormat pixel_format_of(PixelLayout layout, int bit_depth, bool packed_rgb = false);

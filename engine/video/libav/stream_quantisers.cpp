@@ -49,10 +49,14 @@ cv::Mat block_map(const AVVideoEncParams& params, cv::Size size_px, int offset) 
   const cv::Rect whole({0, 0}, blocks.size());
   for (unsigned int i = 0; i < params.nb_blocks; ++i) {
     const AVVideoBlockParams& block = *av_video_enc_params_block(const_cast<AVVideoEncParams*>(&params), i);
-    const cv::Rect covered(block.src_x / kBlock_px, block.src_y / kBlock_px, std::max(1, blocks_along(block.w)),
-                           std::max(1, blocks_along(block.h)));
-    const cv::Rect inside = covered & whole;
     const auto value = static_cast<short>(params.qp + block.delta_qp - offset);
+    const cv::Point first(block.src_x / kBlock_px, block.src_y / kBlock_px);
+    if (block.w == kBlock_px && block.h == kBlock_px && whole.contains(first)) {  // as nearly all are
+      blocks.at<short>(first) = value;
+      continue;
+    }
+    const cv::Rect covered(first, cv::Size(std::max(1, blocks_along(block.w)), std::max(1, blocks_along(block.h))));
+    const cv::Rect inside = covered & whole;
     for (int y = inside.y; y < inside.br().y; ++y) std::fill_n(blocks.ptr<short>(y) + inside.x, inside.width, value);
   }
   return blocks;
