@@ -346,8 +346,8 @@ Command add_dataset_command(CLI::App& program) {
   command
       ->add_option(
           "--jobs", options->jobs,
-          "videos exported side by side; 0: one for every four processor cores, of one clip up to eight, which "
-          "share its decoder, of single images one for each core")
+          "videos exported side by side; 0: one for every four processor cores, of one clip mostly up to eight, "
+          "which share its decoder, of single images one for each core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_flag("--resume", options->resume, "keep the videos that are complete and as the recipe asks");

@@ -42,12 +42,17 @@ bool have_most_in_common(const FrameRange& a, const FrameRange& b) {
   return 2 * common >= std::max(count_of(a), count_of(b));
 }
 
-// Memory of an export, measured (docs/speed.md): images between decoder, composer and writers, and those that
-// encoders with references between images look ahead at.
-double bytes_of_export(const PendingVideo& video) {
-  const VideoCodec codec = video.project->output.codec;
-  const bool looks_ahead = codec == VideoCodec::h264 || codec == VideoCodec::hevc || codec == VideoCodec::av1;
-  return (looks_ahead ? 110.0 : 40.0) * video.footage_px.area();
+// How many of the videos may share a decoder.
+int most_sharing(const std::vector<PendingVideo>& videos, const std::vector<std::size_t>& group) {
+  constexpr double kBytes_per_px = 60;  // of an export, measured: mostly images in its queues
+  double most = kMaxSharing;
+  for (const std::size_t video : group) {
+    const VideoCodec codec = videos[video].project->output.codec;
+    // These take most of the time for themselves, and the memory of dozens of images to look ahead at.
+    if (codec == VideoCodec::h264 || codec == VideoCodec::hevc || codec == VideoCodec::av1) return 1;
+    most = std::min(most, kMaxSharing_bytes / (kBytes_per_px * std::max(1, videos[video].footage_px.area())));
+  }
+  return std::max(1, static_cast<int>(most));
 }
 
 // Pieces of about the same length, of `most` or fewer.
@@ -77,10 +82,8 @@ void append_videos(const std::vector<PendingVideo>& videos, int most, std::vecto
     groups.push_back({i});
   }
   for (const std::vector<std::size_t>& group : groups) {
-    double bytes = 1;
-    for (const std::size_t video : group) bytes = std::max(bytes, bytes_of_export(videos[video]));
-    const int fitting = static_cast<int>(std::clamp(kMaxSharing_bytes / bytes, 1.0, double(most)));
-    for (std::vector<std::size_t>& piece : pieces_of(group, static_cast<std::size_t>(fitting)))
+    const auto fitting = static_cast<std::size_t>(std::min(most, most_sharing(videos, group)));
+    for (std::vector<std::size_t>& piece : pieces_of(group, fitting))
       batches.push_back({piece.size() > 1 ? Batch::Kind::shared : Batch::Kind::video, std::move(piece)});
   }
 }

@@ -47,7 +47,8 @@ struct Schedule {
 };
 
 // jobs: videos at the same time; 0: one for every four cores, of one clip up to kMaxSharing, of single images one for
-// each core. Videos share a decoder where half of the frames of the longer one or more are in both.
+// each core. Videos share a decoder where half of the frames of the longer one or more are in both; not those in H.264,
+// HEVC and AV1, whose encoders take nearly all of the time and much memory.
 [[nodiscard]] Schedule schedule_of(const std::vector<PendingVideo>& videos, int jobs, int cores);
 
 // Calls make(video, footage) for each video of a shared batch, each call on a thread of its own. footage: a source of
