@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <set>
+#include <stdexcept>
 
 #include "base/staged_outputs.h"
 #include "dataset/tiny_plan.h"
@@ -108,6 +110,26 @@ TEST_CASE(
   CHECK(largest(schedule_of(videos_of(lossless, {3840, 2160}), 0, 2)) == 2);
   CHECK(largest(schedule_of(videos_of(lossless, {7680, 4320}), 0, 2)) == 1);
   CHECK(largest(schedule_of(videos_of(coded, {64, 48}), 0, 2)) == 1);
+}
+
+TEST_CASE("each video of a shared batch gets a source of its own; none where the clip cannot be opened") {
+  TinyPlan tiny(3, 6);
+  std::vector<PendingVideo> videos;
+  for (const PlannedVideo& video : tiny.plan.videos) videos.push_back({&video.project, {0, 5}, {64, 48}});
+  const Schedule schedule = schedule_of(videos, 0, 2);
+  REQUIRE(schedule.batches.size() == 1);
+  std::atomic<int> shared{0};
+  const auto read_all = [&](std::size_t video, FrameSource* footage) {
+    for (int n = 0; footage != nullptr && n < 6; ++n) shared += footage->read(n).value().coded != nullptr ? 1 : 0;
+    if (video == 1) throw std::runtime_error("of one");  // the others are read to their ends
+  };
+  CHECK_THROWS_AS(make_sharing(schedule.batches[0], videos, nullptr, read_all), std::runtime_error);
+  CHECK(shared == 18);
+  fs::remove(tiny.inputs().file("clip.mkv"));
+  std::atomic<int> without{0};
+  make_sharing(schedule.batches[0], videos, nullptr,
+               [&](std::size_t, FrameSource* footage) { without += footage == nullptr ? 1 : 0; });
+  CHECK(without == 3);
 }
 
 TEST_CASE("images are made one after the other, those of one clip together and forwards") {
