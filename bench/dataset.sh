@@ -4,9 +4,11 @@
 # default: 3 interleaved runs of build/release on part 1/5 of projects/table1/table1.json; PART all: every video.
 # Medians. The dataset command also checks its inputs, makes checksums and waits for the disk; single exports do not.
 #   bench/dataset.sh coverage [BUILD]    runs bench/dataset_coverage.sh: time to plan, coverage against labels
+#   bench/dataset.sh shared videos|images SIGS_BEFORE ...    runs bench/dataset_shared.sh: what sharing saves
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ "${1:-}" != coverage ] || exec bench/dataset_coverage.sh "${2:-build/release}"
+[ "${1:-}" != shared ] || exec bench/dataset_shared.sh "${@:2}"
 runs=${1:-3}
 sigs=$PWD/${2:-build/release}/sigs
 part=${3:-1/5}

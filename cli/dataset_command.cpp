@@ -344,8 +344,10 @@ Command add_dataset_command(CLI::App& program) {
       ->required();
   add_output(*command, "--out", options->folder, "folder to write into; not given: the dataset's name", "DIR");
   command
-      ->add_option("--jobs", options->jobs,
-                   "videos exported side by side; 0: one for every four processor cores, of single images one for each")
+      ->add_option(
+          "--jobs", options->jobs,
+          "videos exported side by side; 0: one for every four processor cores, of one clip mostly up to eight, "
+          "which share its decoder, of single images one for each core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_flag("--resume", options->resume, "keep the videos that are complete and as the recipe asks");

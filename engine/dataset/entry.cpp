@@ -24,86 +24,9 @@
 #include "project/json.h"
 #include "video/image_sequence.h"
 
-extern "C" {
-#include <libavutil/mem.h>
-#include <libavutil/sha.h>
-}
-
 namespace sigs {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-constexpr int kBits = 256;
-constexpr std::size_t kPieceBytes = 1 << 20;
-
-// SHA-256 (FIPS 180-4) of all bytes that were added.
-class Checksum {
- public:
-  Checksum() : sha_(av_sha_alloc()) {
-    ENSURE(sha_ != nullptr);
-    av_sha_init(sha_, kBits);
-  }
-  ~Checksum() { av_free(sha_); }
-  Checksum(const Checksum&) = delete;
-  Checksum& operator=(const Checksum&) = delete;
-
-  void add(std::string_view bytes) {
-    av_sha_update(sha_, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-  }
-
-  // To be called once; nothing may be added after it.
-  [[nodiscard]] std::string text() {
-    std::array<std::uint8_t, kBits / 8> digest{};
-    av_sha_final(sha_, digest.data());
-    std::string text;
-    for (const std::uint8_t byte : digest)
-      for (const int nibble : {byte >> 4, byte & 15}) text += "0123456789abcdef"[nibble];
-    return text;
-  }
-
- private:
-  AVSHA* sha_;
-};
-
-}  // namespace
-
-std::string checksum_of_text(std::string_view text) {
-  Checksum checksum;
-  checksum.add(text);
-  return checksum.text();
-}
-
-Result<std::string> checksum_of_file(const fs::path& file, const std::atomic<bool>* cancel) {
-  if (const Result<void> there = check_input_file(file); !there) return fail(there.error());
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return fail(file.string(), std::string("cannot be read: ") + std::strerror(errno), ErrorKind::cannot_read);
-  Checksum checksum;
-  std::vector<char> piece(kPieceBytes);
-  while (in) {
-    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    checksum.add({piece.data(), static_cast<std::size_t>(in.gcount())});
-  }
-  if (in.bad()) return fail(file.string(), "cannot be read to its end", ErrorKind::cannot_read);
-  return checksum.text();
-}
-
-std::string checksum_line(const std::string& checksum, const std::string& path) {
-  std::string name;
-  for (const char c : path) {
-    if (c == '\\')
-      name += "\\\\";
-    else if (c == '\n')
-      name += "\\n";
-    else if (c == '\r')
-      name += "\\r";
-    else
-      name += c;
-  }
-  return fmt::format("{}{}  {}\n", name == path ? "" : "\\", checksum, name);
-}
 
 Result<std::string> InputChecksums::of(const fs::path& file) {
   const std::lock_guard lock(mutex_);

@@ -247,7 +247,7 @@ Result<int> frames_of(const Project& project, const FootageShape& footage) {
   return range->last - range->first + 1;
 }
 
-Result<int> ExportLengths::frames_of(const Project& project) {
+Result<ExportExtent> ExportExtents::of(const Project& project) {
   const FootageSettings settings = footage_of(project);
   const std::string key = footage_key(settings);
   std::unique_lock lock(mutex_);
@@ -259,7 +259,9 @@ Result<int> ExportLengths::frames_of(const Project& project) {
     known = shapes_.emplace(key, std::move(shape)).first;
   }
   if (!known->second) return fail(known->second.error());
-  return sigs::frames_of(project, *known->second);
+  const Result<FrameRange, Problem> frames = scene_range(project.footage, *known->second);
+  if (!frames) return fail(error_of(project, frames.error()));
+  return ExportExtent{*frames, known->second->size_px};
 }
 
 std::vector<std::optional<Visibility>> visibilities_of(const std::vector<const PlannedVideo*>& videos, int frames,

@@ -88,13 +88,19 @@ class VideoVisibility {
 // that the project names.
 [[nodiscard]] Result<int> frames_of(const Project& project, const FootageShape& footage);
 
-// How many frames exports have. Each clip is opened once. May be called from any thread.
-class ExportLengths {
+// What the export of a project reads of its footage.
+struct ExportExtent {
+  FrameRange frames;
+  cv::Size footage_px;  // size of its images
+};
+
+// The extents of exports. Each clip is opened once. May be called from any thread.
+class ExportExtents {
  public:
-  explicit ExportLengths(const std::atomic<bool>* cancel = nullptr) : cancel_(cancel) {}
+  explicit ExportExtents(const std::atomic<bool>* cancel = nullptr) : cancel_(cancel) {}
 
   // Errors: those of opening the clip; bad_project: it has not the frames that the project names.
-  [[nodiscard]] Result<int> frames_of(const Project& project);
+  [[nodiscard]] Result<ExportExtent> of(const Project& project);
 
  private:
   std::mutex mutex_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <set>
@@ -19,6 +20,7 @@
 #include "dataset/footage_cache.h"
 #include "dataset/index.h"
 #include "dataset/merge_labels.h"
+#include "dataset/schedule.h"
 #include "dataset/video_folder.h"
 #include "dataset/video_name.h"
 #include "project/validate.h"
@@ -55,46 +57,18 @@ struct Task {
   std::string planned;              // fingerprint
   std::optional<VideoEntry> entry;  // of a complete folder as planned
   std::optional<Error> error;
-  int frames = 0;  // to be exported
-  int done = 0;    // of these
+  ExportExtent extent;  // to be exported
+  int done = 0;         // frames of it
 
   std::string why_not;  // the existing folder is not kept
 
   [[nodiscard]] bool is_pending() const { return !entry && !error; }
+  [[nodiscard]] int frames() const { return extent.frames.last - extent.frames.first + 1; }
   [[nodiscard]] std::string unusable() const {
     if (error) return error->text();
     return why_not.empty() ? "missing" : why_not;
   }
 };
-
-// What one thread makes one after another: a video, or images of one clip, whose decoder then goes forwards.
-using Batch = std::vector<Task*>;
-
-constexpr std::size_t kImagesOfABatch = 50;
-
-std::vector<Batch> batches_of(const std::vector<Task*>& tasks) {
-  std::vector<Batch> batches;
-  std::map<std::string, Batch> images;  // by clip
-  for (Task* const task : tasks) {
-    if (task->frames == 1)
-      images[task->folder.video->project.footage.video].push_back(task);
-    else
-      batches.push_back({task});
-  }
-  for (auto& [clip, all] : images) {
-    std::ranges::stable_sort(all, {}, [](const Task* task) { return task->folder.video->project.footage.first_frame; });
-    for (std::size_t i = 0; i < all.size(); i += kImagesOfABatch)
-      batches.emplace_back(all.begin() + i, all.begin() + std::min(i + kImagesOfABatch, all.size()));
-  }
-  return batches;
-}
-
-// An export of a video keeps some four cores busy, with decoding, composing and two encoders; that of an image one.
-int batches_at_a_time(const DatasetRequest& request, const std::vector<Batch>& batches) {
-  const bool has_videos = std::ranges::any_of(batches, [](const Batch& batch) { return batch.front()->frames > 1; });
-  const int wanted = request.jobs > 0 ? request.jobs : std::max(1, has_videos ? cores() / 4 : cores());
-  return std::clamp(wanted, 1, static_cast<int>(batches.size()));
-}
 
 class DatasetRun {
  public:
@@ -104,7 +78,7 @@ class DatasetRun {
         control_(control),
         dataset_(dataset),
         inputs_(control.cancel),
-        lengths_(control.cancel) {
+        extents_(control.cancel) {
     for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i)
       if (!request.shard || request.shard->has(i)) tasks_.push_back({.folder = {dataset, &plan.videos[i]}});
   }
@@ -119,7 +93,9 @@ class DatasetRun {
   [[nodiscard]] std::string outdated(const Task& task, const VideoEntry& entry);
   [[nodiscard]] Result<void> check_all_there() const;
   [[nodiscard]] Result<void> export_missing(DatasetReport& report);
-  void make(Task& task, int jobs, FrameRenderer* renderer);
+  void make(Task& task, VideoExport wanted);
+  void make_batch(const Batch& batch, const std::vector<Task*>& tasks, const std::vector<PendingVideo>& videos,
+                  int jobs_of_each, FrameRenderer& renderer);
   void advance(Task& task, int done);
   [[nodiscard]] Result<void> write_index(DatasetReport& report);
   void warn_of_unplanned_videos();
@@ -130,7 +106,7 @@ class DatasetRun {
   const DatasetControl& control_;
   fs::path dataset_;
   InputChecksums inputs_;
-  ExportLengths lengths_;
+  ExportExtents extents_;
   std::vector<Task> tasks_;
   std::mutex mutex_;  // of the callbacks and the counts
   int frames_to_do_ = 0;
@@ -173,11 +149,11 @@ void DatasetRun::inspect(Task& task) {
     if (entry && !why.empty() && !is_cancelled() && !request_.merge_only) warn({video.name, "is made anew: " + why});
   }
   if (!task.is_pending() || request_.merge_only) return;
-  const Result<int> frames = lengths_.frames_of(video.project);
-  if (frames)
-    task.frames = *frames;
+  const Result<ExportExtent> extent = extents_.of(video.project);
+  if (extent)
+    task.extent = *extent;
   else
-    task.error = frames.error();
+    task.error = extent.error();
 }
 
 Result<void> DatasetRun::check_all_there() const {
@@ -209,17 +185,16 @@ void DatasetRun::advance(Task& task, int done) {
   if (control_.progress && frames_to_do_ > 0) control_.progress(frames_done_, frames_to_do_);
 }
 
-void DatasetRun::make(Task& task, int jobs, FrameRenderer* renderer) {
-  const VideoExport wanted{.planned = task.planned,
-                           .jobs = jobs,
-                           .renderer = renderer,
-                           .progress = [&](int done, int) { advance(task, done); },
-                           .warn = [&](const Warning& warning) { warn(warning); },
-                           .cancel = control_.cancel};
+void DatasetRun::make(Task& task, VideoExport wanted) {
+  if (is_cancelled()) return;
+  wanted.planned = task.planned;
+  wanted.progress = [&](int done, int) { advance(task, done); };
+  wanted.warn = [&](const Warning& warning) { warn(warning); };
+  wanted.cancel = control_.cancel;
   Result<VideoEntry> made = guarded([&] { return make_video(task.folder, wanted); });
   if (!made) {
     task.error = with_final_names(made.error(), dataset_);
-    if (!is_cancelled()) advance(task, task.frames);
+    if (!is_cancelled()) advance(task, task.frames());
     return;
   }
   const std::lock_guard lock(mutex_);
@@ -227,20 +202,35 @@ void DatasetRun::make(Task& task, int jobs, FrameRenderer* renderer) {
   if (control_.finished) control_.finished(task.folder.video->name);
 }
 
+void DatasetRun::make_batch(const Batch& batch, const std::vector<Task*>& tasks,
+                            const std::vector<PendingVideo>& videos, int jobs_of_each, FrameRenderer& renderer) {
+  if (batch.kind == Batch::Kind::shared) {
+    make_sharing(batch, videos, control_.cancel, [&](std::size_t video, FrameSource* footage) {
+      make(*tasks[video], {.jobs = jobs_of_each, .footage = footage});
+    });
+    return;
+  }
+  for (const std::size_t video : batch.videos)
+    make(*tasks[video], {.jobs = jobs_of_each, .renderer = batch.kind == Batch::Kind::images ? &renderer : nullptr});
+}
+
 Result<void> DatasetRun::export_missing(DatasetReport& report) {
   std::vector<Task*> pending;
-  for (Task& task : tasks_)
-    if (task.is_pending()) pending.push_back(&task);
+  std::vector<PendingVideo> videos;
+  for (Task& task : tasks_) {
+    if (!task.is_pending()) continue;
+    pending.push_back(&task);
+    videos.push_back({&task.folder.video->project, task.extent.frames, task.extent.footage_px});
+    frames_to_do_ += task.frames();
+  }
   if (pending.empty()) return {};
   if (const Result<void> step = remove_index(dataset_); !step) return step;
-  for (const Task* const task : pending) frames_to_do_ += task->frames;
-  const std::vector<Batch> batches = batches_of(pending);
-  const int at_a_time = batches_at_a_time(request_, batches);
-  const int jobs_of_each = std::max(1, cores() / at_a_time - 1);
-  parallel_for(static_cast<int>(batches.size()), at_a_time, [&](int i) {
+  const Schedule schedule = schedule_of(videos, request_.jobs, cores());
+  std::atomic<std::size_t> next{0};
+  parallel_for(schedule.batches_at_a_time, schedule.batches_at_a_time, [&](int) {
     FrameRenderer renderer;
-    for (Task* const task : batches[i])
-      if (!is_cancelled()) make(*task, jobs_of_each, task->frames == 1 ? &renderer : nullptr);
+    for (std::size_t i = next++; i < schedule.batches.size() && !is_cancelled(); i = next++)
+      make_batch(schedule.batches[i], pending, videos, schedule.jobs_of_each(schedule.batches[i], cores()), renderer);
   });
   for (const Task* const task : pending) {
     if (!task->entry) continue;

@@ -19,8 +19,7 @@ namespace sigs {
 struct DatasetRequest {
   std::filesystem::path folder;
   DatasetSource source;
-  int jobs = 0;  // videos exported in parallel, 0: one for every four cores, of single images one for each; bytes
-                 // do not depend on it
+  int jobs = 0;  // videos exported in parallel, 0: as schedule_of() (schedule.h) chooses; bytes do not depend on it
   bool resume = false;         // keep videos that are complete and as planned; false: the folder must hold no dataset
   std::optional<Shard> shard;  // make only these videos, and no index
   bool index = true;           // false: make no index, since the plan is only a part of the dataset's

@@ -56,7 +56,8 @@ Project with_absolute_paths(const VideoFolder& folder) {
 }
 
 Result<VideoEntry> export_into(const fs::path& staged, const VideoFolder& folder, const VideoExport& request) {
-  const ExportRequest wanted{.project = with_absolute_paths(folder), .folder = staged, .jobs = request.jobs};
+  const ExportRequest wanted{
+      .project = with_absolute_paths(folder), .folder = staged, .jobs = request.jobs, .footage = request.footage};
   const ExportControl control{.progress = request.progress,
                               .warn =
                                   [&](const Warning& warning) {

@@ -26,6 +26,7 @@ struct VideoExport {
   std::string planned;                // its fingerprint
   int jobs = 1;                       // frames composed in parallel
   FrameRenderer* renderer = nullptr;  // of a video of one frame: makes it, and keeps what it has opened; null: not used
+  FrameSource* footage = nullptr;     // as ExportRequest::footage
   std::function<void(int done, int total)> progress;
   std::function<void(const Warning&)> warn;
   const std::atomic<bool>* cancel = nullptr;

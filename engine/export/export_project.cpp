@@ -192,7 +192,7 @@ Result<void> finish(const ExportRequest& request, const VideoInfo& footage, Expo
 Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
   const Stopwatch watch;
   const Project& project = request.project;
-  Result<OpenedProject> opened = open_project(project, control.cancel);
+  Result<OpenedProject> opened = open_project(project, control.cancel, request.footage);
   if (!opened) return fail(opened.error());
   const VideoInfo& video = opened->source.info();
   const Scene& scene = opened->scene;

@@ -28,9 +28,10 @@ struct ExportRequest {
   int jobs = 1;                      // frames composed in parallel; the bytes do not depend on it
   bool overwrite = false;
   // Open descriptors of the process that are written to frame by frame; -1: none. docs/streams.md.
-  int video_descriptor = -1;   // the video goes there, as nut or y4m, and no file is written
-  int labels_descriptor = -1;  // JSON lines, each before its frame's image
-  bool in_real_time = false;   // no frame goes out before its time has passed since the first one
+  int video_descriptor = -1;       // the video goes there, as nut or y4m, and no file is written
+  int labels_descriptor = -1;      // JSON lines, each before its frame's image
+  bool in_real_time = false;       // no frame goes out before its time has passed since the first one
+  FrameSource* footage = nullptr;  // the project's, as open_project() takes it; null: is opened
 };
 
 // Seconds spent in each stage, added up over frames (stages run in parallel).

@@ -78,9 +78,10 @@ Result<Scene> open_scene(const Project& project, const FootageShape& footage) {
   return open_scene(project, footage, files);
 }
 
-Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel) {
+Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel, FrameSource* footage) {
   if (const Result<void> valid = check_valid(project); !valid) return fail(valid.error());
-  Result<FrameSource> source = open_footage(project, cancel, quantisers_for(project));
+  Result<FrameSource> source =
+      footage != nullptr ? std::move(*footage) : open_footage(project, cancel, quantisers_for(project));
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
   SceneFiles files;

@@ -40,8 +40,10 @@ struct OpenedProject {
 };
 
 // Validates the project and opens all that it names. Errors name the project file and the field.
-//   cancel  set to true: ends soon with the error `interrupted`. May be null; must outlive the opened project.
-[[nodiscard]] Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel);
+//   cancel   set to true: ends soon with the error `interrupted`. May be null; must outlive the opened project.
+//   footage  the project's, opened with quantisers_for() it, and moved from; null: is opened
+[[nodiscard]] Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel,
+                                                 FrameSource* footage = nullptr);
 
 // Whether the frames of a project's footage need their quantisers: where the codec match is to be by the footage's own,
 // and where groups of its pictures are encoded as the others are (codec source).

@@ -9,6 +9,7 @@
 namespace sigs {
 
 struct FrameQuantisers;
+class CodedFootage;
 
 // How the samples of an image are stored.
 enum class PixelLayout {
@@ -59,6 +60,9 @@ struct Frame {
   // How coarsely the codec has quantised it (video/frame_quantisers.h); null where the source was not asked for it or
   // the stream does not state it. Copies of the frame share it.
   std::shared_ptr<const FrameQuantisers> quantisers{};
+  // What encoders have made of the footage's own samples (video/shared_footage.h), so that others need not code again
+  // what is unchanged; null where the footage has one reader. Copies of the frame share it.
+  std::shared_ptr<CodedFootage> coded{};
 
   [[nodiscard]] cv::Size size_px() const { return planes[0].size(); }
   [[nodiscard]] int plane_count() const { return sigs::plane_count(layout); }

@@ -14,6 +14,7 @@
 #include "video/libav/image_file.h"
 #include "video/libav/planes.h"
 #include "video/libav/stream_info.h"
+#include "video/shared_footage.h"
 
 namespace sigs {
 
@@ -72,6 +73,12 @@ struct FrameSource::State {
   FileState file;                             // when it was opened
   libav::Orientation orientation;
   bool quantisers = false;  // frames have their quantisers
+
+  std::shared_ptr<SharedFootage> shared;  // frames come from there, and of the rest only `info` is used; null: no
+  std::size_t reader = 0;                 // of these
+  ~State() {
+    if (shared) shared->leave(reader);
+  }
 
   [[nodiscard]] static FileState state_of(const fs::path& path);
   // An image as it is stored, that of frame n or its substitute.
@@ -162,6 +169,19 @@ Result<FrameSource> FrameSource::open(const fs::path& path, const std::atomic<bo
   });
 }
 
+std::vector<FrameSource> FrameSource::shared(FrameSource source, const std::vector<FrameSteps>& frames, int ahead) {
+  const auto footage = std::make_shared<SharedFootage>(std::move(source), frames, ahead);
+  std::vector<FrameSource> sources;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    auto state = std::make_unique<State>();
+    state->info = footage->info();
+    state->shared = footage;
+    state->reader = i;
+    sources.push_back(FrameSource(std::move(state)));
+  }
+  return sources;
+}
+
 FrameSource::FrameSource(std::unique_ptr<State> state) : state_(std::move(state)) {}
 FrameSource::FrameSource(FrameSource&&) noexcept = default;
 FrameSource& FrameSource::operator=(FrameSource&&) noexcept = default;
@@ -220,6 +240,7 @@ Result<LumaFrame> FrameSource::read_luma(int n) {
 
 Result<Frame> FrameSource::read(int n, bool luma_alone) {
   ENSURE(n >= 0 && n < state_->info.frame_count());
+  if (state_->shared) return state_->shared->read(state_->reader, n);
   Result<Frame> frame = guarded([&] { return state_->read(n, luma_alone); });
   // After a cancellation the result may be incomplete.
   if (state_->cancel != nullptr && state_->cancel->load()) return libav::interrupted();

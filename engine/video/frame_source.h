@@ -50,6 +50,16 @@ struct LumaFrame {
 // Whether frames come with the quantisers that the codec has used for them (Frame::quantisers).
 enum class Quantisers { leave_out, read };
 
+// The frames of the footage that are used: first, first + every, ..., `count` of them.
+struct FrameSteps {
+  int first = 0;
+  int every = 1;
+  int count = 0;
+
+  // Number of the i-th frame used, from 0.
+  [[nodiscard]] int at(int i) const { return first + i * every; }
+};
+
 // Random access to the frames of a video, or of a sequence of images (video/image_sequence.h). Numbers count the frames
 // in order of presentation from 0 and are exact: frame n is the n-th image that decoding the whole file from the start
 // gives, whatever the codec, container or seek table.
@@ -69,6 +79,13 @@ class FrameSource {
                                                 const std::atomic<bool>* cancel = nullptr,
                                                 Quantisers quantisers = Quantisers::leave_out,
                                                 const SequenceTiming& timing = {});
+
+  // Sources for several readers, each on a thread of its own, that together decode each frame once; their frames and
+  // errors are those of `source`. Each should read its frames in order, up to `ahead` (1 or more) before the slowest of
+  // them: then it waits until that one has read on or its source is destroyed.
+  //   frames  those that each reader will read, one or more
+  [[nodiscard]] static std::vector<FrameSource> shared(FrameSource source, const std::vector<FrameSteps>& frames,
+                                                       int ahead);
 
   FrameSource(FrameSource&&) noexcept;
   FrameSource& operator=(FrameSource&&) noexcept;
@@ -97,16 +114,6 @@ class FrameSource {
 [[nodiscard]] cv::Mat luma_of(const Frame& frame);
 // Over a part of the frame alone, which lies within it.
 [[nodiscard]] cv::Mat luma_of_part(const Frame& frame, const cv::Rect& rect);
-
-// The frames of the footage that are used: first, first + every, ..., `count` of them.
-struct FrameSteps {
-  int first = 0;
-  int every = 1;
-  int count = 0;
-
-  // Number of the i-th frame used, from 0.
-  [[nodiscard]] int at(int i) const { return first + i * every; }
-};
 
 // Decodes frames on a thread of its own, up to 8 ahead of the caller, and gives their luma in order. No other code may
 // use the footage while the stream exists.

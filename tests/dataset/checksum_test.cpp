@@ -18,6 +18,16 @@ TEST_CASE("checksums are those of FIPS 180-4's examples") {
         "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST_CASE("checksums of every length around the ends of blocks are those of Python's hashlib") {
+  std::string text;
+  std::string checksums;
+  for (int n = 0; n < 400; ++n) {
+    checksums += checksum_of_text(text);
+    text += static_cast<char>((n * 7 + n / 256) % 256);
+  }
+  CHECK(checksum_of_text(checksums) == "99f6d46c2c48d239af517ccb95e39758f544a3dc80e7778bdf7862aaa6ee31f7");
+}
+
 TEST_CASE("a file's checksum is that of its text, over any number of pieces") {
   const TemporaryFolder folder;
   for (const std::size_t bytes : {0UL, 1UL, (1UL << 20U) - 1, 1UL << 20U, (1UL << 20U) + 1, 3000000UL}) {

@@ -2,6 +2,7 @@
 #include "video/libav/encoding.h"
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <utility>
 
@@ -13,6 +14,7 @@ extern "C" {
 #include "video/chroma.h"
 #include "video/ffv1_slice.h"
 #include "video/libav/planes.h"
+#include "video/shared_footage.h"
 
 namespace sigs::libav {
 namespace {
@@ -35,6 +37,25 @@ cv::Mat part_of(const cv::Mat& plane, std::size_t slice, cv::Size size_px, cv::S
   const cv::Point high(size_px.width * (column + 1) / kSlicesAcross, size_px.height * (row + 1) / kSlicesAcross);
   const cv::Size size((high.x - low.x + step.width - 1) / step.width, (high.y - low.y + step.height - 1) / step.height);
   return plane(cv::Rect(cv::Point(low.x / step.width, low.y / step.height), size));
+}
+
+std::vector<cv::Mat> parts_of(const Frame& frame, std::size_t slice) {
+  std::vector<cv::Mat> parts;
+  for (int p = 0; p < frame.plane_count(); ++p) {
+    const cv::Size step = p == 0 ? cv::Size(1, 1) : chroma_step(frame.layout);
+    parts.push_back(part_of(frame.planes[static_cast<std::size_t>(p)], slice, frame.size_px(), step));
+  }
+  return parts;
+}
+
+bool have_same_samples(const std::vector<cv::Mat>& parts, const Frame& frame, std::size_t slice) {
+  const std::vector<cv::Mat> others = parts_of(frame, slice);
+  return std::ranges::equal(parts, others, [](const cv::Mat& a, const cv::Mat& b) {
+    if (a.size() != b.size() || a.type() != b.type()) return false;
+    for (int y = 0; y < a.rows; ++y)
+      if (std::memcmp(a.ptr(y), b.ptr(y), static_cast<std::size_t>(a.cols) * a.elemSize()) != 0) return false;
+    return true;
+  });
 }
 
 // Everything that samples can be: noise, edges, slopes, and areas of one value.
@@ -115,17 +136,18 @@ bool Ffv1Packets::learn_headers(const std::vector<std::uint8_t>& packet, const F
 }
 
 void Ffv1Packets::code(std::size_t slice, const Frame& frame) {
+  const std::vector<cv::Mat> parts = parts_of(frame, slice);
   std::vector<std::uint8_t>& bytes = slices_[slice].bytes;
-  bytes = slices_[slice].header;
-  std::array<cv::Mat, 3> parts;
-  const int count = frame.plane_count();
-  for (int p = 0; p < count; ++p) {
-    const cv::Size step = p == 0 ? cv::Size(1, 1) : chroma_step(frame.layout);
-    parts[static_cast<std::size_t>(p)] =
-        part_of(frame.planes[static_cast<std::size_t>(p)], slice, frame.size_px(), step);
-  }
-  append_ffv1_samples(bytes, std::span(parts).first(static_cast<std::size_t>(count)));
-  append_footer(bytes);
+  const auto code_samples = [&] {
+    bytes = slices_[slice].header;
+    append_ffv1_samples(bytes, parts);
+    append_footer(bytes);
+    return bytes;
+  };
+  if (frame.coded && have_same_samples(parts, frame.coded->image(), slice))
+    bytes = frame.coded->slice(slice, slices_[slice].header, code_samples);
+  else
+    code_samples();
 }
 
 std::vector<std::uint8_t> Ffv1Packets::packet_of(const Frame& frame, int threads) {
