@@ -89,6 +89,13 @@ struct RenderPlan {
                                                                const RenderPlan& plan, const Scene& scene,
                                                                IntruderLayers& layers, Renderer& renderer);
 
+// The same where smooth parts may be drawn coarsely (compositing.quality auto): each view is drawn with a pixel for
+// each pixel of the image, and then finely where that does not tell enough. As rendered_views() where that would save
+// little.
+[[nodiscard]] Result<std::vector<RenderedView>> sparingly_rendered_views(const RenderPlan& plan, const Scene& scene,
+                                                                         LensTable& lens, IntruderLayers& layers,
+                                                                         Renderer& renderer);
+
 // Area of the whole silhouette in pixels. Where it extends beyond the warped layer, a coarse image of all of it is
 // rendered through the same lens and summed.
 [[nodiscard]] Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, const LensTable& lens,
