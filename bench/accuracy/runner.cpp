@@ -31,6 +31,7 @@ std::vector<Runner> runners_of(const Scene& scene, const std::vector<Method>& me
     runners.push_back({.method = method, .scene = scene});
     runners.back().scene.compositing.method = method.choice;
     runners.back().scene.compositing.supersampling = method.supersampling;
+    runners.back().scene.compositing.quality = method.quality;
   }
   return runners;
 }

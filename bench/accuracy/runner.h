@@ -22,6 +22,7 @@ struct Method {
   std::string name = "direct";
   MethodChoice choice = MethodChoice::direct;
   int supersampling = CompositingSettings{}.supersampling;
+  QualityChoice quality = CompositingSettings{}.quality;
   int samples = ComposeSettings{}.samples_per_pixel;
   double lens_tolerance_px = ComposeSettings{}.lens_tolerance_px;
 };
