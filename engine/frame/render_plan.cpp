@@ -284,14 +284,21 @@ Result<std::vector<RenderedView>> coarse_views(const RenderPlan& plan, const Sce
   return views;
 }
 
-bool is_worth_it(const std::vector<RenderedView>& views, const std::vector<cv::Mat>& read) {
-  int occupied = 0;
-  int fine = 0;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    occupied += cv::countNonZero(views[i].coarse->layer.coverage);
-    fine += cv::countNonZero(read[i]);
+// The cells to be drawn finely; none where that would save little.
+std::optional<std::vector<cv::Mat>> fine_cells(const std::vector<RenderedView>& views, const RenderPlan& plan,
+                                               LensTable& lens, const IntruderLayers& layers) {
+  constexpr double kReadARough = 1.5;  // cells, at least, since a pixel touches several
+  double occupied = 0;
+  double rough = 0;
+  for (const RenderedView& drawn : views) {
+    occupied += cv::countNonZero(drawn.coarse->layer.coverage);
+    rough += cv::countNonZero(drawn.coarse->is_rough);
   }
-  return fine <= kMostRead * occupied;
+  if (kReadARough * rough > kMostRead * occupied) return std::nullopt;
+  std::optional<std::vector<cv::Mat>> read = cells_read(views, lens, plan.warp_rect, row_transform(layers));
+  double fine = 0;
+  for (std::size_t i = 0; read && i < views.size(); ++i) fine += cv::countNonZero((*read)[i]);
+  return fine <= kMostRead * occupied ? std::move(read) : std::nullopt;
 }
 
 }  // namespace
@@ -304,21 +311,20 @@ Result<std::vector<RenderedView>> sparingly_rendered_views(const RenderPlan& pla
   Result<std::vector<RenderedView>> views = coarse_views(plan, scene, layers, renderer);
   if (!views) return fail(views.error());
   layers.draw_s += watch.elapsed_s();
-  const std::optional<std::vector<cv::Mat>> read = cells_read(*views, lens, plan.warp_rect, row_transform(layers));
-  const bool is_sparing = read && is_worth_it(*views, *read);
+  const std::optional<std::vector<cv::Mat>> cells = fine_cells(*views, plan, lens, layers);
   watch = Stopwatch();
-  for (std::size_t i = 0; is_sparing && i < views->size(); ++i) {
+  for (std::size_t i = 0; cells && i < views->size(); ++i) {
     RenderedView& drawn = (*views)[i];
     const Mesh& mesh = mesh_of(scene, layers.placed);
     const Shutter shutter = has_rotors(mesh) ? shutter_of(plan, drawn.view, scene) : Shutter();
     Result<Layer> layer = renderer.draw_cells(mesh, layers.placed.camera_from_body, plan.light, drawn.view,
-                                              {(*read)[i], drawn.coarse->step}, shutter);
+                                              {(*cells)[i], drawn.coarse->step}, shutter);
     if (!layer) return fail(layer.error());
     drawn.layer = std::move(*layer);
   }
   layers.draw_s += watch.elapsed_s();
   count_rendering(layers.op_counts, before, renderer.counts());
-  return is_sparing ? views : rendered_views(plan.views, plan, scene, layers, renderer);
+  return cells ? views : rendered_views(plan.views, plan, scene, layers, renderer);
 }
 
 Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, const LensTable& lens, const Scene& scene,
