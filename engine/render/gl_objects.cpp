@@ -266,9 +266,12 @@ cv::Mat BufferPool::image(const cv::Size& size, int type) {
   constexpr std::size_t kMaxTimesTooLarge = 4;  // an intruder that flies away gives its memory back
   const std::size_t floats = static_cast<std::size_t>(size.area()) * CV_MAT_CN(type);
   const auto is_free = [](const cv::Mat& buffer) { return buffer.u->refcount == 1; };
-  auto found = std::find_if(buffers_.begin(), buffers_.end(), [&](const cv::Mat& buffer) {
-    return is_free(buffer) && buffer.total() >= floats && buffer.total() <= kMaxTimesTooLarge * floats;
-  });
+  // The smallest that will do, so that a frame's large images find the large ones.
+  auto found = buffers_.end();
+  for (auto buffer = buffers_.begin(); buffer != buffers_.end(); ++buffer)
+    if (is_free(*buffer) && buffer->total() >= floats && buffer->total() <= kMaxTimesTooLarge * floats &&
+        (found == buffers_.end() || buffer->total() < found->total()))
+      found = buffer;
   if (found == buffers_.end()) {
     std::erase_if(buffers_, is_free);
     buffers_.emplace_back(1, static_cast<int>(floats + floats / 4), CV_32FC1);  // the next frame's may be larger
