@@ -324,7 +324,9 @@ Result<std::vector<RenderedView>> sparingly_rendered_views(const RenderPlan& pla
   }
   layers.draw_s += watch.elapsed_s();
   count_rendering(layers.op_counts, before, renderer.counts());
-  return cells ? views : rendered_views(plan.views, plan, scene, layers, renderer);
+  if (cells) return views;
+  layers.given_up = std::move(*views);
+  return rendered_views(plan.views, plan, scene, layers, renderer);
 }
 
 Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, const LensTable& lens, const Scene& scene,

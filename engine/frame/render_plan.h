@@ -46,6 +46,7 @@ struct IntruderLayers {
   MotionKernel motion;                   // in the image, during the exposure; empty: none
   double motion_px = 0;                  // its length; 0: none
   std::vector<RenderedView> views;       // empty where no part of it can be in the image
+  std::vector<RenderedView> given_up;    // coarse views that tell too little; their memory serves the next frame's
   Layer warped;                          // through the lens, with the margin beyond the image that the blurs need
   Layer hazed;                           // in the footage's tones, behind haze; shares its samples where both are off
   Layer motion_blurred;                  // blurred by its motion; likewise
