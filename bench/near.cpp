@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What near intruders cost: one aircraft before frames of the sample flight, composed by compose_frame.
-//   bench_near [--rounds N] [WORD]...     default: 3 rounds; only the cases whose names contain all of the words
+//   bench_near [--rounds N] [--set FIELD=VALUE]... [WORD]...
+// default: 3 rounds; only the cases whose names contain all of the words. --set changes a setting of the projects.
 // Prints a line a case: its name, its share of the image in percent, and the medians of drawing, compositing, both, and
 // of the processor time of all threads, in milliseconds a frame. bench/near.sh compares builds.
 
@@ -158,15 +159,19 @@ std::vector<Frame> footage_frames() {
 int main(int argc, char** argv) {
   int rounds = 3;
   std::vector<std::string> words;
+  Settings settings;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--rounds" && i + 1 < argc)
       rounds = std::max(1, std::atoi(argv[++i]));
+    else if (word == "--set" && i + 1 < argc)
+      settings.emplace_back(argv[++i]);
     else
       words.push_back(word);
   }
   const std::vector<Frame> footage = footage_frames();
-  for (const Case& what : all_cases()) {
+  for (Case what : all_cases()) {
+    what.settings.insert(what.settings.end(), settings.begin(), settings.end());
     const auto is_in_name = [&](const std::string& word) { return what.name.find(word) != std::string::npos; };
     if (std::all_of(words.begin(), words.end(), is_in_name)) measure(what, rounds, footage);
   }

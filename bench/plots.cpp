@@ -309,13 +309,44 @@ cv::Mat endurance_plot(const fs::path& samples) {
                           series_of(rows, {.title = "threads", .color = kGreen}, "done", "threads")})});
 }
 
+// Difference from `exact` against processor time, a panel a scene. What differs nowhere has no mark.
+cv::Mat quality_plot(const fs::path& folder) {
+  const std::vector<Row> rows = rows_of(folder / "quality.csv");
+  std::vector<Plot> panels;
+  for (const std::string& scene : different(rows, "scene")) {
+    if (scene.find("400px") == std::string::npos && scene.find("filling") == std::string::npos) continue;
+    const auto way = [&scene](const std::string& name, const std::string& samples) {
+      return [&scene, name, samples](const Row& row) {
+        return row.at("scene") == scene && row.at("way") == name && row.at("samples") == samples;
+      };
+    };
+    const bool is_large = scene.find("filling") != std::string::npos;
+    Plot panel = log_panel(scene, "processor ms a frame", "RMSE against exact, codes",
+                           is_large ? PlotSpan{60, 4000} : PlotSpan{5, 300}, {0.01, 20}, 420, 300);
+    const auto add = [&](PlotSeries style, const Filter& filter) {
+      panel.series.push_back(series_of(rows, std::move(style), "cpu_ms", "rmse", filter));
+    };
+    add(marked("supersampling 1, 2, 4 everywhere", kDirect1), way("all alike", "1"));
+    add(marked("the same with 4 samples: 1, 2", kClassic), way("all alike", "4"));
+    add({.title = "auto", .kind = SeriesKind::marks, .color = kGreen}, way("auto", "1"));
+    add({.title = "draft", .kind = SeriesKind::marks, .color = kPlain}, way("draft", "1"));
+    panel.levels = {0.25};
+    panels.push_back(std::move(panel));
+  }
+  std::vector<PlotSeries> key = panels.front().series;
+  key.push_back({.title = "dashed: the bound of auto", .color = kGrey});
+  for (Plot& panel : panels) without_titles(panel);
+  panels.push_back(key_of(std::move(key), 4 * 420));
+  return image_of(panels, 4);
+}
+
 struct NamedPlot {
   const char* name;
   cv::Mat (*draw)(const fs::path& tables);
 };
-constexpr NamedPlot kPlots[] = {{"frames", frames_plot},         {"sizes", sizes_plot},   {"lens", lens_plot},
-                                {"lens_table", lens_table_plot}, {"spline", spline_plot}, {"own_body", own_body_plot},
-                                {"endurance", endurance_plot}};
+constexpr NamedPlot kPlots[] = {{"frames", frames_plot},         {"sizes", sizes_plot},    {"lens", lens_plot},
+                                {"lens_table", lens_table_plot}, {"spline", spline_plot},  {"own_body", own_body_plot},
+                                {"endurance", endurance_plot},   {"quality", quality_plot}};
 
 }  // namespace
 }  // namespace sigs::bench

@@ -12,7 +12,7 @@ Effort effort_of(const Call& call) {
 
 ComposeContext& Benches::of(const Method& method) {
   const auto [at, is_new] = benches_.try_emplace(
-      {method.samples, method.lens_tolerance_px},
+      std::tuple(method.samples, method.lens_tolerance_px, method.supersampling, method.quality),
       ComposeSettings{.samples_per_pixel = method.samples, .lens_tolerance_px = method.lens_tolerance_px});
   // OpenGL starts here and in no frame's time.
   if (is_new)
@@ -31,6 +31,7 @@ std::vector<Runner> runners_of(const Scene& scene, const std::vector<Method>& me
     runners.push_back({.method = method, .scene = scene});
     runners.back().scene.compositing.method = method.choice;
     runners.back().scene.compositing.supersampling = method.supersampling;
+    runners.back().scene.compositing.quality = method.quality;
   }
   return runners;
 }

@@ -3,7 +3,7 @@
 
 #include <map>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "accuracy/csv.h"
@@ -22,6 +22,7 @@ struct Method {
   std::string name = "direct";
   MethodChoice choice = MethodChoice::direct;
   int supersampling = CompositingSettings{}.supersampling;
+  QualityChoice quality = CompositingSettings{}.quality;
   int samples = ComposeSettings{}.samples_per_pixel;
   double lens_tolerance_px = ComposeSettings{}.lens_tolerance_px;
 };
@@ -35,7 +36,7 @@ class Benches {
   void forget(const Scene& scene);
 
  private:
-  std::map<std::pair<int, double>, ComposeContext> benches_;  // by samples and tolerance
+  std::map<std::tuple<int, double, int, QualityChoice>, ComposeContext> benches_;
 };
 
 // A method in a scene, and the times of its runs.

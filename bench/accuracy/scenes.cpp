@@ -48,6 +48,10 @@ Project bare_project(const Recipe& recipe, const fs::path& folder) {
   IntruderSettings intruder{.name = recipe.aircraft};
   intruder.model.file = (kAssets / "models" / recipe.aircraft / (recipe.aircraft + ".obj")).string();
   project.intruders.push_back(intruder);
+  if (recipe.in_sun) {
+    project.light.kind = LightKind::sun;
+    project.light.sun = {.azimuth_deg = 120, .elevation_deg = 40};
+  }
   return project;
 }
 

@@ -26,6 +26,7 @@ struct Recipe {
   glm::dvec3 flies_along{-0.8, 0.55, 0.1};  // in the world: towards the camera, to the right, a little down
   std::optional<double> sigma_px;           // of the blur; none: the project's default
   bool has_own_body = false;
+  bool in_sun = false;  // which throws shadows; otherwise the point light
 };
 
 // The lens of the sample clip, and three with other distortion.

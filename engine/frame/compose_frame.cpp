@@ -313,7 +313,7 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
   if (!plan.views.empty()) {
     const Result<Renderer*> renderer = context.renderer();
     if (!renderer) return fail(renderer.error());
-    Result<std::vector<RenderedView>> views = rendered_views(plan.views, plan, scene, layers, **renderer);
+    Result<std::vector<RenderedView>> views = sparingly_rendered_views(plan, scene, lens, layers, **renderer);
     if (!views) return fail(views.error());
     layers.views = std::move(*views);
     layers.warped = warped(layers.views, lens, plan.warp_rect, row_transform(layers));

@@ -169,8 +169,10 @@ void composite_intruder(ComposedFrame& composed, const Scene& scene, const Intru
 void keep_direct_stages(std::vector<Stage>& stages, const Scene& scene, const IntruderLayers& layers,
                         const ColorInfo& footage) {
   const cv::Size size = scene.footage.size_px;
-  for (const auto& [view, layer] : layers.views)
-    stages.push_back({stage_name("layer", layers, scene), shown(layer, footage, view.size_px)});
+  for (const RenderedView& drawn : layers.views) {
+    const Layer& layer = drawn.coarse ? drawn.coarse->layer : drawn.layer;  // the finer one has not all of it
+    stages.push_back({stage_name("layer", layers, scene), shown(layer, footage, layer.rect.size())});
+  }
   stages.push_back({stage_name("warped", layers, scene), shown(layers.warped, footage, size)});
   if (layers.hazed.color.data != layers.warped.color.data)
     stages.push_back({stage_name("hazed", layers, scene), shown(layers.hazed, footage, size)});
@@ -194,8 +196,9 @@ cv::Rect visible_rect_of(std::span<const RenderedView> views, const Camera& pinh
   const cv::Rect whole({0, 0}, pinhole.size_px);
   glm::dvec2 low(std::numeric_limits<double>::infinity());
   glm::dvec2 high = -low;
-  for (const auto& [view, layer] : views)
+  for (const RenderedView& drawn : views)
     for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
+      const VirtualCamera& view = drawn.view;
       const glm::dvec2 at =
           (corner * glm::dvec2(view.size_px.width, view.size_px.height) - 0.5 - view.center_px) / view.focal_px;
       const std::optional<glm::dvec2> pixel =

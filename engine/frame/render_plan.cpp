@@ -232,7 +232,7 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
     target =
         with_row_shift(plan.warp_rect, layers.row_motion ? layers.row_motion->max_shift_px(lens.camera().lens) : 0);
   if (!plan.warp_rect.empty())
-    plan.views = virtual_cameras(lens, plan.corners, target, scene.compositing.supersampling, kMaxViewSize_px);
+    plan.views = virtual_cameras(lens, plan.corners, target, drawn_px_per_px(scene.compositing), kMaxViewSize_px);
   return plan;
 }
 
@@ -246,11 +246,87 @@ Result<std::vector<RenderedView>> rendered_views(const std::vector<VirtualCamera
     const Shutter shutter = has_rotors(mesh) ? shutter_of(plan, view, scene) : Shutter();
     Result<Layer> layer = renderer.draw(mesh, layers.placed.camera_from_body, plan.light, view, shutter);
     if (!layer) return fail(layer.error());
-    rendered.push_back({view, std::move(*layer)});
+    rendered.push_back({view, std::move(*layer), {}});
   }
   count_rendering(layers.op_counts, before, renderer.counts());
   layers.draw_s += watch.elapsed_s();
   return rendered;
+}
+
+namespace {
+
+// Below, a view is drawn twice in hardly less time than once as a whole.
+constexpr double kLeastForTwo_px = 2'000'000;
+constexpr double kMostRead = 0.6;     // share of a view's occupied cells: above, drawing all of them is faster
+constexpr double kMaxBend_codes = 2;  // of what is interpolated: a tenth of it is then the error, at most
+
+// Whether there is something to be saved.
+bool may_be_sparing(const RenderPlan& plan, const Scene& scene, const Renderer& renderer) {
+  double pixels = 0;
+  for (const VirtualCamera& view : plan.views) pixels += view.size_px.area();
+  return scene.compositing.quality == QualityChoice::automatic && scene.compositing.method == MethodChoice::direct &&
+         scene.compositing.supersampling > 1 && !renderer.is_multisampled() && pixels >= kLeastForTwo_px;
+}
+
+Result<std::vector<RenderedView>> coarse_views(const RenderPlan& plan, const Scene& scene, IntruderLayers& layers,
+                                               Renderer& renderer) {
+  const Mesh& mesh = mesh_of(scene, layers.placed);
+  const int step = scene.compositing.supersampling + 1;  // views are finer than the image over most of their parts
+  std::vector<RenderedView> views;
+  for (const VirtualCamera& view : plan.views) {
+    const Shutter shutter = has_rotors(mesh) ? shutter_of(plan, view, scene) : Shutter();
+    Result<CoarseDrawing> drawn =
+        renderer.draw_coarsely(mesh, layers.placed.camera_from_body, plan.light, view, step, shutter);
+    if (!drawn) return fail(drawn.error());
+    const cv::Mat is_rough = bent_pixels(drawn->layer, kMaxBend_codes) | drawn->at_edges;
+    views.push_back({view, {}, CoarseView{std::move(drawn->layer), is_rough, step}});
+  }
+  return views;
+}
+
+// The cells to be drawn finely; none where that would save little.
+std::optional<std::vector<cv::Mat>> fine_cells(const std::vector<RenderedView>& views, const RenderPlan& plan,
+                                               LensTable& lens, const IntruderLayers& layers) {
+  constexpr double kReadARough = 1.5;  // cells, at least, since a pixel touches several
+  double occupied = 0;
+  double rough = 0;
+  for (const RenderedView& drawn : views) {
+    occupied += cv::countNonZero(drawn.coarse->layer.coverage);
+    rough += cv::countNonZero(drawn.coarse->is_rough);
+  }
+  if (kReadARough * rough > kMostRead * occupied) return std::nullopt;
+  std::optional<std::vector<cv::Mat>> read = cells_read(views, lens, plan.warp_rect, row_transform(layers));
+  double fine = 0;
+  for (std::size_t i = 0; read && i < views.size(); ++i) fine += cv::countNonZero((*read)[i]);
+  return fine <= kMostRead * occupied ? std::move(read) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::vector<RenderedView>> sparingly_rendered_views(const RenderPlan& plan, const Scene& scene, LensTable& lens,
+                                                           IntruderLayers& layers, Renderer& renderer) {
+  if (!may_be_sparing(plan, scene, renderer)) return rendered_views(plan.views, plan, scene, layers, renderer);
+  Stopwatch watch;
+  const RenderCounts before = renderer.counts();
+  Result<std::vector<RenderedView>> views = coarse_views(plan, scene, layers, renderer);
+  if (!views) return fail(views.error());
+  layers.draw_s += watch.elapsed_s();
+  const std::optional<std::vector<cv::Mat>> cells = fine_cells(*views, plan, lens, layers);
+  watch = Stopwatch();
+  for (std::size_t i = 0; cells && i < views->size(); ++i) {
+    RenderedView& drawn = (*views)[i];
+    const Mesh& mesh = mesh_of(scene, layers.placed);
+    const Shutter shutter = has_rotors(mesh) ? shutter_of(plan, drawn.view, scene) : Shutter();
+    Result<Layer> layer = renderer.draw_cells(mesh, layers.placed.camera_from_body, plan.light, drawn.view,
+                                              {(*cells)[i], drawn.coarse->step}, shutter);
+    if (!layer) return fail(layer.error());
+    drawn.layer = std::move(*layer);
+  }
+  layers.draw_s += watch.elapsed_s();
+  count_rendering(layers.op_counts, before, renderer.counts());
+  if (cells) return views;
+  layers.given_up = std::move(*views);
+  return rendered_views(plan.views, plan, scene, layers, renderer);
 }
 
 Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, const LensTable& lens, const Scene& scene,

@@ -46,6 +46,7 @@ struct IntruderLayers {
   MotionKernel motion;                   // in the image, during the exposure; empty: none
   double motion_px = 0;                  // its length; 0: none
   std::vector<RenderedView> views;       // empty where no part of it can be in the image
+  std::vector<RenderedView> given_up;    // coarse views that tell too little; their memory serves the next frame's
   Layer warped;                          // through the lens, with the margin beyond the image that the blurs need
   Layer hazed;                           // in the footage's tones, behind haze; shares its samples where both are off
   Layer motion_blurred;                  // blurred by its motion; likewise
@@ -88,6 +89,13 @@ struct RenderPlan {
 [[nodiscard]] Result<std::vector<RenderedView>> rendered_views(const std::vector<VirtualCamera>& views,
                                                                const RenderPlan& plan, const Scene& scene,
                                                                IntruderLayers& layers, Renderer& renderer);
+
+// The same where smooth parts may be drawn coarsely (compositing.quality auto): each view is drawn with a pixel for
+// each pixel of the image, and then finely where that does not tell enough. As rendered_views() where that would save
+// little.
+[[nodiscard]] Result<std::vector<RenderedView>> sparingly_rendered_views(const RenderPlan& plan, const Scene& scene,
+                                                                         LensTable& lens, IntruderLayers& layers,
+                                                                         Renderer& renderer);
 
 // Area of the whole silhouette in pixels. Where it extends beyond the warped layer, a coarse image of all of it is
 // rendered through the same lens and summed.

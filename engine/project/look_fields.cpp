@@ -32,6 +32,9 @@ void add_compositing(FieldList list, CompositingSettings& compositing) {
   list.number("blur_px_per_m", &compositing.blur_px_per_m, "px/m", 0, 10,
               "Gaussian blur: sigma a metre of distance; null: 0.002 with classic, else 0");
   list.number("supersampling", &compositing.supersampling, "", 1, 8, "drawn pixels an image pixel, each way");
+  list.add(
+      "quality", choice_of(compositing.quality, {"exact", "auto", "draft"}), "",
+      "exact: all is drawn alike; auto: smooth parts of near intruders with fewer pixels; draft: one pixel each way");
 }
 
 void add_appearance(FieldList list, AppearanceSettings& appearance) {

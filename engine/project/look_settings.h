@@ -15,6 +15,10 @@ namespace sigs {
 enum class MethodChoice { direct, classic, plain };
 enum class BlendChoice { linear, display, heat };
 
+// How much of the drawing is saved: nothing; what changes the image by less than a stated error (docs/accuracy.md); or
+// whatever a look does not need.
+enum class QualityChoice { exact, automatic, draft };
+
 // The blur by distance with which SIGS follows the paper, which gives no number: sigma 2 px at 1 km.
 inline constexpr double kPaperBlur_px_per_m = 0.002;
 
@@ -25,6 +29,7 @@ struct CompositingSettings {
   BlendChoice blend = BlendChoice::linear;
   std::optional<double> blur_px_per_m;
   int supersampling = 3;
+  QualityChoice quality = QualityChoice::exact;
 
   [[nodiscard]] bool operator==(const CompositingSettings&) const = default;
 };
@@ -33,6 +38,11 @@ struct CompositingSettings {
 // far no more than what is near (AppearanceSettings::psf_sigma_px).
 [[nodiscard]] inline double blur_by_distance_px_per_m(const CompositingSettings& compositing) {
   return compositing.blur_px_per_m.value_or(compositing.method == MethodChoice::classic ? kPaperBlur_px_per_m : 0.0);
+}
+
+// Rendered pixels for each image pixel, along each axis, where all is drawn alike.
+[[nodiscard]] inline int drawn_px_per_px(const CompositingSettings& compositing) {
+  return compositing.quality == QualityChoice::draft ? 1 : compositing.supersampling;
 }
 
 // Random noise of the footage, in 8-bit code values, as the codec left it. Its variance is linear in brightness.

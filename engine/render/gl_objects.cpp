@@ -10,6 +10,7 @@
 #include <functional>
 #include <glm/gtc/type_ptr.hpp>
 #include <string_view>
+#include <utility>
 
 #include "base/ensure.h"
 #include "base/text.h"
@@ -112,11 +113,10 @@ void draw_to(std::initializer_list<GLenum> attachments) {
   glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.begin());
 }
 
-void read_plane(GLenum attachment, GLenum format, cv::Mat& plane) {
-  glReadBuffer(attachment);
+void read_plane(const cv::Point& from, GLenum format, cv::Mat& plane) {
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(plane.step / plane.elemSize()));
-  glReadPixels(0, 0, plane.cols, plane.rows, format, GL_FLOAT, plane.data);
+  glReadPixels(from.x, from.y, plane.cols, plane.rows, format, GL_FLOAT, plane.data);
 }
 
 }  // namespace
@@ -197,12 +197,68 @@ void Target::resolve(const cv::Size& size) const {
   }
 }
 
-void Target::read(cv::Mat color, cv::Mat coverage) const {
+void Target::read(cv::Mat color, cv::Mat coverage, const cv::Point& from) const {
   ENSURE(color.type() == CV_32FC4 && coverage.type() == CV_32FC1 && color.size() == coverage.size());
-  if (samples_ > 0) resolve(color.size());
+  if (samples_ > 0) resolve({from.x + color.cols, from.y + color.rows});
   glBindFramebuffer(GL_FRAMEBUFFER, samples_ > 0 ? resolved_.framebuffer : drawn_.framebuffer);
-  read_plane(GL_COLOR_ATTACHMENT0, GL_RGBA, color);
-  read_plane(GL_COLOR_ATTACHMENT1, GL_RED, coverage);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  read_plane(from, GL_RGBA, color);
+  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  read_plane(from, GL_RED, coverage);
+}
+
+void Target::read_depth(cv::Mat depth) const {
+  ENSURE(samples_ == 0 && depth.type() == CV_32FC1);
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_.framebuffer);
+  read_plane({0, 0}, GL_DEPTH_COMPONENT, depth);
+}
+
+Result<DepthMask> DepthMask::create() {
+  Result<Program> program = Program::create("#define DEPTH\n");
+  if (!program) return fail(program.error());
+  return DepthMask(std::move(*program));
+}
+
+DepthMask::DepthMask(Program program) : program_(std::move(program)) {
+  glGenVertexArrays(1, &vertex_array_);
+  glGenBuffers(1, &vertices_);
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glEnableVertexAttribArray(0);
+}
+
+void DepthMask::restrict_to(const std::vector<cv::Rect>& rects, const cv::Size& piece) {
+  std::vector<glm::vec3> corners;
+  for (const cv::Rect& rect : rects) {
+    const auto corner = [&](int x, int y) {
+      return glm::vec3(2.0 * x / piece.width - 1, 2.0 * y / piece.height - 1, 1);
+    };
+    const glm::vec3 a = corner(rect.x, rect.y);
+    const glm::vec3 b = corner(rect.x + rect.width, rect.y);
+    const glm::vec3 c = corner(rect.x + rect.width, rect.y + rect.height);
+    const glm::vec3 d = corner(rect.x, rect.y + rect.height);
+    corners.insert(corners.end(), {a, b, c, a, c, d});
+  }
+  glDepthMask(GL_TRUE);
+  glClearDepth(0);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(glm::vec3)), corners.data(),
+               GL_STREAM_DRAW);
+  program_.use();
+  program_.set("clip_from_body", glm::mat4(1));
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glDepthFunc(GL_ALWAYS);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+  cv::Rect around;
+  for (const cv::Rect& rect : rects) around |= rect;
+  glScissor(around.x, around.y, around.width, around.height);
 }
 
 cv::Mat BufferPool::image(const cv::Size& size, int type) {
@@ -210,9 +266,12 @@ cv::Mat BufferPool::image(const cv::Size& size, int type) {
   constexpr std::size_t kMaxTimesTooLarge = 4;  // an intruder that flies away gives its memory back
   const std::size_t floats = static_cast<std::size_t>(size.area()) * CV_MAT_CN(type);
   const auto is_free = [](const cv::Mat& buffer) { return buffer.u->refcount == 1; };
-  auto found = std::find_if(buffers_.begin(), buffers_.end(), [&](const cv::Mat& buffer) {
-    return is_free(buffer) && buffer.total() >= floats && buffer.total() <= kMaxTimesTooLarge * floats;
-  });
+  // The smallest that will do, so that a frame's large images find the large ones.
+  auto found = buffers_.end();
+  for (auto buffer = buffers_.begin(); buffer != buffers_.end(); ++buffer)
+    if (is_free(*buffer) && buffer->total() >= floats && buffer->total() <= kMaxTimesTooLarge * floats &&
+        (found == buffers_.end() || buffer->total() < found->total()))
+      found = buffer;
   if (found == buffers_.end()) {
     std::erase_if(buffers_, is_free);
     buffers_.emplace_back(1, static_cast<int>(floats + floats / 4), CV_32FC1);  // the next frame's may be larger

@@ -48,11 +48,17 @@ class Target {
   // samples_per_pixel: 1 (no multisampling), 2, 4 or 8. Creates no buffers yet; begin() does.
   explicit Target(int samples_per_pixel) : samples_(samples_per_pixel > 1 ? samples_per_pixel : 0) {}
 
+  [[nodiscard]] int samples() const { return samples_; }  // of each pixel; 0: no multisampling
+
   // Prepares buffers of at least this size and clears them. Error unavailable where the driver cannot draw to them.
   [[nodiscard]] Result<void> begin(const cv::Size& size);
 
-  // Averages the samples and copies them to parts of larger images (CV_32FC4 and CV_32FC1).
-  void read(cv::Mat color, cv::Mat coverage) const;
+  // Averages the samples and copies them to parts of larger images (CV_32FC4 and CV_32FC1). from: the piece's pixel
+  // that is copied to the first one.
+  void read(cv::Mat color, cv::Mat coverage, const cv::Point& from = {0, 0}) const;
+
+  // Copies the depths of a target without multisampling (CV_32FC1).
+  void read_depth(cv::Mat depth) const;
 
  private:
   // OpenGL's names of a framebuffer and its attachments; 0: none.
@@ -72,6 +78,28 @@ class Target {
   Buffers drawn_;     // with samples_ samples
   Buffers resolved_;  // 1 sample, no depth; none without multisampling
   cv::Size size_{0, 0};
+};
+
+// Restricts drawing to some rectangles of a piece, by the depth buffer: elsewhere it is as near as can be. Belongs to
+// the context that is current when it is created.
+class DepthMask {
+ public:
+  // Error unavailable as that of Program::create().
+  [[nodiscard]] static Result<DepthMask> create();
+
+  // Changes the depth buffer that is bound and has been cleared, the program, the vertex array, and the scissor, which
+  // is put around the rectangles. The depth test has to let equal depths pass.
+  void restrict_to(const std::vector<cv::Rect>& rects, const cv::Size& piece);
+
+  // The program that draws depth alone.
+  [[nodiscard]] const Program& depth_program() const { return program_; }
+
+ private:
+  explicit DepthMask(Program program);
+
+  Program program_;
+  unsigned int vertex_array_ = 0;
+  unsigned int vertices_ = 0;
 };
 
 // Memory of large images, kept from frame to frame: the system clears what it gives out anew, page by page, which takes

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <map>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "mesh/mesh.h"
 #include "render/draw_list.h"
+#include "render/feature_edges.h"
 
 namespace sigs {
 
@@ -56,6 +58,14 @@ class GpuMesh {
   // texels.
   [[nodiscard]] bool is_copy_of(const Mesh& mesh) const;
 
+  // The same number for the same mesh, as far as is_copy_of() compares.
+  [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_; }
+
+  // Found at the first call. mesh: the one that was uploaded.
+  [[nodiscard]] const FeatureEdges& feature_edges(const Mesh& mesh) {
+    return feature_edges_ ? *feature_edges_ : feature_edges_.emplace(mesh);
+  }
+
   // Frees the memory of the GPU.
   void release();
 
@@ -82,6 +92,7 @@ class GpuMesh {
   std::vector<int> texture_of_material_;
   std::vector<TransparentTriangle> transparent_triangles_;
   std::vector<Run> solid_;
+  std::optional<FeatureEdges> feature_edges_;
   std::int64_t bytes_uploaded_ = 0;
   unsigned int vertex_array_ = 0;
   unsigned int vertex_buffer_ = 0;

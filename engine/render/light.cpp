@@ -148,6 +148,8 @@ Result<void> ShadowMap::grow(const cv::Size& size) {
 }
 
 Result<PassCounts> ShadowMap::draw(const GpuMesh& gpu, const SunView& sun) {
+  if (drawn_ && drawn_->fingerprint == gpu.fingerprint() && drawn_->sun == sun) return PassCounts{};
+  drawn_.reset();
   if (const Result<void> grown = grow(sun.size_texels); !grown) return fail(grown.error());
   PassCounts counts;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
@@ -171,6 +173,7 @@ Result<PassCounts> ShadowMap::draw(const GpuMesh& gpu, const SunView& sun) {
     counts.triangles += run.count / 3;
     ++counts.draw_calls;
   }
+  drawn_ = {gpu.fingerprint(), sun};
   return counts;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "base/pose.h"
 #include "base/result.h"
@@ -19,6 +21,8 @@ struct SunView {
   glm::dmat4 texels_from_body{1.0};  // metres to x and y in the map and depth away from the sun, all in texels
   cv::Size size_texels;              // two texels of margin all around the body
   double depth_texels = 0;           // what the map's depths of 0..1 span
+
+  [[nodiscard]] bool operator==(const SunView&) const = default;
 };
 
 // The view of a mesh from the sun.
@@ -38,8 +42,8 @@ class ShadowMap {
   // Compiles the shaders. Error unavailable as that of Program::create().
   [[nodiscard]] static Result<ShadowMap> create();
 
-  // Draws the map of a body, in place of the one before. Error unavailable where the driver cannot draw to it. Other
-  // framebuffers, viewports and programs have to be bound again afterwards.
+  // Draws the map of a body, in place of the one before; nothing where that is the same map. Error unavailable where
+  // the driver cannot draw to it. Other framebuffers, viewports and programs have to be bound again afterwards.
   [[nodiscard]] Result<PassCounts> draw(const GpuMesh& gpu, const SunView& sun);
 
   // Makes the map the texture of unit 1, which the shaders read it from.
@@ -51,6 +55,12 @@ class ShadowMap {
 
   Program solid_;
   Program cutout_;
+  // What the map is of. A body that keeps its attitude in the sun has the same one in every frame.
+  struct Drawn {
+    std::uint64_t fingerprint = 0;
+    SunView sun;
+  };
+  std::optional<Drawn> drawn_;
   cv::Size size_{0, 0};
   unsigned int framebuffer_ = 0;
   unsigned int depth_ = 0;

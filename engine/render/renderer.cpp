@@ -13,6 +13,7 @@
 #include <mutex>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,19 +24,13 @@
 #include "base/transfer.h"
 #include "camera/virtual_camera.h"
 #include "render/draw_list.h"
+#include "render/draw_passes.h"
 #include "render/egl_context.h"
 #include "render/gl_objects.h"
 #include "render/gpu_mesh.h"
 #include "render/light.h"
 
 namespace sigs {
-
-// The shaders for each kind of surface and one kind of light, so that none does what it does not need.
-struct Programs {
-  enum Kind { kPlain, kTextured, kLayered, kRotor };  // assets/shaders/intruder.frag
-
-  std::vector<Program> all;  // kRotor from the first model with rotors on
-};
 
 // What only frames in the sun need.
 struct SunTools {
@@ -44,8 +39,6 @@ struct SunTools {
 };
 
 namespace {
-
-// --- Projection.
 
 struct Planes {
   double near_m;
@@ -88,101 +81,6 @@ std::optional<glm::dmat4> clip_from_body(const Pose<frame::View, frame::Body>& v
   return clip_from_view(view, piece, *planes) * view_from_body_matrix;
 }
 
-// --- Draw passes.
-
-constexpr float kOpaque = 254.5F / 255.0F;  // a cutout's texel at or above is solid
-constexpr float kAnyOpacity = 1e9F;
-
-Programs::Kind kind_of(const Run& run) {
-  if (run.rotor != kNoRotor) return Programs::kRotor;
-  if (run.texture == kNoTexture) return Programs::kPlain;
-  return run.surface == Surface::solid ? Programs::kTextured : Programs::kLayered;
-}
-
-//   set_rotor  gives the program in use what it needs of the rotor of a material
-template <class SetRotor>
-PassCounts draw_runs(const Programs& programs, const GpuMesh& gpu, const std::vector<Run>& runs, bool is_solid_pass,
-                     bool from_outside, const SetRotor& set_rotor) {
-  PassCounts counts;
-  for (const Run& run : runs) {
-    const Programs::Kind kind = kind_of(run);
-    const Program& program = programs.all[kind];
-    program.use();
-    if (kind == Programs::kLayered) {
-      const bool is_cutout = run.surface == Surface::cutout;
-      program.set("lowest_opacity", is_cutout && is_solid_pass ? kOpaque : kVisibleOpacity);
-      program.set("highest_opacity", is_cutout && !is_solid_pass ? kOpaque : kAnyOpacity);
-    }
-    if (kind == Programs::kRotor) set_rotor(program, run.rotor);
-    gpu.bind_texture(run.texture);
-    leave_out(from_outside ? run.hidden : CullFace::none);
-    gpu.draw(run);
-    counts.triangles += run.count / 3;
-    ++counts.draw_calls;
-  }
-  return counts;
-}
-
-// Error unavailable as that of Program::create().
-//   light  lines that select the kind of light
-Result<Programs> compiled_programs(const std::string& light) {
-  Result<Program> plain = Program::create(light);
-  if (!plain) return fail(plain.error());
-  Result<Program> textured = Program::create(light + "#define IMAGE\n");
-  if (!textured) return fail(textured.error());
-  Result<Program> layered = Program::create(light + "#define IMAGE\n#define LAYERED\n");
-  if (!layered) return fail(layered.error());
-  Programs programs;
-  for (Result<Program>* each : {&plain, &textured, &layered}) programs.all.push_back(std::move(**each));
-  return programs;
-}
-
-// Adds the program for rotors where the mesh has some. Error unavailable as that of Program::create().
-Result<void> add_rotor_program(Programs& programs, const Mesh& mesh, const std::string& light) {
-  if (programs.all.size() > Programs::kRotor || !has_rotors(mesh)) return {};
-  Result<Program> rotor = Program::create(light + "#define ROTOR\n");
-  if (!rotor) return fail(rotor.error());
-  programs.all.push_back(std::move(*rotor));
-  return {};
-}
-
-// Puts the depth of solid parts into the depth buffer, so that draw_solid() shades nothing that is behind them. The
-// program in use draws depth alone.
-void draw_depth(const GpuMesh& gpu, bool from_outside) {
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  for (const Run& run : gpu.bind_solid()) {
-    if (run.surface != Surface::solid) continue;
-    leave_out(from_outside ? run.hidden : CullFace::none);
-    gpu.draw(run);
-  }
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-}
-
-// Draws solid parts and the opaque texels of cutouts, with the depth buffer.
-//   from_outside  nothing of the body is at or behind the eye: faces that point inward need not be drawn
-PassCounts draw_solid(const Programs& programs, GpuMesh& gpu, bool from_outside) {
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
-  const std::vector<Run>& runs = gpu.bind_solid();
-  return draw_runs(programs, gpu, runs, true, from_outside, [](const Program&, int) {});
-}
-
-// Draws glass and the other texels of cutouts, blended in the order of the list.
-template <class SetRotor>
-PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted,
-                            const SetRotor& set_rotor) {
-  if (sorted.runs.empty()) return {};
-  glEnablei(GL_BLEND, 0);
-  glDisablei(GL_BLEND, 1);  // coverage is replaced, not blended: glass counts as covering
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glDepthMask(GL_FALSE);
-  gpu.bind_sorted(sorted);
-  return draw_runs(programs, gpu, sorted.runs, false, false, set_rotor);
-}
-
 Result<SunTools> sun_tools() {
   Result<Programs> programs = compiled_programs("#define SUN\n");
   if (!programs) return fail(programs.error());
@@ -194,20 +92,33 @@ Result<SunTools> sun_tools() {
 }  // namespace
 
 struct Renderer::State {
+  // What is drawn of a mesh, and how.
+  struct Task {
+    const Mesh& mesh;
+    const Pose<frame::Camera, frame::Body>& camera_from_body;
+    const Light& light;
+    const VirtualCamera& view;
+    const Shutter& shutter;
+    const VirtualCamera& shadow_view;  // as fine as the shadows are to be
+    const ViewCells* cells = nullptr;  // null: all of the view
+    cv::Mat* depth = nullptr;          // to be filled
+  };
+
   EglContext context;
   Programs programs;
   Target target;
-  std::optional<SunTools> sun;   // made by the first draw() in the sun
-  std::optional<Program> depth;  // made by the first draw() of a large view
+  std::optional<SunTools> sun;          // made by the first draw() in the sun
+  std::optional<DepthMask> depth_mask;  // made by the first draw() of a large view, or of cells
   BufferPool buffers;
   std::map<const Mesh*, GpuMesh> meshes;
   RenderCounts counts;
 
+  [[nodiscard]] Result<Layer> drawn(const Task& task);
   // Programs with all uniforms set but clip_from_body.
-  [[nodiscard]] Result<const Programs*> lit_programs(const Mesh& mesh, const GpuMesh& gpu,
-                                                     const Pose<frame::Camera, frame::Body>& camera_from_body,
-                                                     const Light& light, const VirtualCamera& view);
-  [[nodiscard]] Result<void> draw_depth_first(const GpuMesh& gpu, const glm::mat4& clip_from_body, bool from_outside);
+  [[nodiscard]] Result<const Programs*> lit_programs(const Task& task, const GpuMesh& gpu);
+  [[nodiscard]] Result<void> draw_piece(const Task& task, const Programs& lit, GpuMesh& gpu, const DrawList& sorted,
+                                        const cv::Rect& piece, Layer& layer);
+  [[nodiscard]] Result<void> make_depth_mask();
 };
 
 namespace {
@@ -240,6 +151,15 @@ std::vector<cv::Rect> pieces_of(const cv::Size& size) {
     for (int x = 0; x < size.width; x += kSide)
       pieces.emplace_back(x, y, std::min(kSide, size.width - x), std::min(kSide, size.height - y));
   return pieces;
+}
+
+// The view with one pixel for each cell of step by step pixels.
+VirtualCamera coarser(const VirtualCamera& view, int step) {
+  VirtualCamera coarse = view;
+  coarse.focal_px /= step;
+  coarse.center_px = (view.center_px + 0.5) / double(step) - 0.5;
+  coarse.size_px = {(view.size_px.width + step - 1) / step, (view.size_px.height + step - 1) / step};
+  return coarse;
 }
 
 Layer blank(const cv::Size& size) {
@@ -295,16 +215,19 @@ const RenderCounts& Renderer::counts() const {
   return state_->counts;
 }
 
+bool Renderer::is_multisampled() const {
+  return state_->target.samples() > 0;
+}
+
 int Renderer::max_size_px() const {
   return kLargestView_px;
 }
 
 // In the sun the map of the body's shadows is drawn first, whatever part of the body is in the view: what is outside of
 // it casts shadows into it.
-Result<const Programs*> Renderer::State::lit_programs(const Mesh& mesh, const GpuMesh& gpu,
-                                                      const Pose<frame::Camera, frame::Body>& camera_from_body,
-                                                      const Light& light, const VirtualCamera& view) {
-  const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
+Result<const Programs*> Renderer::State::lit_programs(const Task& task, const GpuMesh& gpu) {
+  const auto& [mesh, light, view] = std::tie(task.mesh, task.light, task.view);
+  const ViewFromBody view_from_body = view.view_from_camera * task.camera_from_body;
   if (light.kind == Light::Kind::point) {
     if (const auto added = add_rotor_program(programs, mesh, ""); !added) return fail(added.error());
     for (const Program& program : programs.all) set_point_light(program, light, view_from_body, view.view_from_camera);
@@ -316,8 +239,8 @@ Result<const Programs*> Renderer::State::lit_programs(const Mesh& mesh, const Gp
     sun.emplace(std::move(*made));
   }
   if (const auto added = add_rotor_program(sun->programs, mesh, "#define SUN\n"); !added) return fail(added.error());
-  const SunView from_sun =
-      sun_view_of(mesh, to_sun_in_body(light, camera_from_body), shadow_map_side(mesh, view_from_body, view));
+  const SunView from_sun = sun_view_of(mesh, to_sun_in_body(light, task.camera_from_body),
+                                       shadow_map_side(mesh, view_from_body, task.shadow_view));
   const Result<PassCounts> drawn = sun->shadow.draw(gpu, from_sun);
   if (!drawn) return fail(drawn.error());
   count(*drawn, counts);
@@ -327,63 +250,111 @@ Result<const Programs*> Renderer::State::lit_programs(const Mesh& mesh, const Gp
   return &sun->programs;
 }
 
-Result<void> Renderer::State::draw_depth_first(const GpuMesh& gpu, const glm::mat4& clip_from_body, bool from_outside) {
-  if (!depth) {
-    Result<Program> made = Program::create("#define DEPTH\n");
-    if (!made) return fail(made.error());
-    depth.emplace(std::move(*made));
-  }
-  depth->use();
-  depth->set("clip_from_body", clip_from_body);
-  draw_depth(gpu, from_outside);
+Result<void> Renderer::State::make_depth_mask() {
+  if (depth_mask) return {};
+  Result<DepthMask> made = DepthMask::create();
+  if (!made) return fail(made.error());
+  depth_mask.emplace(std::move(*made));
   return {};
+}
+
+Result<void> Renderer::State::draw_piece(const Task& task, const Programs& lit, GpuMesh& gpu, const DrawList& sorted,
+                                         const cv::Rect& piece, Layer& layer) {
+  const ViewFromBody view_from_body = task.view.view_from_camera * task.camera_from_body;
+  const bool from_outside = is_eye_outside(view_from_body, task.mesh);
+  const glm::mat4 clip(*clip_from_body(view_from_body, task.mesh.radius_m, task.view, piece));
+  const std::vector<cv::Rect> wanted = task.cells ? wanted_in(*task.cells, piece) : std::vector<cv::Rect>();
+  if (task.cells && wanted.empty()) return {};
+  if (const auto begun = target.begin(piece.size()); !begun) return begun;
+  const bool depth_first = piece.area() >= kMinPixelsForDepth;
+  if (depth_first || task.cells)
+    if (const auto made = make_depth_mask(); !made) return made;
+  if (task.cells) depth_mask->restrict_to(wanted, piece.size());
+  for (const Program& program : lit.all) {
+    program.use();
+    program.set("clip_from_body", clip);
+  }
+  if (depth_first) {
+    depth_mask->depth_program().use();
+    depth_mask->depth_program().set("clip_from_body", clip);
+  }
+  const auto set_rotor = [&](const Program& program, int material) {
+    set_rotor_uniforms(program, *task.mesh.materials[static_cast<std::size_t>(material)].rotor, view_from_body,
+                       task.view, piece, task.shutter);
+  };
+  if (depth_first) draw_depth(gpu, from_outside);
+  count(draw_solid(lit, gpu, from_outside), counts);
+  count(draw_transparent(lit, gpu, sorted, set_rotor), counts);
+  for (const cv::Rect& part :
+       task.cells ? copied_in(*task.cells, piece) : std::vector<cv::Rect>{{{0, 0}, piece.size()}}) {
+    const cv::Rect in_view = part + piece.tl();
+    target.read(layer.color(in_view), layer.coverage(in_view), part.tl());
+    counts.pixels_drawn += part.area();
+  }
+  if (task.depth) target.read_depth((*task.depth)(piece));
+  return {};
+}
+
+Result<Layer> Renderer::State::drawn(const Task& task) {
+  const ViewFromBody view_from_body = task.view.view_from_camera * task.camera_from_body;
+  ENSURE(std::isfinite(task.shutter.time_s) && task.shutter.exposure_s >= 0 && std::isfinite(task.shutter.center_s));
+  ensure_sane(view_from_body, task.light, task.view);
+  const cv::Size& size = task.view.size_px;
+  if (size.empty()) return Layer{};
+  if (std::max(size.width, size.height) > kLargestView_px)
+    return fail("view", fmt::format("of {} pixels is larger than {}", image_size_text(size, " x "), kLargestView_px));
+  const std::unique_lock lock = context.lock_if_shared();
+  if (!context.make_current()) return fail("OpenGL", "the context cannot be made current", ErrorKind::unavailable);
+
+  if (task.depth) *task.depth = cv::Mat(size, CV_32FC1, cv::Scalar(1));
+  if (task.mesh.indices.empty() ||
+      !planes_around(view_from_body.translation_m.x, std::max(double{task.mesh.radius_m}, 1e-6)))
+    return blank(size);
+  GpuMesh& gpu = uploaded_mesh(meshes, task.mesh);
+  const DrawList sorted = gpu.sorted_for(inverse(view_from_body).translation_m);
+  set_fixed_state();
+  const Result<const Programs*> lit = lit_programs(task, gpu);
+  if (!lit) return fail(lit.error());
+  Layer layer{cv::Rect({0, 0}, size), buffers.image(size, CV_32FC4), buffers.image(size, CV_32FC1)};
+  for (const cv::Rect& piece : pieces_of(size))
+    if (const auto done = draw_piece(task, **lit, gpu, sorted, piece, layer); !done) return fail(done.error());
+  counts.bytes_uploaded += gpu.take_bytes_uploaded();
+  if (const GLenum code = glGetError(); code != GL_NO_ERROR)
+    return fail("OpenGL", fmt::format("drawing failed with error {}", code), ErrorKind::unavailable);
+  return layer;
 }
 
 Result<Layer> Renderer::draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
                              const Light& light, const VirtualCamera& view, const Shutter& shutter) {
-  const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
-  ENSURE(std::isfinite(shutter.time_s) && shutter.exposure_s >= 0 && std::isfinite(shutter.center_s));
-  ensure_sane(view_from_body, light, view);
-  if (view.size_px.empty()) return Layer{};
-  if (std::max(view.size_px.width, view.size_px.height) > kLargestView_px)
-    return fail("view",
-                fmt::format("of {} pixels is larger than {}", image_size_text(view.size_px, " x "), kLargestView_px));
-  const std::unique_lock lock = state_->context.lock_if_shared();
-  if (!state_->context.make_current())
-    return fail("OpenGL", "the context cannot be made current", ErrorKind::unavailable);
+  return state_->drawn({mesh, camera_from_body, light, view, shutter, view});
+}
 
-  if (mesh.indices.empty()) return blank(view.size_px);
-  GpuMesh& gpu = uploaded_mesh(state_->meshes, mesh);
-  const DrawList sorted = gpu.sorted_for(inverse(view_from_body).translation_m);
-  const bool from_outside = is_eye_outside(view_from_body, mesh);
-  set_fixed_state();
-  const Result<const Programs*> programs = state_->lit_programs(mesh, gpu, camera_from_body, light, view);
-  if (!programs) return fail(programs.error());
-  Layer layer{cv::Rect({0, 0}, view.size_px), state_->buffers.image(view.size_px, CV_32FC4),
-              state_->buffers.image(view.size_px, CV_32FC1)};
-  for (const cv::Rect& piece : pieces_of(view.size_px)) {
-    const std::optional<glm::dmat4> clip = clip_from_body(view_from_body, mesh.radius_m, view, piece);
-    if (!clip) return blank(view.size_px);
-    if (const auto begun = state_->target.begin(piece.size()); !begun) return fail(begun.error());
-    for (const Program& program : (*programs)->all) {
-      program.use();
-      program.set("clip_from_body", glm::mat4(*clip));
-    }
-    if (piece.area() >= kMinPixelsForDepth)
-      if (const auto drawn = state_->draw_depth_first(gpu, *clip, from_outside); !drawn) return fail(drawn.error());
-    count(draw_solid(**programs, gpu, from_outside), state_->counts);
-    const auto set_rotor = [&](const Program& program, int material) {
-      set_rotor_uniforms(program, *mesh.materials[static_cast<std::size_t>(material)].rotor, view_from_body, view,
-                         piece, shutter);
-    };
-    count(draw_transparent(**programs, gpu, sorted, set_rotor), state_->counts);
-    state_->target.read(layer.color(piece), layer.coverage(piece));
-    state_->counts.pixels_drawn += piece.area();
-  }
-  state_->counts.bytes_uploaded += gpu.take_bytes_uploaded();
-  if (const GLenum code = glGetError(); code != GL_NO_ERROR)
-    return fail("OpenGL", fmt::format("drawing failed with error {}", code), ErrorKind::unavailable);
-  return layer;
+Result<Layer> Renderer::draw_cells(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
+                                   const Light& light, const VirtualCamera& view, const ViewCells& cells,
+                                   const Shutter& shutter) {
+  ENSURE(cells.wanted.type() == CV_8UC1 && cells.step >= 1);
+  return state_->drawn({mesh, camera_from_body, light, view, shutter, view, &cells});
+}
+
+Result<CoarseDrawing> Renderer::draw_coarsely(const Mesh& mesh,
+                                              const Pose<frame::Camera, frame::Body>& camera_from_body,
+                                              const Light& light, const VirtualCamera& view, int step,
+                                              const Shutter& shutter) {
+  Shutter of_coarse = shutter;
+  of_coarse.s_per_px *= step;
+  CoarseDrawing coarse{.view = coarser(view, step), .layer = {}, .at_edges = {}};
+  cv::Mat depth;
+  Result<Layer> layer = state_->drawn({mesh, camera_from_body, light, coarse.view, of_coarse, view, nullptr, &depth});
+  if (!layer) return fail(layer.error());
+  coarse.layer = std::move(*layer);
+  const ViewFromBody view_from_body = view.view_from_camera * camera_from_body;
+  const auto clip = clip_from_body(view_from_body, mesh.radius_m, coarse.view, {{0, 0}, coarse.view.size_px});
+  const auto gpu = state_->meshes.find(&mesh);
+  coarse.at_edges = clip && gpu != state_->meshes.end()
+                        ? gpu->second.feature_edges(mesh).pixels_touched({*clip, inverse(view_from_body).translation_m,
+                                                                          is_eye_outside(view_from_body, mesh), depth})
+                        : cv::Mat::zeros(coarse.view.size_px, CV_8UC1);
+  return coarse;
 }
 
 void Renderer::forget(const Mesh& mesh) {

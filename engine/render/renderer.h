@@ -14,6 +14,7 @@
 #include "mesh/mesh.h"
 #include "render/light.h"
 #include "render/rotor_view.h"
+#include "render/view_cells.h"
 
 namespace sigs {
 
@@ -23,6 +24,13 @@ struct RenderCounts {
   std::int64_t triangles_drawn = 0;  // to be shaded, once for each piece of a large view, and for shadows
   std::int64_t bytes_uploaded = 0;   // vertices, triangles and textures; uniforms are not counted
   std::int64_t draw_calls = 0;
+};
+
+// A view with one pixel for each cell of step by step pixels of another one.
+struct CoarseDrawing {
+  VirtualCamera view;
+  Layer layer;
+  cv::Mat at_edges;  // CV_8UC1, 255 at pixels that an edge of the mesh touches (FeatureEdges) and beside them, else 0
 };
 
 // Renders meshes off screen with OpenGL through EGL. A renderer may be used only by the thread that created it.
@@ -39,6 +47,9 @@ class Renderer {
 
   // Platform, renderer and version: "surfaceless, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"
   [[nodiscard]] const std::string& description() const;
+
+  // Whether more than one sample is taken of each pixel.
+  [[nodiscard]] bool is_multisampled() const;
 
   // Largest width or height of a view that draw() accepts, px.
   [[nodiscard]] int max_size_px() const;
@@ -60,6 +71,20 @@ class Renderer {
   //   shutter           for models with rotors
   [[nodiscard]] Result<Layer> draw(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
                                    const Light& light, const VirtualCamera& view, const Shutter& shutter = {});
+
+  // The same for some cells of the view alone. What the layer has elsewhere is undefined. Pixels have the values that
+  // drawing the whole view gives them.
+  [[nodiscard]] Result<Layer> draw_cells(const Mesh& mesh, const Pose<frame::Camera, frame::Body>& camera_from_body,
+                                         const Light& light, const VirtualCamera& view, const ViewCells& cells,
+                                         const Shutter& shutter = {});
+
+  // The view with one pixel a cell, in the same light and with the same shadows. Only for renderers without
+  // multisampling.
+  //   shutter  of the view itself
+  [[nodiscard]] Result<CoarseDrawing> draw_coarsely(const Mesh& mesh,
+                                                    const Pose<frame::Camera, frame::Body>& camera_from_body,
+                                                    const Light& light, const VirtualCamera& view, int step,
+                                                    const Shutter& shutter = {});
 
   // Frees what was uploaded of a mesh. Does nothing where the mesh was never drawn.
   void forget(const Mesh& mesh);

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
 
 #include "camera/virtual_camera.h"
+#include "compositor/coarse_view.h"
 #include "compositor/synthetic_layers.h"
 
 namespace sigs::test {
@@ -289,6 +291,66 @@ TEST_CASE("rays from a table move the image by no more than their tolerance does
     CHECK(cv::norm(one.coverage, other.coverage, cv::NORM_INF) <= 4e-3);
     CHECK(fast.evaluations() * 10 < exact.evaluations());
   }
+}
+
+// The view with a coarse layer of the means of its cells; rough where `is_rough` says so.
+static RenderedView with_coarse(const RenderedView& fine, int step, const cv::Mat& is_rough) {
+  RenderedView drawn = fine;
+  CoarseView coarse{.layer = {}, .is_rough = is_rough, .step = step};
+  coarse.layer.rect = {{0, 0}, is_rough.size()};
+  cv::resize(fine.layer.color, coarse.layer.color, is_rough.size(), 0, 0, cv::INTER_AREA);
+  cv::resize(fine.layer.coverage, coarse.layer.coverage, is_rough.size(), 0, 0, cv::INTER_AREA);
+  drawn.coarse = coarse;
+  return drawn;
+}
+
+TEST_CASE("of a fine layer with a coarse one only the cells are read that cells_read names, to the same values") {
+  constexpr int kStep = 4;
+  for (const NamedCamera& named : distorting_cameras(kSize)) {
+    CAPTURE(named.name);
+    const RenderedView whole = view_ahead(cloudy_layer({0, 0, 960, 720}, 7), 900, {480, 360});
+    const Layer expected = warped(std::vector<RenderedView>{whole}, named.camera, kImage);
+    cv::Mat is_rough(720 / kStep, 960 / kStep, CV_8UC1, cv::Scalar(0));
+    cv::RNG random(3);
+    for (int n = 0; n < 30; ++n)
+      cv::circle(is_rough, {random.uniform(0, is_rough.cols), random.uniform(0, is_rough.rows)}, 12, 255, cv::FILLED);
+    std::vector<RenderedView> views{with_coarse(whole, kStep, is_rough)};
+    LensTable lens(named.camera);
+    const auto read = cells_read(views, lens, kImage);
+    REQUIRE(read);
+    RenderedView& drawn = views.front();
+    drawn.layer.color = whole.layer.color.clone();
+    drawn.layer.coverage = whole.layer.coverage.clone();
+    for (int y = 0; y < 720; ++y)
+      for (int x = 0; x < 960; ++x)
+        if (read->front().at<uchar>(y / kStep, x / kStep) == 0) {
+          drawn.layer.color.at<cv::Vec4f>(y, x) = cv::Vec4f::all(std::numeric_limits<float>::quiet_NaN());
+          drawn.layer.coverage.at<float>(y, x) = std::numeric_limits<float>::quiet_NaN();
+        }
+    const Layer some = warped(views, named.camera, kImage);
+    CHECK(is_valid(some));  // nothing of what is not there
+    // With all cells rough it is the fine layer alone. Empty texels beyond the occupied ones count in the sum of
+    // shares, which is 1 but for rounding.
+    views = {with_coarse(whole, kStep, cv::Mat(is_rough.size(), CV_8UC1, cv::Scalar(255)))};
+    const Layer all = warped(views, named.camera, kImage);
+    CHECK(cv::norm(all.color, expected.color, cv::NORM_INF) < 1e-7);
+    CHECK(cv::norm(all.coverage, expected.coverage, cv::NORM_INF) < 1e-7);
+  }
+}
+
+TEST_CASE("a layer bends at edges and in detail, and not where it is even or rises evenly") {
+  Layer layer{{0, 0, 40, 30}, cv::Mat(30, 40, CV_32FC4), cv::Mat(30, 40, CV_32FC1, cv::Scalar(1))};
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const float code = (x < 20 ? 40.0F + 2.0F * static_cast<float>(x) : 140.0F) / 255;  // rises; a step of 60 codes
+      layer.color.at<cv::Vec4f>(y, x) = {code * code, code * code, code * code, 1};
+    }
+  layer.color.at<cv::Vec4f>(10, 30) = {0.5F, 0.2F, 0.2F, 1};  // a speck
+  const cv::Mat bent = bent_pixels(layer, 2);
+  for (int x = 1; x < 39; ++x) CHECK((bent.at<uchar>(20, x) != 0) == (x == 19 || x == 20));
+  CHECK(bent.at<uchar>(10, 30) != 0);
+  CHECK(bent.at<uchar>(10, 29) != 0);
+  CHECK(bent.at<uchar>(10, 27) == 0);
 }
 
 }  // namespace sigs::test

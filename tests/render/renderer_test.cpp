@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 
 #include <doctest/doctest.h>
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <thread>
+#include <utility>
 
 #include "render/renderer.h"
 #include "render/scenes.h"
@@ -137,6 +140,73 @@ TEST_CASE("real aircraft are rendered correctly from every side") {
       CHECK(cv::countNonZero(layer.coverage) > 100);
     }
   }
+}
+
+// Pixels of the first that differ from the second, within the wanted cells.
+static int different_pixels(const Layer& a, const Layer& b, const ViewCells& cells) {
+  int count = 0;
+  for (int y = 0; y < a.rect.height; ++y)
+    for (int x = 0; x < a.rect.width; ++x) {
+      if (cells.wanted.at<uchar>(y / cells.step, x / cells.step) == 0) continue;
+      const bool same = a.color.at<cv::Vec4f>(y, x) == b.color.at<cv::Vec4f>(y, x) &&
+                        a.coverage.at<float>(y, x) == b.coverage.at<float>(y, x);
+      count += same ? 0 : 1;
+    }
+  return count;
+}
+
+TEST_CASE("cells of a view are drawn as in the whole view, over pieces and at its borders") {
+  const Mesh mesh = glass_box();
+  const VirtualCamera view = view_of({1301, 1100}, 3000);
+  for (const Light& light : {Light{.p_in_camera = {-20, 40, -30}},
+                             Light{.kind = Light::Kind::sun, .to_sun = {-1, 0.5, -1}, .sky_color = glm::dvec3(0.3)}}) {
+    const Layer whole = renderer().draw(mesh, turned_pose(), light, view).value();
+    for (const int step : {3, 4}) {
+      ViewCells cells{.wanted = cv::Mat::zeros((1100 + step - 1) / step, (1301 + step - 1) / step, CV_8UC1),
+                      .step = step};
+      for (int j = 0; j < cells.wanted.rows; ++j)
+        for (int i = 0; i < cells.wanted.cols; ++i)
+          if ((i * 7 + j * 3) % 11 == 0 || (i / 40 + j / 30) % 3 == 0 || i + 1 == cells.wanted.cols)
+            cells.wanted.at<uchar>(j, i) = 255;
+      const std::int64_t before = renderer().counts().pixels_drawn;
+      const Layer some = renderer().draw_cells(mesh, turned_pose(), light, view, cells).value();
+      CHECK(renderer().counts().pixels_drawn > before);
+      CHECK(different_pixels(some, whole, cells) == 0);
+    }
+  }
+}
+
+TEST_CASE("no wanted cell draws nothing") {
+  const Mesh mesh = glass_box();
+  const VirtualCamera view = view_of({300, 200}, 400);
+  const std::int64_t before = renderer().counts().pixels_drawn;
+  CHECK(renderer().draw_cells(mesh, turned_pose(), Light{}, view, {cv::Mat::zeros(67, 100, CV_8UC1), 3}));
+  CHECK(renderer().counts().pixels_drawn == before);
+}
+
+TEST_CASE("a coarse drawing shows what the fine one shows, and marks the pixels where it changes at once") {
+  const Mesh mesh = glass_box();
+  const VirtualCamera view = view_of({601, 400}, 1200);
+  const Light light{.p_in_camera = {-20, 40, -30}};
+  const int step = 4;
+  Renderer single = Renderer::create(1).value();
+  const Layer fine = single.draw(mesh, turned_pose(), light, view).value();
+  const CoarseDrawing coarse = single.draw_coarsely(mesh, turned_pose(), light, view, step).value();
+  REQUIRE(coarse.layer.rect.size() == cv::Size(151, 100));
+  int even = 0;
+  for (int j = 0; j < 100; ++j)
+    for (int i = 0; i < 150; ++i) {
+      // Where no edge is near, all fine pixels of the cell are covered alike; so is the coarse one.
+      if (coarse.at_edges.at<uchar>(j, i) != 0) continue;
+      const cv::Mat cell = fine.coverage(cv::Rect(i * step, j * step, step, step));
+      const auto [low, high] = std::pair(*std::min_element(cell.begin<float>(), cell.end<float>()),
+                                         *std::max_element(cell.begin<float>(), cell.end<float>()));
+      CHECK(low == high);
+      CHECK(low == coarse.layer.coverage.at<float>(j, i));
+      ++even;
+    }
+  CHECK(even > 10'000);
+  CHECK(cv::countNonZero(coarse.at_edges) > 300);
 }
 
 }  // namespace sigs

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "render/draw_passes.h"
+
+#include <epoxy/gl.h>
+
+#include <utility>
+
+namespace sigs {
+namespace {
+
+constexpr float kOpaque = 254.5F / 255.0F;  // a cutout's texel at or above is solid
+constexpr float kAnyOpacity = 1e9F;
+
+Programs::Kind kind_of(const Run& run) {
+  if (run.rotor != kNoRotor) return Programs::kRotor;
+  if (run.texture == kNoTexture) return Programs::kPlain;
+  return run.surface == Surface::solid ? Programs::kTextured : Programs::kLayered;
+}
+
+PassCounts draw_runs(const Programs& programs, const GpuMesh& gpu, const std::vector<Run>& runs, bool is_solid_pass,
+                     bool from_outside, const SetRotor& set_rotor) {
+  PassCounts counts;
+  for (const Run& run : runs) {
+    const Programs::Kind kind = kind_of(run);
+    const Program& program = programs.all[kind];
+    program.use();
+    if (kind == Programs::kLayered) {
+      const bool is_cutout = run.surface == Surface::cutout;
+      program.set("lowest_opacity", is_cutout && is_solid_pass ? kOpaque : kVisibleOpacity);
+      program.set("highest_opacity", is_cutout && !is_solid_pass ? kOpaque : kAnyOpacity);
+    }
+    if (kind == Programs::kRotor) set_rotor(program, run.rotor);
+    gpu.bind_texture(run.texture);
+    leave_out(from_outside ? run.hidden : CullFace::none);
+    gpu.draw(run);
+    counts.triangles += run.count / 3;
+    ++counts.draw_calls;
+  }
+  return counts;
+}
+
+}  // namespace
+
+Result<Programs> compiled_programs(const std::string& light) {
+  Result<Program> plain = Program::create(light);
+  if (!plain) return fail(plain.error());
+  Result<Program> textured = Program::create(light + "#define IMAGE\n");
+  if (!textured) return fail(textured.error());
+  Result<Program> layered = Program::create(light + "#define IMAGE\n#define LAYERED\n");
+  if (!layered) return fail(layered.error());
+  Programs programs;
+  for (Result<Program>* each : {&plain, &textured, &layered}) programs.all.push_back(std::move(**each));
+  return programs;
+}
+
+Result<void> add_rotor_program(Programs& programs, const Mesh& mesh, const std::string& light) {
+  if (programs.all.size() > Programs::kRotor || !has_rotors(mesh)) return {};
+  Result<Program> rotor = Program::create(light + "#define ROTOR\n");
+  if (!rotor) return fail(rotor.error());
+  programs.all.push_back(std::move(*rotor));
+  return {};
+}
+
+void draw_depth(const GpuMesh& gpu, bool from_outside) {
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  for (const Run& run : gpu.bind_solid()) {
+    if (run.surface != Surface::solid) continue;
+    leave_out(from_outside ? run.hidden : CullFace::none);
+    gpu.draw(run);
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+PassCounts draw_solid(const Programs& programs, const GpuMesh& gpu, bool from_outside) {
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  const std::vector<Run>& runs = gpu.bind_solid();
+  return draw_runs(programs, gpu, runs, true, from_outside, [](const Program&, int) {});
+}
+
+PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted,
+                            const SetRotor& set_rotor) {
+  if (sorted.runs.empty()) return {};
+  glEnablei(GL_BLEND, 0);
+  glDisablei(GL_BLEND, 1);  // coverage is replaced, not blended: glass counts as covering
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  gpu.bind_sorted(sorted);
+  return draw_runs(programs, gpu, sorted.runs, false, false, set_rotor);
+}
+
+}  // namespace sigs
