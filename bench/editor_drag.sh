@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # A waypoint dragged steadily over 4K footage in the editor's window: composites shown a second, the editor's processor
-# milliseconds for each, and milliseconds from letting go to the image of the last place. With the whole frame in
-# sight, and at 1:1. Medians of interleaved runs of all builds. Needs Xvfb, xdotool and ffmpeg, no display.
+# milliseconds for each, milliseconds from one to the next (half of them, 90 and 99 of 100 come sooner), and from letting
+# go to the image of the last place; with the whole frame in sight, and at 1:1. Then images a second while the clip is
+# played (25 Hz, H.264), and the time from the program's start to the first image. Medians of interleaved runs of all builds. Needs Xvfb, xdotool and ffmpeg, no display.
 #   bench/editor_drag.sh [--rounds N] [--size WIDTHxHEIGHT] [--seconds S] [BUILD...]   default: 3, 3840x2160, 4, build/release
 # --images FOLDER leaves screenshots of both views, in the drag and after it, there. --first: all that runs here goes
 # before other work of the machine (root), each thread by as much as the others; the rates are then those of a machine
@@ -77,7 +78,7 @@ go_first() {
 
 # drag BUILD VIEW: appends "images/s processor_ms settled_ms" to the readings.
 drag() {
-  local x y images_before images_after start end work_before work_after released
+  local x y images_before images_after start end work_before work_after released intervals
   read -r x y < <(middle viewport/waypoint/0/1)
   xdotool mousemove "$x" "$y"
   sleep 0.4
@@ -86,26 +87,30 @@ drag() {
   start=$(now_ms) images_before=$(value composites) work_before=$(processor_ms)
   xdotool $(moves "$x" "$y")
   end=$(now_ms) images_after=$(value composites) work_after=$(processor_ms)
+  intervals=$(grep -oE '"interval_ms":\[[^]]*\]' "$probe" | cut -d: -f2 | tr -c '0-9.\n' ' ')
   screenshot "$2-dragged"
   # From the middle of a move on: the last place is one that no image shows yet.
   xdotool mousemove $((x + 9)) $((y + 9))
   released=$(now_ms)
   xdotool mouseup 1
-  echo "$((images_after - images_before)) $((end - start)) $((work_after - work_before)) $(settled_ms "$released")" |
-    awk '{ printf "%.1f %.1f %d\n", 1000 * $1 / $2, $3 / ($1 > 0 ? $1 : 1), $4 }' | tee -a "$work/$(tr / _ <<<"$1").$2" |
+  echo "$((images_after - images_before)) $((end - start)) $((work_after - work_before)) $(settled_ms "$released") $intervals" |
+    awk '{ printf "%.1f %.1f %d %d %d %d\n", 1000 * $1 / $2, $3 / ($1 > 0 ? $1 : 1), $4, $5, $6, $7 }' | tee -a "$work/$(tr / _ <<<"$1").$2" |
     sed "s|^|$1 $2 |" >&2
   sleep 1
   screenshot "$2-settled"
 }
 
 run() { # BUILD
-  local x y
+  local x y line= begun images_before
   rm -f "$probe"
+  begun=$(now_ms)
   "$1/sigs-editor" --probe "$probe" "$work/project.json" >"$work/log" 2>&1 &
   editor=$!
-  sleep 0.5
-  go_first
-  wait_for '"current":true'
+  until [[ $line == *'"current":true'* ]]; do
+    read -r line 2>/dev/null <"$probe" || true
+    sleep 0.004
+  done
+  echo "$(($(stat -c %.3Y "$probe" | tr -d .) - begun))" | tee -a "$work/$(tr / _ <<<"$1").first" | sed "s|^|$1 first image, ms: |" >&2
   go_first
   key Home
   key Down
@@ -119,6 +124,14 @@ run() { # BUILD
   key 1
   sleep 1
   drag "$1" 1to1
+  key 0
+  key Home
+  sleep 1
+  images_before=$(value composites) start=$(now_ms)
+  key space
+  sleep "$seconds"
+  awk -v images="$(($(value composites) - images_before))" -v ms="$(($(now_ms) - start))" 'BEGIN { printf "%.1f\n", 1000 * images / ms }' |
+    tee -a "$work/$(tr / _ <<<"$1").played" | sed "s|^|$1 played, images/s: |" >&2
   kill "$editor"
   wait "$editor" 2>/dev/null || true
 }
@@ -129,11 +142,13 @@ done
 
 # median COLUMN FILE
 median() { awk -v c="$1" '{ print $c }' "$2" | sort -n | awk '{ v[NR] = $1 } END { print v[int((NR + 1) / 2)] }'; }
-echo "| $size, $rounds rounds | view | composites a second | processor ms for each | ms from release to the image |"
-echo "|---|---|---|---|---|"
+echo "| $size, $rounds rounds | view | composites a second | processor ms for each | ms from one to the next: median | 90 % | 99 % | ms from release to the image |"
+echo "|---|---|---|---|---|---|---|---|"
 for build in "${builds[@]}"; do
   for view in whole 1to1; do
     file=$work/$(tr / _ <<<"$build").$view
-    echo "| $build | $view | $(median 1 "$file") | $(median 2 "$file") | $(median 3 "$file") |"
+    echo "| $build | $view | $(median 1 "$file") | $(median 2 "$file") | $(median 4 "$file") | $(median 5 "$file") | $(median 6 "$file") | $(median 3 "$file") |"
   done
+  file=$work/$(tr / _ <<<"$build")
+  echo "| $build | played | $(median 1 "$file.played") | | | | | first image after $(median 1 "$file.first") ms |"
 done

@@ -2,6 +2,7 @@
 #include "editor/app/app.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "base/resources.h"
+#include "base/statistics.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
 #include "project/json.h"
@@ -66,9 +68,22 @@ bool ProbeWriter::is_at_rest(const nlohmann::json& input, bool has_input_left) {
 
 int ProbeWriter::composites_shown(const std::shared_ptr<const PreviewImage>& image) {
   const bool is_same = !image_.owner_before(image) && !image.owner_before(image_);
-  if (image && !is_same) ++composites_;
+  if (image && !is_same) {
+    ++composites_;
+    const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
+    shown_at_s_.push_back(std::chrono::duration<double>(since_boot).count());
+    if (shown_at_s_.size() > 201) shown_at_s_.pop_front();
+  }
   image_ = image;
   return composites_;
+}
+
+std::vector<double> ProbeWriter::intervals_ms() const {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < shown_at_s_.size(); ++i)
+    intervals.push_back(1000 * (shown_at_s_[i] - shown_at_s_[i - 1]));
+  if (intervals.empty()) return {0, 0, 0};
+  return {quantile(intervals, 0.5), quantile(intervals, 0.9), quantile(intervals, 0.99)};
 }
 
 void ProbeWriter::write(const Document& document, const PreviewOutput& shown, const UiProbe& ui_probe,
@@ -87,6 +102,7 @@ void ProbeWriter::write(const Document& document, const PreviewOutput& shown, co
                     {"textures", memory.textures}, {"sum", memory.sum()},       {"limit", memory.limit}};
   json["turns_a_second"] = window.updates_per_second;
   json["composites"] = composites_shown(shown.image);
+  json["interval_ms"] = intervals_ms();
   const nlohmann::json input = input_of(ImGui::GetIO(), window.released_keys);
   json.update(input);
   json["at_rest"] = is_at_rest(input, window.has_input_left);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "editor/app/app_shell.h"
 #include "editor/app/layout.h"
@@ -52,6 +54,8 @@ struct ProbedWindow {
 //    "problems": ["footage.video: ..."], "turns_a_second": 60, "places": {"ruler": [x, y, width, height], ...},
 //    "memory": {"images": 1000, "decoded": ..., "shown": ..., "textures": ..., "sum": ..., "limit": ...}, in bytes
 //    "composites": 31, how often another composited frame was shown than in the update before,
+//    "interval_ms": [33, 38, 52], from one of these to the next, of the last 200: the median, and what 90 and 99 of 100
+//    stay below,
 //    "mouse": [x, y], "buttons": 1, "released_keys": 7, "at_rest": true}
 // By the last line a driver learns that its input has arrived: position of the mouse in this update, one bit for each
 // button that is down, number of keys released so far, and whether some updates have passed since without any input.
@@ -70,6 +74,8 @@ class ProbeWriter {
   // How many composited frames were shown so far, with the one of this update.
   [[nodiscard]] int composites_shown(const std::shared_ptr<const PreviewImage>& image);
 
+  [[nodiscard]] std::vector<double> intervals_ms() const;
+
   std::filesystem::path file_;
   // The text that was written last, without its "turn", and the input of the update before.
   std::string last_;
@@ -79,6 +85,7 @@ class ProbeWriter {
   // Of the update before; holds no image.
   std::weak_ptr<const PreviewImage> image_;
   int composites_ = 0;
+  std::deque<double> shown_at_s_;  // when the last of them were shown
 };
 
 // The editor: one window, one document, and everything that connects them. It lives on the window's thread; the

@@ -295,6 +295,7 @@ class Planning {
     intruder.trajectory.waypoints = std::move(flight.waypoints);
     if (project().light.white_cdpm2) intruder.lights = usual_lights(intruder.category);  // by night
     project().intruders = {std::move(intruder)};
+    if (!options_.plain) project().compositing.quality = QualityChoice::automatic;
     project().camera.position_m.z -= flight.raise_m;
     note({.field = "camera.position_m",
           .text = fmt::format("{} m above the ground{}", number_text(-project().camera.position_m.z, 0),

@@ -243,6 +243,7 @@ TEST_CASE("the intruder of a first project has the footage's noise; a plain one 
   CHECK_FALSE(note_on(made, "appearance.grain").is_guess);
   CHECK(made.project.appearance.codec.match == CodecMatchChoice::none);  // PNG keeps every sample
   CHECK(made.project.compositing.blur_px_per_m == 0);
+  CHECK(made.project.compositing.quality == QualityChoice::automatic);  // within 0.25 codes of exact
   // What the footage does not tell is at its default, and said.
   CHECK(note_on(made, "appearance.psf_sigma_px").is_guess);
   CHECK(note_on(made, "appearance.haze.visibility_m").is_guess);

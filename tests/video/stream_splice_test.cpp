@@ -12,6 +12,7 @@
 
 #include "support/test_data.h"
 #include "video/clips.h"
+#include "video/data_streams.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/nal_units.h"
 
@@ -261,6 +262,34 @@ TEST_CASE("sound, rotation and edit lists stay as they are") {
       return std::string(text.begin(), text.end());
     };
     CHECK(sums(out) == sums(clip));
+  }
+}
+
+TEST_CASE("a camera's telemetry goes along") {
+  if (!has_real_data()) return;
+  const fs::path clip = real_data() / "video/air_karma_gopro_coast.mp4";
+  const TemporaryFolder folder;
+  const int last = opened(clip).info().frame_count() - 1;
+  const SplicePlan plan = planned(clip, changed_from(0, last, 100, 102));
+  CHECK(plan.warnings.size() == 1);  // "fdsc", which FFmpeg does not write
+  splice(clip, folder / "out.mp4", plan, 0);
+  check_spliced(clip, folder / "out.mp4", plan, 0);
+  const auto telemetry_of = [](const fs::path& path) {
+    const Result<std::vector<DataStream>> streams = data_streams_of(path);
+    REQUIRE(streams);
+    const auto gpmf = std::find_if(streams->begin(), streams->end(),
+                                   [](const DataStream& stream) { return stream.kind == DataKind::gpmf; });
+    REQUIRE(gpmf != streams->end());
+    Result<DataPackets> packets = read_data_stream(path, gpmf->index);
+    REQUIRE(packets);
+    return packets->packets;
+  };
+  const std::vector<DataPacket> before = telemetry_of(clip);
+  const std::vector<DataPacket> after = telemetry_of(folder / "out.mp4");
+  REQUIRE(before.size() == after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    CHECK(after[i].bytes == before[i].bytes);
+    CHECK(after[i].time_s == doctest::Approx(before[i].time_s).epsilon(1e-6).scale(0.001));
   }
 }
 
