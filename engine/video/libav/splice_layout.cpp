@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "video/libav/splice_layout.h"
+#include "video/libav/splice_file.h"
 
 #include <fmt/format.h>
 
