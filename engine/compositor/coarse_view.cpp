@@ -92,7 +92,7 @@ bool is_rough_in(const CoarseView& view, const cv::Rect& cells) {
 }
 
 AreaMean interpolated(const CoarseView& view, const Quadrilateral& corners) {
-  using Color [[gnu::vector_size(kChannels * sizeof(float))]] = float;
+  using Channels [[gnu::vector_size(kChannels * sizeof(float))]] = float;
   const glm::dvec2 middle = (corners[0] + corners[1] + corners[2] + corners[3]) * (0.25 / view.step) - 0.5;
   const cv::Size size = view.layer.coverage.size();
   const auto x = static_cast<float>(std::clamp(middle.x, 0.0, double(size.width - 1)));
@@ -102,14 +102,14 @@ AreaMean interpolated(const CoarseView& view, const Quadrilateral& corners) {
   const int right = std::min(left + 1, size.width - 1);
   const int bottom = std::min(top + 1, size.height - 1);
   const auto at = [&](int row, int column) {
-    Color color;
+    Channels color;
     std::memcpy(&color, view.layer.color.ptr<cv::Vec4f>(row)[column].val, sizeof(color));
     return color;
   };
   const float across = x - static_cast<float>(left);
-  const Color above = at(top, left) + across * (at(top, right) - at(top, left));
-  const Color below = at(bottom, left) + across * (at(bottom, right) - at(bottom, left));
-  const Color mean = above + (y - static_cast<float>(top)) * (below - above);
+  const Channels above = at(top, left) + across * (at(top, right) - at(top, left));
+  const Channels below = at(bottom, left) + across * (at(bottom, right) - at(bottom, left));
+  const Channels mean = above + (y - static_cast<float>(top)) * (below - above);
   return {{mean[0], mean[1], mean[2], mean[3]}, view.layer.coverage.ptr<float>(top)[left]};  // coverage is even there
 }
 
