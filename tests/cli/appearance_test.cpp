@@ -169,7 +169,9 @@ TEST_CASE("init writes the appearance and light that appearance --into writes; -
   const Run made = run_sigs("init " + video + " --progress plain --out " + project);
   REQUIRE_MESSAGE(made.status == 0, made.err);
   CHECK_MESSAGE(has(made.err, "%: matching the footage's appearance"), made.err);
-  const nlohmann::json first = json_of(project);
+  nlohmann::json first = json_of(project);
+  CHECK(first["compositing"]["quality"] == "auto");
+  first["compositing"]["quality"] = "exact";  // is no appearance: --into leaves it
   CHECK(first["appearance"]["codec"]["match"] == "footage");
   const std::string plain = (folder / "plain.json").string();
   REQUIRE(run_sigs("init " + video + " --plain --out " + plain).status == 0);

@@ -109,8 +109,8 @@ bool are_errors_of_videos(const std::string& said) {
   int errors = 0;
   for (std::string line; std::getline(stream, line);) {
     errors += is_error_line(line) ? 1 : 0;
-    if (!is_error_line(line) && !line.starts_with("warning: ") && line.find(" videos made, ") == std::string::npos)
-      return false;
+    const bool counts = line.find(" videos made, ") != std::string::npos || line.starts_with("1 video made, ");
+    if (!is_error_line(line) && !line.starts_with("warning: ") && !counts) return false;
   }
   return errors > 0 && said.find("/.part/") == std::string::npos;
 }
