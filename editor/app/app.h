@@ -110,6 +110,7 @@ class App {
   [[nodiscard]] double wait_timeout_s() const;
   // The person has quit; the settings are written by then.
   [[nodiscard]] bool done() const { return done_; }
+  [[nodiscard]] bool plays() const { return playback_.playing(); }
 
  private:
   // Sends the previewer what the document and the views want.

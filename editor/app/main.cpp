@@ -14,12 +14,12 @@
 namespace {
 
 constexpr double kTurn_s = 1.0 / 60;
-constexpr double kSlowTurn_s = 1.0 / 33;  // a hand that drags sees no difference
+constexpr double kSlowTurn_s = 1.0 / 33;
 
 // From one update to the next. No more updates than a screen shows; and where OpenGL draws in software, a third of the
-// time, so that the images have the rest.
-double turn_s(double update_took_s) {
-  return std::clamp(3 * update_took_s, kTurn_s, kSlowTurn_s);
+// time while a clip is played, so that decoding has the rest, else most of it: a hand that drags sees the difference.
+double turn_s(double update_took_s, bool plays) {
+  return std::clamp((plays ? 3 : 1.2) * update_took_s, kTurn_s, kSlowTurn_s);
 }
 
 double now_s() {
@@ -40,7 +40,7 @@ int run(const std::string& project, const std::string& probe) {
   double took_s = 0;
   while (!app.done()) {
     const bool something_happened = (*window)->wait(app.wait_timeout_s());
-    if (const double early_s = last_update_s + turn_s(took_s) - now_s(); early_s > 0)
+    if (const double early_s = last_update_s + turn_s(took_s, app.plays()) - now_s(); early_s > 0)
       std::this_thread::sleep_for(std::chrono::duration<double>(early_s));
     last_update_s = now_s();
     app.update(last_update_s, something_happened);
