@@ -35,10 +35,11 @@ void try_frames(const std::filesystem::path& path, Quantisers quantisers) {
   }
 }
 
-// What a copy of it with a changed frame would be. Not of HEVC: libx265 loses memory whenever an encoder is opened.
+// What a copy of it with a changed frame would be. Not of HEVC: libx265 loses memory whenever an encoder is opened;
+// nor of large images, for which encoders take more memory than a target may.
 void try_splice(const std::filesystem::path& path) {
   const Result<FrameSource> source = FrameSource::open(path);
-  if (!source || source->info().codec == "hevc") return;
+  if (!source || source->info().codec == "hevc" || source->info().size_px.area() > 1 << 21) return;
   std::vector<bool> changed(static_cast<std::size_t>(source->info().frame_count()), false);
   changed[changed.size() / 2] = true;
   const Result<SplicePlan> plan = plan_splice(source->info(), {.first = 0, .changed = std::move(changed)});
