@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/coarse_view.h"
+#include "compositor/area_reader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include "camera/lens_table.h"
 #include "camera/row_motion.h"
 #include "camera/virtual_camera.h"
-#include "compositor/coarse_view.h"
+#include "compositor/area_reader.h"
 
 namespace sigs {
 

@@ -128,6 +128,14 @@ ExportReport begun_report(const Scene& scene, const FrameRange& range, const std
   return report;
 }
 
+// With the field that asks for the codec source, where the footage does not allow it.
+Result<void> of_source(const Project& project, const Result<void>& spliced) {
+  if (spliced || spliced.error().kind != ErrorKind::usage) return spliced;
+  return fail(project.file.string() + ": export.video.codec",
+              fmt::format("source cannot be used: {} {}", spliced.error().where, spliced.error().what),
+              ErrorKind::bad_project);
+}
+
 // Which frames of the range an intruder changes.
 Result<ChangedFrames> changed_frames(const Scene& scene, const FrameRange& range, const ExportControl& control) {
   ComposeContext context;
@@ -160,10 +168,7 @@ Result<std::optional<SplicePlan>> splice_plan(const ExportRequest& request, cons
   if (!frames) return fail(frames.error());
   Result<SplicePlan> plan = plan_splice(footage, *frames, control.cancel);
   if (plan) return std::optional(*std::move(plan));
-  if (plan.error().kind != ErrorKind::usage) return fail(plan.error());
-  return fail(request.project.file.string() + ": export.video.codec",
-              fmt::format("source cannot be used: {} {}", plan.error().where, plan.error().what),
-              ErrorKind::bad_project);
+  return fail(of_source(request.project, fail(plan.error())).error());
 }
 
 void tell(const std::optional<SplicePlan>& splice, const ExportControl& control, ExportReport& report) {
@@ -272,13 +277,6 @@ bool has_even_times(const VideoInfo& footage) {
   return true;
 }
 
-// What footage is in already, for the codec source.
-Container own_container_of(const VideoInfo& footage) {
-  if (footage.container.starts_with("matroska")) return Container::mkv;
-  if (footage.container == "avi") return Container::avi;
-  return lower_case(footage.path.extension().string()) == ".mov" ? Container::mov : Container::mp4;
-}
-
 }  // namespace
 
 Container container_of(const ExportSettings& output, const VideoInfo& footage) {
@@ -306,7 +304,7 @@ Container container_of(const ExportSettings& output, const VideoInfo& footage) {
     case VideoCodec::raw:
       return Container::nut;
     case VideoCodec::source:
-      return own_container_of(footage);
+      return container_of(footage);
     default:
       return Container::mkv;
   }
@@ -317,7 +315,7 @@ Result<void> check_output(const Project& project, const VideoInfo& footage) {
     return fail(project.file.string() + ": export.video.container",
                 "y4m has no place for RGB, which the footage is; use nut", ErrorKind::bad_project);
   const Container container = container_of(project.output, footage);
-  if (project.output.codec == VideoCodec::source) return {};
+  if (project.output.codec == VideoCodec::source) return of_source(project, check_splice(footage, nullptr));
   const bool has_times = container != Container::avi && container != Container::y4m;
   if (!has_times && !writes_images(project.output.codec) && !has_even_times(footage))
     return fail(

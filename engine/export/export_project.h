@@ -81,7 +81,7 @@ struct ExportControl {
 [[nodiscard]] Container container_of(const ExportSettings& output, const VideoInfo& footage);
 
 // Errors in a project's outputs that only the footage can show: h264 of an odd size, avi or y4m, which have no times,
-// for frames that are not evenly spaced. Names the field.
+// for frames that are not evenly spaced; source for footage that cannot be copied in part. Names the field.
 [[nodiscard]] Result<void> check_output(const Project& project, const VideoInfo& footage);
 
 }  // namespace sigs

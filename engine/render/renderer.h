@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/image.h"
 #include "base/pose.h"
@@ -14,7 +16,6 @@
 #include "mesh/mesh.h"
 #include "render/light.h"
 #include "render/rotor_view.h"
-#include "render/view_cells.h"
 
 namespace sigs {
 
@@ -32,6 +33,20 @@ struct CoarseDrawing {
   Layer layer;
   cv::Mat at_edges;  // CV_8UC1, 255 at pixels that an edge of the mesh touches (FeatureEdges) and beside them, else 0
 };
+
+// Cells of step by step pixels of a view, from its upper left corner on; those at the lower and right border may extend
+// beyond it.
+struct ViewCells {
+  cv::Mat wanted;  // CV_8UC1, one each; 0: not wanted
+  int step = 1;
+};
+
+// The wanted cells within a piece of the view, as rectangles that do not overlap; in pixels of the piece.
+[[nodiscard]] std::vector<cv::Rect> wanted_in(const ViewCells& cells, const cv::Rect& piece);
+
+// Rectangles that contain all wanted cells within a piece, few of them, so that each can be copied by a call of its
+// own; in pixels of the piece, without overlap.
+[[nodiscard]] std::vector<cv::Rect> copied_in(const ViewCells& cells, const cv::Rect& piece);
 
 // Renders meshes off screen with OpenGL through EGL. A renderer may be used only by the thread that created it.
 class Renderer {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "render/view_cells.h"
 
 #include <algorithm>
 #include <cstddef>
+
+#include "render/renderer.h"
 
 namespace sigs {
 namespace {

@@ -12,37 +12,50 @@
 #include "base/threads.h"
 #include "video/image_sequence.h"
 #include "video/libav/splice_file.h"
+#include "video/video_writer.h"
 
 namespace sigs {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Muxer {
-  const char* name = "";
-  const char* extension = "";
-};
-
 bool codes_each_alone(AVCodecID codec) {
   return libav::is_intra_only(codec) || codec == AV_CODEC_ID_FFV1;
 }
 
-// The container of the footage itself.
-Result<Muxer> own_muxer(const libav::Demuxer& demuxer, const fs::path& path) {
+// Of a container that can be written as it was.
+Result<void> check_container(const libav::Demuxer& demuxer, const libav::Orientation& orientation) {
   const std::string_view format = demuxer.format().iformat->name;
-  if (format.starts_with("matroska")) return Muxer{"matroska", "mkv"};
-  if (format.starts_with("mov,mp4")) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return extension == ".mov" ? Muxer{"mov", "mov"} : Muxer{"mp4", "mp4"};
-  }
-  if (format == "avi" && codes_each_alone(demuxer.stream().codecpar->codec_id)) return Muxer{"avi", "avi"};
-  return fail("",
-              fmt::format("is in the container {}, whose index or times cannot be relied on: copy it into mp4 or mkv "
-                          "first (ffmpeg -i FILE -map 0 -c copy OUT.mkv), or use the codec h264",
-                          format),
-              ErrorKind::usage);
+  const bool is_avi_of_images = format == "avi" && codes_each_alone(demuxer.stream().codecpar->codec_id);
+  if (!libav::has_true_time_stamps(demuxer.format()) && !is_avi_of_images)
+    return fail("",
+                fmt::format("is in the container {}, whose index or times cannot be relied on: copy it into mp4 or mkv "
+                            "first (ffmpeg -i FILE -map 0 -c copy OUT.mkv), or use the codec h264",
+                            format),
+                ErrorKind::usage);
+  if (!(orientation == libav::Orientation{}) && format.starts_with("matroska"))
+    return fail("", "is turned by its container, which FFmpeg does not write into mkv; use the codec h264",
+                ErrorKind::usage);
+  return {};
+}
+
+// Footage that can be spliced, opened.
+struct Allowed {
+  libav::Demuxer demuxer;
+  libav::Orientation orientation;
+};
+
+Result<Allowed> allowed(const VideoInfo& footage, const std::atomic<bool>* cancel) {
+  if (is_image_sequence(footage.path))
+    return fail("", "is a sequence of images, which has no packets to copy: use png", ErrorKind::usage);
+  Result<libav::Demuxer> demuxer = libav::Demuxer::open(footage.path, cancel);
+  if (!demuxer) return fail(demuxer.error());
+  if (const Result<void> known = libav::check_group_codec(*demuxer->stream().codecpar); !known)
+    return fail(known.error());
+  const Result<libav::Orientation> orientation = libav::orientation_of(demuxer->stream());
+  if (!orientation) return fail(orientation.error());
+  if (const Result<void> kept = check_container(*demuxer, *orientation); !kept) return fail(kept.error());
+  return Allowed{std::move(*demuxer), *orientation};
 }
 
 // By the packets; in AVI, of codecs that code each picture alone, as they come.
@@ -120,41 +133,29 @@ std::vector<bool> encoded_frames(const libav::SpliceLayout& layout, const Change
 }
 
 Result<SplicePlan> planned(const VideoInfo& footage, const ChangedFrames& frames, const std::atomic<bool>* cancel) {
-  if (is_image_sequence(footage.path))
-    return fail("", "is a sequence of images, which has no packets to copy: use png", ErrorKind::usage);
-  Result<libav::Demuxer> demuxer = libav::Demuxer::open(footage.path, cancel);
-  if (!demuxer) return fail(demuxer.error());
-  if (const Result<void> known = libav::check_group_codec(*demuxer->stream().codecpar); !known)
-    return fail(known.error());
-  const Result<Muxer> muxer = own_muxer(*demuxer, footage.path);
-  if (!muxer) return fail(muxer.error());
-  const libav::PacketTable table = libav::PacketTable::read(*demuxer);
-  if (const Result<void> on = demuxer->check_interrupt(); !on) return fail(on.error());
-  const Result<libav::FrameOrder> order = packet_order(table, *demuxer);
+  Result<Allowed> opened = allowed(footage, cancel);
+  if (!opened) return fail(opened.error());
+  libav::Demuxer& demuxer = opened->demuxer;
+  const libav::PacketTable table = libav::PacketTable::read(demuxer);
+  if (const Result<void> on = demuxer.check_interrupt(); !on) return fail(on.error());
+  const Result<libav::FrameOrder> order = packet_order(table, demuxer);
   if (!order) return fail(order.error());
   if (static_cast<int>(order->ordinals.size()) != footage.frame_count())
     return fail("", "begins with pictures that cannot be decoded, or shows some twice; use the codec h264",
                 ErrorKind::usage);
-  const Result<libav::Orientation> orientation = libav::orientation_of(demuxer->stream());
-  if (!orientation) return fail(orientation.error());
-  if (!(*orientation == libav::Orientation{}) && std::string_view(muxer->name) == "matroska")
-    return fail("", "is turned by its container, which FFmpeg does not write into mkv; use the codec h264",
-                ErrorKind::usage);
-  Result<libav::Demuxer> second = demuxer->reopened(footage.path);
+  Result<libav::Demuxer> second = demuxer.reopened(footage.path);
   if (!second) return fail(second.error());
   libav::PacketReader reader(footage.path, std::move(*second), table);
   auto splice = std::make_shared<libav::Splice>();
   splice->input = footage.path;
-  splice->muxer = muxer->name;
-  splice->format.orientation = *orientation;
-  Result<libav::SpliceLayout> layout = libav::splice_layout(table, *order, frames, *demuxer->stream().codecpar, reader);
+  splice->muxer = libav::muxer_of(container_of(footage));
+  splice->format.orientation = opened->orientation;
+  Result<libav::SpliceLayout> layout = libav::splice_layout(table, *order, frames, *demuxer.stream().codecpar, reader);
   if (!layout) return fail("", layout.error().what + "; use the codec h264", ErrorKind::usage);
   splice->layout = *std::move(layout);
-  set_format(*splice, *demuxer);
-  if (const Result<void> sets = try_encoder(*splice, *demuxer->stream().codecpar); !sets) return fail(sets.error());
-  SplicePlan plan{.encoded = encoded_frames(splice->layout, frames), .extension = muxer->extension};
-  plan.copied_packets =
-      static_cast<int>(std::count(splice->layout.is_copied.begin(), splice->layout.is_copied.end(), true));
+  set_format(*splice, demuxer);
+  if (const Result<void> sets = try_encoder(*splice, *demuxer.stream().codecpar); !sets) return fail(sets.error());
+  SplicePlan plan{.encoded = encoded_frames(splice->layout, frames)};
   if (const Result<void> streams = libav::choose_streams(*splice, plan.warnings, cancel); !streams)
     return fail(streams.error());
   if (const int in_vain = encoded_in_vain(splice->layout, frames); in_vain > 0)
@@ -168,6 +169,11 @@ Result<SplicePlan> planned(const VideoInfo& footage, const ChangedFrames& frames
 }
 
 }  // namespace
+
+Result<void> check_splice(const VideoInfo& footage, const std::atomic<bool>* cancel) {
+  const Result<Allowed> opened = guarded([&] { return allowed(footage, cancel); });
+  return opened ? Result<void>() : fail(libav::named(opened.error(), footage.path));
+}
 
 Result<SplicePlan> plan_splice(const VideoInfo& footage, const ChangedFrames& frames, const std::atomic<bool>* cancel) {
   ENSURE(!frames.changed.empty() && frames.first >= 0 && frames.last() < footage.frame_count());

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -32,19 +31,22 @@ struct ChangedFrames {
 
 struct SplicePlan {
   std::vector<bool> encoded;      // by number from the first of the range; SpliceWriter needs these frames
-  int copied_packets = 0;         // of the video
-  std::string extension;          // of the file: "mp4", "mov", "mkv", "avi"
   std::vector<Warning> warnings;  // a stream that the file has no place for; groups encoded though nothing changes
   std::shared_ptr<const libav::Splice> splice;
 };
+
+// Whether the footage is of a kind that can be spliced, as far as its container and headers tell. Errors: usage (what
+// it has that cannot be, and the codec to use instead: no H.264, HEVC, MJPEG, FFV1 or ProRes; interlaced; another
+// container than MP4, MOV, Matroska, or AVI of intra codecs; images), unavailable (no encoder), cannot_read,
+// interrupted.
+[[nodiscard]] Result<void> check_splice(const VideoInfo& footage, const std::atomic<bool>* cancel = nullptr);
 
 // Groups with a changed frame, and those that the range cuts, are encoded, and those after them until a picture that
 // decoding can begin at: an IDR or BLA picture, or a CRA of HEVC.
 //   frames  of the footage, within it and not empty
 //   cancel  while it is true, reading soon ends; null: none
-// Errors: usage (what the footage has that cannot be spliced, and the codec to use instead: no H.264, HEVC, MJPEG, FFV1
-// or ProRes; interlaced; another container than MP4, MOV, Matroska, or AVI of intra codecs; images), unavailable (no
-// encoder), cannot_read, interrupted.
+// Errors: those of check_splice(), and usage for what only the packets show (pictures of neighbouring groups that are
+// shown interleaved, an edit list within the clip).
 [[nodiscard]] Result<SplicePlan> plan_splice(const VideoInfo& footage, const ChangedFrames& frames,
                                              const std::atomic<bool>* cancel = nullptr);
 

@@ -19,6 +19,7 @@
 #include "base/image_codecs.h"
 #include "base/output_stream.h"
 #include "base/result.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "video/frame.h"
 #include "video/libav/video_file.h"
@@ -328,6 +329,12 @@ const char* name_of(VideoCodec codec) {
 int max_crf(VideoCodec codec) {
   if (codec == VideoCodec::av1) return 63;
   return codec == VideoCodec::h264 || codec == VideoCodec::hevc ? 51 : 0;
+}
+
+Container container_of(const VideoInfo& footage) {
+  if (footage.container.starts_with("matroska")) return Container::mkv;
+  if (footage.container == "avi") return Container::avi;
+  return lower_case(footage.path.extension().string()) == ".mov" ? Container::mov : Container::mp4;
 }
 
 const char* extension_of(Container container) {

@@ -89,6 +89,9 @@ class VideoWriter {
 // The highest crf of a codec: 51 for h264 and hevc, 63 for av1; 0 for codecs without one.
 [[nodiscard]] int max_crf(VideoCodec codec);
 
+// The container that footage is in, of those that the codec source writes: mkv, mp4, mov, avi; mp4 for all others.
+[[nodiscard]] Container container_of(const VideoInfo& footage);
+
 // The extension of a container's file name, without the dot: "mkv", "mp4", "avi", "nut", "y4m", "mov".
 [[nodiscard]] const char* extension_of(Container container);
 

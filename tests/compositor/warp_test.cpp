@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "camera/virtual_camera.h"
-#include "compositor/coarse_view.h"
+#include "compositor/area_reader.h"
 #include "compositor/synthetic_layers.h"
 
 namespace sigs::test {

@@ -76,8 +76,11 @@ ChangedFrames changed_from(int first, int last, int from, int to) {
 Frame negative(const Frame& frame) {
   Frame out = frame;
   const double most = (1 << frame.bit_depth) - 1;
-  for (cv::Mat& plane : out.planes)
-    if (!plane.empty()) plane = cv::Scalar(most) - plane;
+  for (cv::Mat& plane : out.planes) {
+    cv::Mat inverted;  // of its own: frames share their samples
+    cv::subtract(cv::Scalar(most), plane, inverted);
+    plane = inverted;
+  }
   return out;
 }
 
@@ -119,10 +122,12 @@ void check_spliced(const fs::path& from, const fs::path& to, const SplicePlan& p
     REQUIRE(before);
     REQUIRE(after);
     CHECK_FALSE(after->damaged);
-    if (plan.encoded[static_cast<std::size_t>(i)])
-      CHECK(difference_in_codes(*after, negative(*before)) < 16);
-    else
+    if (plan.encoded[static_cast<std::size_t>(i)]) {
+      CHECK(difference_in_codes(*after, negative(*before)) < 16);  // of compression
+      CHECK(difference_in_codes(*after, *before) > 32);
+    } else {
       CHECK(samples_of(*after) == samples_of(*before));
+    }
     const auto times = [&](const FrameSource& clip, int n) { return clip.info().times_s[static_cast<std::size_t>(n)]; };
     CHECK(times(result, i) ==
           doctest::Approx(times(source, first + i) - times(source, first)).epsilon(1e-9).scale(0.0011));
@@ -182,11 +187,11 @@ TEST_CASE("groups of pictures without a changed frame keep every sample, whateve
     if (kind.last_encoded >= 0) CHECK(begin + encoded - 1 == kind.last_encoded);
     CHECK(begin <= 24);
     CHECK(begin + encoded > 26);
+    // At most a group of 10 and the frames shown before two keyframes, three each; without IDR pictures the rest too.
     CHECK(encoded <= (kind.last_encoded == 49 ? 36 : 16));
-    CHECK(plan.copied_packets == last + 1 - static_cast<int>(encoded));
     // Of an open group of HEVC the keyframe behind the joint says so in one byte of each slice.
     const bool is_open_hevc = std::string(kind.name) == "HEVC, open groups";
-    CHECK(packets_in_both(clip, out) >= plan.copied_packets - (is_open_hevc ? 1 : 0));
+    CHECK(packets_in_both(clip, out) >= last + 1 - static_cast<int>(encoded) - (is_open_hevc ? 1 : 0));
     CHECK(run_ffmpeg("-xerror -err_detect explode -i \"" + out.string() + "\" -f null -"));
   }
 }

@@ -100,12 +100,6 @@ AVPixelFormat jpeg_format(PixelLayout layout) {
                                          : AV_PIX_FMT_YUVJ444P;
 }
 
-bool supports(const AVCodec& encoder, AVPixelFormat format) {
-  for (const AVPixelFormat* known = encoder.pix_fmts; known != nullptr && *known != AV_PIX_FMT_NONE; ++known)
-    if (*known == format) return true;
-  return false;
-}
-
 // Sets the pixel format: of the wanted depth, else of the next higher that the encoder has, else of its highest.
 Result<void> choose_format(Encoding& encoding, const AVCodec& encoder, int wanted_depth) {
   for (const int direction : {1, -1})
@@ -145,11 +139,7 @@ Frame with_neutral_chroma(const Frame& gray, PixelLayout layout) {
   return frame;
 }
 
-// The same for all machines: the results of x264's motion search and lookahead depend on the number of threads, and its
-// hand-written routines differ in the last bit between processors unless cpu-independent is set.
-constexpr int kH264Threads = 4;
 constexpr int kAv1Threads = 4;
-constexpr const char* kH264Parameters = "threads=4:lookahead-threads=1:sliced-threads=0:cpu-independent=1";
 constexpr int kKeyInterval = 60;  // about two seconds: an editor scrubs through it
 
 constexpr int kMjpegQuality = 2;  // the finest scale that FFmpeg's rate control takes
@@ -180,10 +170,6 @@ void set_up_h264(AVCodecContext& context, const VideoFormat& format, const Encod
   av_dict_set(options, is_deep_lossless ? "qp" : "crf", crf_of(format).c_str(), 0);
   av_dict_set(options, "x264-params", kH264Parameters, 0);
 }
-
-// The results of x265 depend on how many frames it codes at a time, so that their number is fixed. Without its
-// statement of version and options, and without its messages.
-constexpr const char* kHevcParameters = "pools=4:frame-threads=2:info=0:log-level=none";
 
 void set_up_hevc(AVCodecContext& context, const VideoFormat& format, AVDictionary** options) {
   context.gop_size = kKeyInterval;
@@ -233,6 +219,12 @@ void set_up_frame(AVCodecContext& context, const VideoFormat& format, const Enco
 }
 
 }  // namespace
+
+bool supports(const AVCodec& encoder, AVPixelFormat format) {
+  for (const AVPixelFormat* known = encoder.pix_fmts; known != nullptr && *known != AV_PIX_FMT_NONE; ++known)
+    if (*known == format) return true;
+  return false;
+}
 
 Result<Encoding> encoding_for(const VideoFormat& format) {
   ENSURE(format.codec != VideoCodec::png && format.codec != VideoCodec::tiff && format.codec != VideoCodec::jpeg);

@@ -39,6 +39,16 @@ struct Encoding {
 [[nodiscard]] Result<CodecPtr> open_encoder(const VideoFormat& format, const Encoding& encoding, AVRational tick,
                                             bool headers);
 
+// Numbers of threads are the same for all machines: the results of x264's motion search and lookahead, and of x265,
+// depend on them, and x264's hand-written routines differ in the last bit between processors unless cpu-independent is
+// set. x265 does not state its version and options, and has no messages.
+inline constexpr int kH264Threads = 4;
+inline constexpr const char* kH264Parameters = "threads=4:lookahead-threads=1:sliced-threads=0:cpu-independent=1";
+inline constexpr const char* kHevcParameters = "pools=4:frame-threads=2:info=0:log-level=none";
+
+// Whether an encoder takes images of a format.
+[[nodiscard]] bool supports(const AVCodec& encoder, AVPixelFormat format);
+
 // Makes FFV1's packets in place of FFmpeg's encoder, with the same bytes, in half of its time (video/ffv1_slice.h) and
 // without the buffer of 148 bytes for each pixel that FFmpeg fills with zeros before the first packet. FFmpeg's encoder
 // still gives the stream's header.

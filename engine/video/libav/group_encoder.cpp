@@ -15,6 +15,7 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include "video/libav/encoding.h"
 #include "video/libav/planes.h"
 
 namespace sigs::libav {
@@ -43,12 +44,6 @@ const char* group_encoder_name(AVCodecID codec) {
 
 AVPixelFormat stored_format_of(const AVCodecParameters& stream) {
   return static_cast<AVPixelFormat>(stream.format);
-}
-
-bool takes(const AVCodec& encoder, AVPixelFormat format) {
-  for (const AVPixelFormat* known = encoder.pix_fmts; known != nullptr && *known != AV_PIX_FMT_NONE; ++known)
-    if (*known == format) return true;
-  return false;
 }
 
 std::string h264_profile_of(int profile) {
@@ -91,10 +86,9 @@ std::string quantiser_parameters(const GroupFormat& format, const GroupQuality& 
   return text;
 }
 
-// Numbers of threads are fixed, since the bytes depend on them; hand-written routines as well.
 void set_up_h264_group(const GroupFormat& format, const GroupQuality& quality, AVCodecContext& context,
                        AVDictionary** options) {
-  context.thread_count = 4;
+  context.thread_count = kH264Threads;
   context.level = format.stream->level;
   const std::string profile = h264_profile_of(format.stream->profile);
   if (!profile.empty()) av_dict_set(options, "profile", profile.c_str(), 0);
@@ -243,7 +237,7 @@ Result<void> check_group_codec(const AVCodecParameters& stream) {
   if (encoder == nullptr) return fail("", fmt::format("this FFmpeg has no encoder {}", name), ErrorKind::unavailable);
   const AVPixelFormat format = stored_format_of(stream);
   const bool is_known = format != AV_PIX_FMT_NONE;
-  if (is_known && takes(*encoder, format) && conversion_of(format).text.empty()) return {};
+  if (is_known && supports(*encoder, format) && conversion_of(format).text.empty()) return {};
   const char* const format_name = is_known ? av_get_pix_fmt_name(format) : "an unknown format";
   return fail(
       "", fmt::format("has samples ({}) that the encoder {} does not take as they are: use ffv1", format_name, name),

@@ -20,23 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr int64_t kFinestTicksPerSecond = 60000;
 
-const char* muxer_of(Container container) {
-  switch (container) {
-    case Container::mkv:
-      return "matroska";
-    case Container::mp4:
-      return "mp4";
-    case Container::avi:
-      return "avi";
-    case Container::nut:
-      return "nut";
-    case Container::y4m:
-    case Container::mov:
-      break;  // others write it
-  }
-  return "";
-}
-
 constexpr int kStreamBuffer_bytes = 1 << 16;
 
 // Called by FFmpeg with bytes of the container.
@@ -74,6 +57,24 @@ bool is_done_at_once(VideoCodec codec) {
 }
 
 }  // namespace
+
+const char* muxer_of(Container container) {
+  switch (container) {
+    case Container::mkv:
+      return "matroska";
+    case Container::mp4:
+      return "mp4";
+    case Container::avi:
+      return "avi";
+    case Container::nut:
+      return "nut";
+    case Container::mov:
+      return "mov";
+    case Container::y4m:
+      break;  // VideoWriter writes it
+  }
+  return "";
+}
 
 void OutputCloser::operator()(AVFormatContext* context) const {
   if ((context->flags & AVFMT_FLAG_CUSTOM_IO) != 0 && context->pb != nullptr) {

@@ -25,6 +25,9 @@ struct OutputCloser {
 };
 using OutputPtr = std::unique_ptr<AVFormatContext, OutputCloser>;
 
+// FFmpeg's name of what writes a container.
+[[nodiscard]] const char* muxer_of(Container container);
+
 // Writes one video stream to one container file; the part of VideoWriter (video_writer.h) that uses FFmpeg. Functions
 // and errors are those of VideoWriter.
 class VideoFile {
