@@ -73,7 +73,7 @@ constexpr std::array kCodecs{"ffv1 (lossless)",
                              "tiff (numbered images)",
                              "jpeg (numbered images)",
                              "raw (uncompressed)",
-                             "source (copied where no intruder is)"};
+                             "source (mostly copied)"};
 constexpr std::array kContainers{"auto", "mkv", "mp4", "avi", "nut", "y4m"};
 constexpr std::array kMasks{"none", "video", "png (numbered images)"};
 
@@ -82,8 +82,9 @@ bool choose(const ViewContext& context, const char* id, const std::array<const c
             float width) {
   ImGui::SetNextItemWidth(width);
   auto index = static_cast<int>(value);
+  constexpr int kCount = static_cast<int>(N);  // all of them in sight
   const bool changed =
-      context.ui_probe.noted(ImGui::Combo((std::string("##") + id).c_str(), &index, names.data(), static_cast<int>(N)),
+      context.ui_probe.noted(ImGui::Combo((std::string("##") + id).c_str(), &index, names.data(), kCount, kCount),
                              fmt::format("export/{}", id));
   if (changed) value = static_cast<Choice>(index);
   return changed;
@@ -153,7 +154,7 @@ void draw_video_choices(const ViewContext& context) {
       if (const int worst = max_crf(codec); worst > 0) p.output.crf = std::min(p.output.crf, worst);
     });
   ImGui::SameLine();
-  ImGui::BeginDisabled(writes_images(output.codec));
+  ImGui::BeginDisabled(writes_images(output.codec) || output.codec == VideoCodec::source);
   if (choose(context, "container", kContainers, output.container, scaled(90)))
     context.edits.change("container", [container = output.container](Project& p) { p.output.container = container; });
   ImGui::EndDisabled();
