@@ -32,14 +32,11 @@ Result<void> check_valid(const Project& project) {
 Result<Scene> open_valid_scene(const Project& project, const FootageShape& footage, SceneFiles& files) {
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   Scene scene = bare_scene(project, footage);
-  const Result<FrameRange, Problem> range = scene_range(project.footage, footage);
-  if (!range) return failed(range.error());
-  scene.first_frame = range->first;
-  scene.last_frame = range->last;
+  if (const Result<void, Problem> timed = set_range(scene, project, files); !timed) return failed(timed.error());
   Result<Camera, Problem> camera = scene_camera(project, footage.size_px, files);
   if (!camera) return failed(camera.error());
   scene.camera = *std::move(camera);
-  Result<CameraFlight, Problem> flight = camera_flight(project, footage, *range, files);
+  Result<CameraFlight, Problem> flight = camera_flight(project, footage, {scene.first_frame, scene.last_frame}, files);
   if (!flight) return failed(flight.error());
   set_camera_motion(scene, *std::move(flight));
   const Result<SceneLight, Problem> light = scene_light(project, scene);
@@ -83,9 +80,10 @@ Result<OpenedProject> open_project(const Project& project, const std::atomic<boo
   Result<FrameSource> source =
       footage != nullptr ? std::move(*footage) : open_footage(project, cancel, quantisers_for(project));
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-  if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
+  if (!source)
+    return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
   SceneFiles files;
-  Result<Scene> scene = open_valid_scene(project, shape_of(source->info()), files);
+  Result<Scene> scene = open_valid_scene(project, footage_shape(project, source->info()), files);
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!scene) return fail(scene.error());
   std::vector<Warning> warnings = warnings_of(source->info());
@@ -112,10 +110,13 @@ Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>
   return FrameSource::open(resolved(project, project.footage.video), cancel, quantisers, timing_of(project));
 }
 
-FootageShape shape_of(const VideoInfo& video) {
-  return {.size_px = video.size_px,
-          .times_s = video.times_s,
-          .frame_interval_s = double(video.frame_rate_den) / video.frame_rate_num};
+FootageShape footage_shape(const Project& project, const VideoInfo& video) {
+  FootageShape shape = shape_of(video);
+  if (!project.rig_view) return shape;
+  const ClockSettings& clock = project.rig_view->clock;
+  for (double& time_s : shape.times_s) time_s = clock.rig_time_s(time_s);
+  shape.frame_interval_s = clock.rig_time_s(shape.frame_interval_s) - clock.offset_s;
+  return shape;
 }
 
 std::vector<Warning> warnings_of(const VideoInfo& video) {
@@ -218,7 +219,7 @@ std::vector<fs::path> files_read_by(const Project& project) {
     const fs::path file = resolved(project, *std::get<std::string*>(field.value));
     if (file.empty()) continue;
     files.push_back(file);
-    if (field.key == "footage.video" && is_image_sequence(file))
+    if (field.key.ends_with("footage.video") && is_image_sequence(file))
       if (const Result<std::vector<fs::path>> images = files_of_sequence(file))
         files.insert(files.end(), images->begin(), images->end());
     if (!field.key.ends_with("model.file")) continue;

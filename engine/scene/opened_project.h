@@ -54,11 +54,12 @@ struct OpenedProject {
 [[nodiscard]] Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel = nullptr,
                                                Quantisers quantisers = Quantisers::leave_out);
 
+
 // The times that settings state of footage in images; the file of times is the project's.
 [[nodiscard]] SequenceTiming timing_of(const Project& project);
 
-// What a scene has to know of a video.
-[[nodiscard]] FootageShape shape_of(const VideoInfo& video);
+// What the scene of a project has to know of its footage: shape_of() with the times of the rig's clock.
+[[nodiscard]] FootageShape footage_shape(const Project& project, const VideoInfo& video);
 
 // Warnings to be given before a video is used: its own, and that its samples are converted to 8 bits.
 [[nodiscard]] std::vector<Warning> warnings_of(const VideoInfo& video);

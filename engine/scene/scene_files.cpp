@@ -266,6 +266,7 @@ struct SceneFiles::Caches {
   FileCache<ModelKey, std::shared_ptr<const Model>> models;
   FileCache<CameraKey, Camera> cameras;
   FileCache<ImageKey, cv::Mat> masks;
+  FileCache<std::tuple<std::string, double, std::string>, FootageShape> footage;
   FileCache<std::string, std::vector<AttitudeAtFrame>> attitudes;
   FileCache<std::string, BoxesByFrame> boxes;
   FileCache<std::string, std::shared_ptr<const Track>> tracks;
@@ -287,6 +288,15 @@ Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::
   const CameraKey key{name_of(calibration), footage_size_px.width, footage_size_px.height, model};
   return caches_->cameras.take(key, stamp_of(calibration),
                                [&] { return read_calibration(calibration, footage_size_px, model); });
+}
+
+Result<FootageShape> SceneFiles::footage_shape(const std::filesystem::path& video, const SequenceTiming& timing) {
+  const auto read = [&]() -> Result<FootageShape> {
+    const Result<FrameSource> source = FrameSource::open(video, nullptr, Quantisers::leave_out, timing);
+    if (!source) return fail(source.error());
+    return shape_of(source->info());
+  };
+  return caches_->footage.take({name_of(video), timing.frame_rate_hz, name_of(timing.times_file)}, stamp_of(video), read);
 }
 
 Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {

@@ -14,7 +14,9 @@
 #include "mesh/mesh.h"
 #include "scene/heat.h"
 #include "scene/model.h"
+#include "scene/scene.h"
 #include "telemetry/track.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 
@@ -61,6 +63,9 @@ class SceneFiles {
   // read_calibration (camera/camera.h). model: none: taken from the file.
   [[nodiscard]] Result<Camera> camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
                                       std::optional<LensModel> model = std::nullopt);
+
+  // Size and times of other footage than that of the scene (FrameSource::open, shape_of).
+  [[nodiscard]] Result<FootageShape> footage_shape(const std::filesystem::path& video, const SequenceTiming& timing);
 
   // read_attitude_file
   [[nodiscard]] Result<std::vector<AttitudeAtFrame>> attitudes(const std::filesystem::path& file);
