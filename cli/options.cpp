@@ -127,8 +127,9 @@ Result<Project> whole_project_of(const ProjectOptions& options) {
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
   if (const Result<void> set = set_all(read->project, options.settings); !set) return fail(set.error());
-  if (!options.camera.empty() && read->project.cameras.empty())
-    return fail(camera_named(read->project, options.camera).error());
+  if (!options.camera.empty())
+    if (const Result<std::size_t> camera = camera_of_option(read->project, options.camera); !camera)
+      return fail(camera.error());
   return std::move(read->project);
 }
 
@@ -140,9 +141,14 @@ Result<Project> project_of(const ProjectOptions& options) {
                  project->cameras.front().name.c_str(), project->cameras.size());
     return seen_by(*project, 0);
   }
-  const Result<std::size_t> camera = camera_named(*project, options.camera);
+  const Result<std::size_t> camera = camera_of_option(*project, options.camera);
+  return camera ? seen_by(*project, *camera) : Result<Project>(fail(camera.error()));
+}
+
+Result<std::size_t> camera_of_option(const Project& project, const std::string& name) {
+  Result<std::size_t> camera = camera_named(project, name);
   if (!camera) return fail("--" + camera.error().where, camera.error().what, camera.error().kind);
-  return seen_by(*project, *camera);
+  return camera;
 }
 
 Result<void> rewrite_project(const Project& changed, const std::filesystem::path& file) {

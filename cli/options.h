@@ -38,6 +38,9 @@ void add_camera_option(CLI::App& command, std::string& camera);
 // The same as one camera sees it: of a rig the one that is asked for, else the first, of which a note tells.
 [[nodiscard]] Result<Project> project_of(const ProjectOptions& options);
 
+// The index of the camera of --camera. Error usage.
+[[nodiscard]] Result<std::size_t> camera_of_option(const Project& project, const std::string& name);
+
 // Rewrites a project file with what was changed of project_of() it.
 [[nodiscard]] Result<void> rewrite_project(const Project& changed, const std::filesystem::path& file);
 

@@ -46,8 +46,8 @@ struct AttitudeAtFrame {
 // A cache of the files that scenes are made from: a scene that is opened again after an edit reads only what has
 // changed. A file is read again when its size or its time of change differs; an OBJ file is read with its materials and
 // textures. Errors are those of the functions that read; they are cached too, except cannot_read, as permissions can
-// change without a trace. The cache keeps what scenes use, and of each kind the 8 last used of the rest. For one thread
-// at a time.
+// change without a trace. The cache keeps what scenes use, and of each kind the 8 last used of the rest. It may
+// be used from any thread; one waits while another reads.
 class SceneFiles {
  public:
   SceneFiles();
