@@ -18,6 +18,7 @@
 #include "labels/label_files.h"
 #include "project/rig.h"
 #include "project/validate.h"
+#include "rig/rig_tables.h"
 #include "rig/rig_truth.h"
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"
@@ -32,6 +33,7 @@ struct PlannedCamera {
   FrameRange frames;
   Camera camera;
   cv::Size size_px;
+  std::vector<RigIntruder> intruders;
 };
 
 // The frames of a camera, of those of its scene, that were taken at the time of others of the first camera.
@@ -61,9 +63,16 @@ Result<PlannedCamera> planned(Project project, std::optional<Scene>& first, cons
       return fail(fmt::format("frames {}-{}", asked_for->first, asked_for->last),
                   fmt::format("camera \"{}\" has no frame at that time", project.rig_view->name), ErrorKind::usage);
   }
+  std::vector<RigIntruder> intruders;
+  for (std::size_t i = 0; i < project.intruders.size(); ++i) {
+    const Result<std::shared_ptr<const Model>, Problem> model = scene_model(project, i, files);
+    if (!model) return failed(model.error());
+    intruders.push_back(
+        {project.intruders[i].name, project.intruders[i].category, (*model)->mesh.low_m, (*model)->mesh.high_m});
+  }
   const cv::Size size_px = scene.footage.size_px;
   if (!first) first = std::move(scene);
-  return PlannedCamera{std::move(project), frames, *camera, size_px};
+  return PlannedCamera{std::move(project), frames, *camera, size_px, std::move(intruders)};
 }
 
 Result<std::vector<PlannedCamera>> planned_cameras(const ExportRequest& request, SceneFiles& files) {
@@ -86,9 +95,7 @@ RigTruth truth_of(const std::vector<PlannedCamera>& cameras) {
     geometry.push_back({view.name, one.camera, view.mount, view.clock,
                         std::filesystem::path(one.project.footage.video).filename().string(), one.frames});
   }
-  std::vector<std::string> intruders;
-  for (const IntruderSettings& intruder : cameras.front().project.intruders) intruders.push_back(intruder.name);
-  return {std::move(geometry), std::move(intruders)};
+  return {std::move(geometry), cameras.front().intruders};
 }
 
 // Exports all cameras, several at a time where they share their footage.
@@ -162,6 +169,46 @@ class RigExport {
   std::optional<Error> error_;
 };
 
+// A folder with the tables of one kind.
+struct TableFolder {
+  std::string kind;
+  std::filesystem::path staged;
+};
+
+// Folders that hold nothing but what an earlier export wrote are replaced.
+Result<void> check_table_folder(const std::filesystem::path& folder) {
+  std::error_code code;
+  for (std::filesystem::recursive_directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
+    const std::string extension = it->path().extension().string();
+    if (!it->is_directory(code) && extension != ".json" && extension != ".txt")
+      return fail(folder.string(),
+                  fmt::format("holds {}, which no export wrote; choose another folder", it->path().filename().string()),
+                  ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+Result<void> write_file(const std::filesystem::path& path, const std::string& text) {
+  Result<TextFile> file = TextFile::create(path);
+  if (!file) return fail(file.error());
+  if (const Result<void> step = file->put(text); !step) return step;
+  return file->close();
+}
+
+Result<void> write_tables(const TableFolder& folder, const RigTruth& truth, const ExportRequest& request) {
+  const VideoCodec codec = request.project.output.codec;
+  const std::string extension = writes_images(codec) ? image_extension_of(codec) : ".png";
+  const Result<TextFiles> files =
+      folder.kind == "kitti" ? kitti_tables(truth) : nuscenes_tables(truth, request.project.name, extension);
+  if (!files)
+    return fail(request.project.file.string() + ": " + files.error().where, files.error().what, files.error().kind);
+  for (const auto& [name, text] : *files) {
+    if (const Result<void> made = make_inner_folder((folder.staged / name).parent_path()); !made) return made;
+    if (const Result<void> written = write_file(folder.staged / name, text); !written) return written;
+  }
+  return {};
+}
+
 Result<RigReport> exported_rig(const ExportRequest& request, const ExportControl& control) {
   SceneFiles files;
   const Result<std::vector<PlannedCamera>> cameras = planned_cameras(request, files);
@@ -173,18 +220,26 @@ Result<RigReport> exported_rig(const ExportRequest& request, const ExportControl
   if (!json) return fail(json.error());
   const Result<std::filesystem::path> table = outputs.add_file(base + std::string(kRigTableSuffix));
   if (!table) return fail(table.error());
-
+  std::vector<TableFolder> folders;
+  for (const std::string& kind : request.project.output.rig) {
+    const Result<std::filesystem::path> folder = outputs.add_folder(base + "." + kind, check_table_folder);
+    if (!folder) return fail(folder.error());
+    folders.push_back({kind, *folder});
+  }
   RigTruth truth = truth_of(*cameras);
+  if (std::ranges::count(request.project.output.rig, "kitti") > 0)  // before the work, whether the lenses allow it
+    if (const Result<TextFiles> lenses = kitti_tables(truth); !lenses)
+      return fail(request.project.file.string() + ": " + lenses.error().where, lenses.error().what,
+                  lenses.error().kind);
   Result<std::vector<ExportReport>> reports = RigExport(request, control, *cameras, files, truth).run();
   if (!reports) return fail(reports.error());
-  for (const auto& [path, text] :
-       {std::pair(*json, truth.json(request.project.name)), std::pair(*table, truth.csv())}) {
-    Result<TextFile> file = TextFile::create(path);
-    if (!file) return fail(outputs.with_final_names(file.error()));
-    if (const Result<void> step = file->put(text); !step) return fail(outputs.with_final_names(step.error()));
-    if (const Result<void> step = file->close(); !step) return fail(outputs.with_final_names(step.error()));
-  }
-  if (const Result<void> step = outputs.commit(); !step) return fail(step.error());
+  Result<void> step = write_file(*json, truth.json(request.project.name));
+  if (step) step = write_file(*table, truth.csv());
+  for (const TableFolder& folder : folders)
+    if (step) step = write_tables(folder, truth, request);
+  if (!step) return fail(outputs.with_final_names(step.error()));
+  step = outputs.commit();
+  if (!step) return fail(step.error());
   RigReport report{.cameras = *std::move(reports)};
   for (const ExportReport& camera : report.cameras)
     report.written.insert(report.written.end(), camera.written.begin(), camera.written.end());

@@ -159,6 +159,8 @@ void add_output(FieldList list, ExportSettings& output) {
               "and so much more on each side; annotators often leave 4 to 10");
   list.add("categories", &output.categories, "",
            "categories that labels count, in this order; empty: those of the intruders");
+  static const std::string rig_help = "of several cameras, tables for all of them: " + listed(kRigTableNames);
+  list.add("rig", &output.rig, "", rig_help);
   static const std::string encounter_help =
       "volumes for the truth of the encounter; empty: none is written: " + listed(kWellClearNames);
   list.add("encounter", &output.encounter, "", encounter_help);

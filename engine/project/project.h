@@ -303,6 +303,9 @@ inline constexpr auto kLabelNames = std::to_array<std::string_view>(
 inline constexpr auto kWellClearNames =
     std::to_array<std::string_view>({"dwc-en-route", "dwc-non-cooperative", "dwc-terminal", "small-uas", "nmac"});
 
+// The tables that export.rig may contain: rig/rig_tables.h.
+inline constexpr auto kRigTableNames = std::to_array<std::string_view>({"nuscenes", "kitti"});
+
 // What an export writes. crf: quality of h264 and hevc, 0 (lossless) to 51, and of av1, to 63. max_bit_depth: samples
 // of more bits are rounded to this many. The two thresholds leave out labels of intruders with fewer visible pixels, or
 // a smaller visible share.
@@ -319,6 +322,7 @@ struct ExportSettings {
   double label_box_scale = 1;   // boxes of coco, yolo and voc: so much wider and higher than what is visible ...
   int label_box_margin_px = 0;  // ... and so much more on each side, as annotators draw them
   std::vector<std::string> categories;  // empty: those of the intruders, in their order
+  std::vector<std::string> rig;         // tables of the whole of several cameras
   std::vector<std::string> encounter;   // volumes of well clear; empty: no truth of the encounter is written
 
   [[nodiscard]] bool operator==(const ExportSettings&) const = default;
@@ -341,8 +345,8 @@ struct RigCamera {
   FootageSettings footage;
   MountSettings mount;
   ClockSettings clock;
-  std::optional<double> readout_s;              // as in CameraSettings
-  std::optional<double> exposure_s;             // likewise
+  std::optional<double> readout_s;               // as in CameraSettings
+  std::optional<double> exposure_s;              // likewise
   std::optional<AppearanceSettings> appearance;  // none: the project's
   std::string unknown_json;
 
@@ -355,8 +359,8 @@ struct RigView {
   std::string name;
   MountSettings mount;
   ClockSettings clock;
-  FootageSettings reference;        // of the first camera: waypoints count its frames
-  MountSettings reference_mount;    // of the first camera: a log of a camera's own attitude is that one's
+  FootageSettings reference;      // of the first camera: waypoints count its frames
+  MountSettings reference_mount;  // of the first camera: a log of a camera's own attitude is that one's
   bool has_own_appearance = false;
 
   [[nodiscard]] bool operator==(const RigView&) const = default;

@@ -50,13 +50,16 @@ void check_text(const Project& project, const Field& field, Problems& problems) 
     // Intruders are put into real images, also those of a rig.
     const bool has_no_footage = field.key.starts_with("cameras[") && field.key.ends_with("].footage.video");
     if (has_no_footage)
-      problems.push_back({field.key, "is missing: a camera without footage of its own has nothing to put intruders into"});
-    else if (field.required) problems.push_back({field.key, "is missing: " + std::string(field.help)});
+      problems.push_back(
+          {field.key, "is missing: a camera without footage of its own has nothing to put intruders into"});
+    else if (field.required)
+      problems.push_back({field.key, "is missing: " + std::string(field.help)});
     return;
   }
   std::error_code code;
   const std::filesystem::path path = resolved(project, text);
-  const bool is_sequence = field.key.ends_with("footage.video") && is_number_pattern(path);  // opening it shows what is there
+  const bool is_sequence =
+      field.key.ends_with("footage.video") && is_number_pattern(path);  // opening it shows what is there
   if (field.is_path && !is_sequence && !std::filesystem::exists(path, code))
     problems.push_back({field.key, "no such file: " + path.lexically_normal().string(), ErrorKind::cannot_read});
 }
@@ -138,7 +141,8 @@ void check_cameras(const std::vector<RigCamera>& cameras, Problems& problems) {
     if (const std::string wrong = name.empty() ? "" : file_name_error(name); !wrong.empty())
       problems.push_back({prefix + "name", wrong});
     const auto has_name = [&](const RigCamera& other) { return other.name == name; };
-    if (!name.empty() && std::find_if(cameras.begin(), cameras.end(), has_name) != cameras.begin() + static_cast<std::ptrdiff_t>(i))
+    if (!name.empty() &&
+        std::find_if(cameras.begin(), cameras.end(), has_name) != cameras.begin() + static_cast<std::ptrdiff_t>(i))
       problems.push_back({prefix + "name", "is that of a camera before; each has a name of its own"});
     check_frames(cameras[i].footage, prefix, problems);
   }
@@ -213,6 +217,7 @@ std::vector<Problem> validate(const Project& project) {
   check_cameras(project.cameras, problems);
   check_output(project.output, problems);
   check_names(project.output.labels, kLabelNames, "export.labels", "format", problems);
+  check_names(project.output.rig, kRigTableNames, "export.rig", "table", problems);
   check_names(project.output.encounter, kWellClearNames, "export.encounter", "volume", problems);
   check_places(project, problems);
   check_track(project.camera, problems);

@@ -38,35 +38,55 @@ std::optional<double> range_error_m_per_px(const RigCameraGeometry& first, const
   const std::optional<glm::dvec2> nearer = pixel_at(1 - kStep);
   const std::optional<glm::dvec2> farther = pixel_at(1 + kStep);
   if (!nearer || !farther) return std::nullopt;
-  const double px_per_m = glm::length(*farther - *nearer) / (2 * kStep * distance_m);
-  const double error_m = 1 / px_per_m;
-  return std::isfinite(error_m) ? std::optional(error_m) : std::nullopt;
+  constexpr double kMoves_px = 1e-8;  // less is rounding
+  const double moved_px = glm::length(*farther - *nearer);
+  if (!(moved_px > kMoves_px)) return std::nullopt;
+  return 2 * kStep * distance_m / moved_px;
 }
 
-RigTruth::RigTruth(std::vector<RigCameraGeometry> cameras, std::vector<std::string> intruders)
-    : cameras_(std::move(cameras)),
-      intruders_(std::move(intruders)),
-      seen_(cameras_.size(), std::vector<std::vector<Seen>>(intruders_.size())) {}
+namespace {
+
+// Of the cameras that show it the two with the least error; none: fewer than two, or on the line through both.
+std::optional<StereoRange> best_pair(const std::vector<RigCameraGeometry>& cameras, const std::vector<bool>& shows,
+                                     const glm::dvec3& p_in_body) {
+  std::optional<StereoRange> best;
+  for (std::size_t a = 0; a < cameras.size(); ++a)
+    for (std::size_t b = a + 1; b < cameras.size(); ++b) {
+      if (!shows[a] || !shows[b]) continue;
+      const std::optional<double> by_b = range_error_m_per_px(cameras[a], cameras[b], p_in_body);
+      const std::optional<double> by_a = range_error_m_per_px(cameras[b], cameras[a], p_in_body);
+      if (!by_a || !by_b) continue;
+      const double error_m = std::max(*by_a, *by_b);
+      if (!best || error_m < best->error_m_per_px) best = StereoRange{a, b, error_m};
+    }
+  return best;
+}
+
+}  // namespace
+
+RigTruth::RigTruth(std::vector<RigCameraGeometry> cameras, std::vector<RigIntruder> intruders)
+    : cameras_(std::move(cameras)), intruders_(std::move(intruders)), frames_(cameras_.size()) {}
 
 void RigTruth::add(std::size_t camera, const FrameTruth& truth) {
   const Pose<frame::Body, frame::Camera> body_from = body_from_camera(cameras_.at(camera).mount);
-  const std::lock_guard lock(mutex_);
+  const Pose<frame::World, frame::Camera> world_from_camera{truth.world_from_camera, truth.camera_position_m};
+  RigFrame frame{
+      .frame = truth.index, .time_s = truth.time_s, .world_from_aircraft = world_from_camera * inverse(body_from)};
+  frame.intruders.resize(intruders_.size());
   for (const IntruderTruth& intruder : truth.intruders)
-    seen_[camera]
-        .at(static_cast<std::size_t>(intruder.id))
-        .push_back({.frame = truth.index,
-                    .time_s = truth.time_s,
-                    .is_visible = intruder.visible_box.has_value(),
-                    .visible_fraction = intruder.visible_fraction,
-                    .position_m = body_from * intruder.position_m});
+    frame.intruders.at(static_cast<std::size_t>(intruder.id)) = {.is_visible = intruder.visible_box.has_value(),
+                                                                 .visible_fraction = intruder.visible_fraction,
+                                                                 .position_m = body_from * intruder.position_m,
+                                                                 .world_from_intruder = intruder.world_from_body};
+  const std::lock_guard lock(mutex_);
+  frames_[camera].push_back(std::move(frame));
 }
 
-// None farther away than half of the usual interval between frames, or a little more.
-const RigTruth::Seen* RigTruth::nearest(std::size_t camera, std::size_t intruder, double time_s) const {
-  const std::vector<Seen>& frames = seen_[camera][intruder];
+const RigFrame* RigTruth::frame_at(std::size_t camera, double time_s) const {
+  const std::vector<RigFrame>& frames = frames_.at(camera);
   if (frames.empty()) return nullptr;
   const auto after = std::lower_bound(frames.begin(), frames.end(), time_s,
-                                      [](const Seen& one, double wanted_s) { return one.time_s < wanted_s; });
+                                      [](const RigFrame& one, double wanted_s) { return one.time_s < wanted_s; });
   auto best = after == frames.end() ? std::prev(after) : after;
   if (after != frames.begin() && time_s - std::prev(after)->time_s < std::abs(best->time_s - time_s))
     best = std::prev(after);
@@ -77,30 +97,24 @@ const RigTruth::Seen* RigTruth::nearest(std::size_t camera, std::size_t intruder
 
 std::vector<RigRow> RigTruth::rows() const {
   std::vector<RigRow> rows;
-  const std::size_t frames = intruders_.empty() || cameras_.empty() ? 0 : seen_[0][0].size();
-  for (std::size_t n = 0; n < frames; ++n) {
+  if (cameras_.empty()) return rows;
+  for (const RigFrame& first : frames_[0]) {
+    std::vector<const RigFrame*> frames;
+    for (std::size_t k = 0; k < cameras_.size(); ++k) frames.push_back(frame_at(k, first.time_s));
     for (std::size_t i = 0; i < intruders_.size(); ++i) {
-      const Seen& first = seen_[0][i].at(n);
+      const glm::dvec3& p_in_body = first.intruders[i].position_m;
       RigRow row{.frame = first.frame,
                  .time_s = first.time_s,
                  .intruder = static_cast<int>(i),
-                 .range_m = glm::length(first.position_m),
-                 .bearing_rad = bearing_of(first.position_m),
-                 .elevation_rad = elevation_of(first.position_m)};
-      for (std::size_t k = 0; k < cameras_.size(); ++k) {
-        const Seen* const seen = nearest(k, i, first.time_s);
-        row.visible_fraction.push_back(seen != nullptr ? std::optional(seen->visible_fraction) : std::nullopt);
-        row.is_visible.push_back(seen != nullptr && seen->is_visible);
+                 .range_m = glm::length(p_in_body),
+                 .bearing_rad = bearing_of(p_in_body),
+                 .elevation_rad = elevation_of(p_in_body)};
+      for (const RigFrame* const frame : frames) {
+        row.visible_fraction.push_back(frame != nullptr ? std::optional(frame->intruders[i].visible_fraction)
+                                                        : std::nullopt);
+        row.is_visible.push_back(frame != nullptr && frame->intruders[i].is_visible);
       }
-      for (std::size_t a = 0; a < cameras_.size(); ++a)
-        for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
-          if (!row.is_visible[a] || !row.is_visible[b]) continue;
-          const auto by_b = range_error_m_per_px(cameras_[a], cameras_[b], first.position_m);
-          const auto by_a = range_error_m_per_px(cameras_[b], cameras_[a], first.position_m);
-          if (!by_a || !by_b) continue;
-          const double error_m = std::max(*by_a, *by_b);
-          if (!row.stereo || error_m < row.stereo->error_m_per_px) row.stereo = StereoRange{a, b, error_m};
-        }
+      row.stereo = best_pair(cameras_, row.is_visible, p_in_body);
       rows.push_back(std::move(row));
     }
   }
@@ -110,12 +124,12 @@ std::vector<RigRow> RigTruth::rows() const {
 std::vector<CameraView> RigTruth::views(int intruder) const {
   std::vector<CameraView> views;
   for (std::size_t k = 0; k < cameras_.size(); ++k) {
-    const std::vector<Seen>& frames = seen_[k].at(static_cast<std::size_t>(intruder));
     bool goes_on = false;
-    for (std::size_t n = 0; n < frames.size(); ++n) {
-      if (frames[n].is_visible && !goes_on) views.push_back({k, frames[n].time_s, frames[n].time_s});
-      if (frames[n].is_visible) views.back().last_s = frames[n].time_s;
-      goes_on = frames[n].is_visible;
+    for (const RigFrame& frame : frames_[k]) {
+      const bool is_visible = frame.intruders.at(static_cast<std::size_t>(intruder)).is_visible;
+      if (is_visible && !goes_on) views.push_back({k, frame.time_s, frame.time_s});
+      if (is_visible) views.back().last_s = frame.time_s;
+      goes_on = is_visible;
     }
   }
   std::stable_sort(views.begin(), views.end(),
@@ -145,13 +159,10 @@ std::vector<Handover> RigTruth::handovers(int intruder) const {
 
 namespace {
 
-Json numbers_of(const glm::dvec3& vector) {
-  return Json::array({vector.x, vector.y, vector.z});
-}
-
 Json json_of(const RigCameraGeometry& camera) {
   const LensParameters& lens = camera.camera.lens.parameters();
   const glm::dquat turn = body_from_camera(camera.mount).rotation;
+  const glm::dvec3& at_m = camera.mount.position_m;
   return {{"name", camera.name},
           {"video", camera.video},
           {"width", camera.camera.size_px.width},
@@ -166,7 +177,7 @@ Json json_of(const RigCameraGeometry& camera) {
             {"cy", lens.cy},
             {"coefficients", lens.coefficients}}},
           {"mount",
-           {{"position_m", numbers_of(camera.mount.position_m)},
+           {{"position_m", Json::array({at_m.x, at_m.y, at_m.z})},
             {"attitude_deg",
              {{"roll", camera.mount.roll_deg}, {"pitch", camera.mount.pitch_deg}, {"yaw", camera.mount.yaw_deg}}},
             {"body_from_camera_wxyz", Json::array({turn.w, turn.x, turn.y, turn.z})}}},
@@ -188,8 +199,11 @@ std::string RigTruth::json(const std::string& name) const {
                          {"from", cameras_[one.from].name},
                          {"to", cameras_[one.to].name},
                          {"gap_s", one.gap_s}});
-    json["intruders"].push_back(
-        {{"id", i}, {"name", intruders_[i]}, {"views", std::move(views)}, {"handovers", std::move(changes)}});
+    json["intruders"].push_back({{"id", i},
+                                 {"name", intruders_[i].name},
+                                 {"category", intruders_[i].category},
+                                 {"views", std::move(views)},
+                                 {"handovers", std::move(changes)}});
   }
   return json_text(json);
 }
@@ -205,7 +219,7 @@ std::string RigTruth::csv() const {
     for (std::size_t k = 0; k < cameras_.size(); ++k)
       if (row.is_visible[k]) seen_by += (seen_by.empty() ? "" : "+") + cameras_[k].name;
     text += fmt::format("{},{:.6f},{},{},{:.6f},{:.6f},{:.6f},{}", row.frame, row.time_s, row.intruder,
-                        csv_field(intruders_[static_cast<std::size_t>(row.intruder)]), row.range_m,
+                        csv_field(intruders_[static_cast<std::size_t>(row.intruder)].name), row.range_m,
                         row.bearing_rad / kDegree_rad, row.elevation_rad / kDegree_rad, csv_field(seen_by));
     text += row.stereo
                 ? fmt::format(",{},{:.6g}",

@@ -29,6 +29,30 @@ struct RigCameraGeometry {
   FrameRange frames;  // of its footage
 };
 
+// An intruder of the rig.
+struct RigIntruder {
+  std::string name;
+  std::string category;
+  glm::dvec3 low_m{0, 0, 0};  // bounds of the model in body axes, relative to the reference point
+  glm::dvec3 high_m{0, 0, 0};
+};
+
+// An intruder in a frame of one camera.
+struct RigSighting {
+  bool is_visible = false;
+  double visible_fraction = 0;
+  glm::dvec3 position_m{0, 0, 0};              // of the reference point, in the aircraft's axes
+  glm::dquat world_from_intruder{1, 0, 0, 0};  // its attitude
+};
+
+// A frame of one camera.
+struct RigFrame {
+  int frame = 0;
+  double time_s = 0;  // of the rig's clock
+  Pose<frame::World, frame::Body> world_from_aircraft;
+  std::vector<RigSighting> intruders;  // in the rig's order
+};
+
 // An unbroken time during which a camera shows an intruder, from the first frame with a visible pixel to the last.
 struct CameraView {
   std::size_t camera = 0;
@@ -66,13 +90,17 @@ struct RigRow {
 
 class RigTruth {
  public:
-  RigTruth(std::vector<RigCameraGeometry> cameras, std::vector<std::string> intruders);
+  RigTruth(std::vector<RigCameraGeometry> cameras, std::vector<RigIntruder> intruders);
 
   // The truth of a camera's next frame. May be called from any thread, for one camera in order of the frames.
   void add(std::size_t camera, const FrameTruth& truth);
 
   [[nodiscard]] const std::vector<RigCameraGeometry>& cameras() const { return cameras_; }
-  [[nodiscard]] const std::vector<std::string>& intruders() const { return intruders_; }
+  [[nodiscard]] const std::vector<RigIntruder>& intruders() const { return intruders_; }
+  [[nodiscard]] const std::vector<RigFrame>& frames(std::size_t camera) const { return frames_.at(camera); }
+
+  // The frame of a camera that is nearest to a time; null: none is nearer than three quarters of its interval.
+  [[nodiscard]] const RigFrame* frame_at(std::size_t camera, double time_s) const;
 
   // By time, then by intruder.
   [[nodiscard]] std::vector<RigRow> rows() const;
@@ -86,18 +114,9 @@ class RigTruth {
   [[nodiscard]] std::string csv() const;
 
  private:
-  struct Seen {
-    int frame = 0;
-    double time_s = 0;
-    bool is_visible = false;
-    double visible_fraction = 0;
-    glm::dvec3 position_m{0, 0, 0};  // in the aircraft's axes
-  };
-  [[nodiscard]] const Seen* nearest(std::size_t camera, std::size_t intruder, double time_s) const;
-
   std::vector<RigCameraGeometry> cameras_;
-  std::vector<std::string> intruders_;
-  std::vector<std::vector<std::vector<Seen>>> seen_;  // by camera, intruder and frame
+  std::vector<RigIntruder> intruders_;
+  std::vector<std::vector<RigFrame>> frames_;  // by camera
   std::mutex mutex_;
 };
 

@@ -95,6 +95,11 @@ std::map<std::string, Row> rows_in_code() {
   project.intruders[0].trajectory.waypoints.resize(1);
   std::map<std::string, Row> rows;
   for (const Field& field : fields_of(project)) rows[general(field.key)] = row_of(field);
+  // Footage and look of a camera of a rig are the settings of a project with one.
+  project.cameras.resize(1);
+  for (const Field& field : fields_of(project))
+    if (field.key.starts_with("cameras[0].") && !field.key.starts_with("cameras[0].footage."))
+      rows[general(field.key)] = row_of(field);
   return rows;
 }
 
