@@ -377,7 +377,8 @@ TEST_CASE("nuScenes' tables put the annotated box where each camera has it") {
       cv::Vec3d p = vector_of(annotation["translation"]);
       p = turned_back(pose["rotation"], p - vector_of(pose["translation"]));
       p = turned_back(sensor["rotation"], p - vector_of(sensor["translation"]));
-      const int index = std::stoi(image["filename"].get<std::string>().substr(15, 6));
+      const std::string file = image["filename"];
+      const int index = std::stoi(file.substr(file.find("frame_") + 6, 6));
       const json line = lines_of(scenario.path("out/lot.front.jsonl")).at(static_cast<std::size_t>(index));
       const json& at = line["intruders"][0]["position"];
       const cv::Vec3d reference(at["y_m"].get<double>(), at["z_m"].get<double>(), at["x_m"].get<double>());
