@@ -21,7 +21,10 @@ cv::Size image_size(const ViewContext& context) {
 
 // Overlays lie on what is seen: while it plays that may be a frame behind.
 int frame_of_overlays(const ViewContext& context) {
-  return context.playing && context.shown.image ? context.shown.image->frame : context.document.playhead();
+  if (!context.playing || !context.shown.image) return context.document.playhead();
+  const Scene* const scene = shown_scene(context);
+  const int frame = context.shown.image->frame;
+  return scene != nullptr ? counted_frame_at(*scene, frame) : frame;
 }
 
 }  // namespace
@@ -118,8 +121,10 @@ void ViewportView::draw_overlays(const ViewContext& context, const ImageCanvas& 
   if (overlays_.path && eye != nullptr) path_.draw(canvas, context, *eye);
   if (overlays_.box && image != nullptr) {
     draw_boxes(canvas, context, *image, labels);
-    draw_result_boxes(canvas, context, image->frame);
-    draw_result_legend(canvas, context, image->frame);
+    if (context.document.active_camera() == 0) {  // of whose footage results are
+      draw_result_boxes(canvas, context, image->frame);
+      draw_result_legend(canvas, context, image->frame);
+    }
   }
   if (eye != nullptr) draw_waypoints(canvas, context, marks, *eye, labels);
 }
@@ -182,8 +187,7 @@ void ViewportView::drag_lit_box(const ViewContext& context, const ImageCanvas& c
   const glm::dvec2 low = glm::min(*lit_box_->from_px, *lit_box_->to_px);
   const glm::dvec2 size = glm::abs(*lit_box_->to_px - *lit_box_->from_px);
   lit_box_.reset();
-  if (size.x >= 3 && size.y >= 3)
-    context.edits.ask(LightLike{context.document.playhead(), {low.x, low.y, size.x, size.y}});
+  if (size.x >= 3 && size.y >= 3) context.edits.ask(LightLike{footage_frame(context), {low.x, low.y, size.x, size.y}});
 }
 
 void ViewportView::draw_lit_box(const ViewContext& context, const ImageCanvas& canvas) const {
