@@ -223,7 +223,7 @@ void App::draw(const PreviewOutput& shown, const std::vector<PreviewOutput>& rig
       .light = &light_.state(),
       .horizons = horizon_watch_.seen(),
       .guesses = &shell_.guesses(),
-      .rig = document_.cameras().empty() || rig.size() < document_.cameras().size() ? nullptr : &rig};
+      .rig = document_.cameras().empty() || rig.size() != document_.cameras().size() ? nullptr : &rig};
   ask_scores(context);
   shell_.draw_menu(context);
   const ImGuiViewport& screen = *ImGui::GetMainViewport();

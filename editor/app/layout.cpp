@@ -41,7 +41,7 @@ float Layout::timeline_height_px(const Settings& settings, float room_px) {
 
 // The tabs and what is in the one that is shown.
 void Layout::draw_tabs(const ViewContext& context, OwnBodySession& own_body) {
-  if (context.rig != nullptr) {
+  if (context.rig != nullptr && context.rig->size() > 1) {
     cameras_.draw(context);
     if (cameras_.shows_all()) {
       shows_own_body_ = false;

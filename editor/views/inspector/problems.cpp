@@ -142,9 +142,11 @@ int weight_of(std::string_view field) {
 }  // namespace
 
 std::string block_of(std::string_view key) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 13> kBlocks{{{"footage.occluder_", "Own body"},
+  constexpr std::array<std::pair<std::string_view, const char*>, 15> kBlocks{{{"footage.occluder_", "Own body"},
                                                                               {"footage.cloud_", "Own body"},
                                                                               {"footage.", "Inputs"},
+                                                                              {"mount.", kMountBlock},
+                                                                              {"clock.", kMountBlock},
                                                                               {"camera.track.", kCameraLogBlock},
                                                                               {"camera.readout_s", kCameraLogBlock},
                                                                               {"camera.exposure_s", kCameraLogBlock},

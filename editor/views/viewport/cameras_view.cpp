@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "editor/document/field_edits.h"
+#include "editor/document/rig_edits.h"
 #include "editor/views/viewport/overlays.h"
 #include "editor/widgets/zoomable_image.h"
 
@@ -141,6 +144,22 @@ void draw_mosaic(const ViewContext& context, CameraTabs& tabs) {
     ImGui::PopID();
     draw_cell(context, i, places[i], ImGui::IsItemHovered());
   }
+}
+
+void ask_add_camera(const ViewContext& context) {
+  Edits& edits = context.edits;
+  edits.ask(AskForFile{.title = "Add a camera: choose its video",
+                       .extensions = extensions_for("footage.video"),
+                       .start = context.project().file.parent_path() / "",
+                       .chosen = [&edits](const std::filesystem::path& video) {
+                         edits.change_whole("add camera", [video](Project& whole) { add_camera(whole, video); });
+                         edits.activate_camera(std::numeric_limits<std::size_t>::max());  // the last one
+                       }});
+}
+
+void ask_remove_camera(const ViewContext& context) {
+  context.edits.change_whole(
+      "remove camera", [camera = context.document.active_camera()](Project& whole) { remove_camera(whole, camera); });
 }
 
 std::string not_filming_text(const PreviewOutput& shown, int playhead) {

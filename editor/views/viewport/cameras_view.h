@@ -35,6 +35,11 @@ class CameraTabs {
 // A click on one asks for its tab. Fills the current ImGui window.
 void draw_mosaic(const ViewContext& context, CameraTabs& tabs);
 
+// Asks for a video, and adds a camera that took it, which is active then.
+void ask_add_camera(const ViewContext& context);
+// Takes the active camera out, unless it is the first one.
+void ask_remove_camera(const ViewContext& context);
+
 // Why a camera shows another time than the playhead's: "left films frames 11 to 189 alone"; "": it does not.
 //   shown  of that camera
 [[nodiscard]] std::string not_filming_text(const PreviewOutput& shown, int playhead);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "editor/views/results/results_view.h"
+#include "editor/views/viewport/cameras_view.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/toolbar.h"
 
@@ -114,6 +115,9 @@ void ViewportView::draw_overlays(const ViewContext& context, const ImageCanvas& 
   draw_pixel_values(canvas, watched_image(context, footage_alone_), dv(ImGui::GetMousePos()));
   draw_image_grid(canvas, overlays_.grid);
   if (footage_alone_) return;
+  if (const std::string text = not_filming_text(context.shown, context.document.playhead()); !text.empty())
+    draw_label(canvas, glm::dvec2(canvas.rect.low.x, canvas.rect.high.y) + glm::dvec2(scaled(12), -scaled(12)), text,
+               color::kPartly);
   LabelPlacer labels;
   keep_waypoints_free(canvas, context, marks, labels);
   if (overlays_.horizon && tool != nullptr)

@@ -9,6 +9,7 @@
 #include <queue>
 
 #include "editor/geometry/rulers.h"
+#include "project/rig.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 
@@ -231,9 +232,35 @@ WorldModel world_model(const OpenedScene& opened) {
   return model;
 }
 
+void RigBorders::follow(const std::vector<PreviewOutput>& rig) {
+  borders_.resize(rig.size());
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    if (rig[i].scene == borders_[i].scene) continue;
+    borders_[i] = {rig[i].scene, rig[i].scene ? image_border(rig[i].scene->draft.scene.camera) : ImageBorder()};
+  }
+}
+
+namespace {
+
+// All sit on the aircraft, which is where the active one says.
+std::vector<WorldCamera> rig_cameras(const ViewContext& context, const CameraPose& world_from_active) {
+  std::vector<WorldCamera> cameras;
+  const std::vector<RigCamera>& rig = context.document.cameras();
+  const std::size_t active = context.document.active_camera();
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    const CameraPose pose =
+        world_from_active * (inverse(body_from_camera(rig[active].mount)) * body_from_camera(rig[i].mount));
+    cameras.push_back({rig[i].name, pose, i == active});
+  }
+  return cameras;
+}
+
+}  // namespace
+
 WorldMoment world_moment(const ViewContext& context) {
   const double time_s = time_of(context, context.document.playhead());
   WorldMoment moment{.time_s = time_s, .world_from_camera = camera_pose_at(context, time_s)};
+  moment.cameras = rig_cameras(context, moment.world_from_camera);
   if (!context.shown.scene) return moment;
   const DraftScene& draft = context.shown.scene->draft;
   const std::size_t count = std::min(draft.intruder_of_project.size(), context.project().intruders.size());

@@ -108,7 +108,8 @@ void WorldView::draw(const ViewContext& context) {
   if (rect.size().x < 16 || rect.size().y < 16) return;
   refresh_model(context);
   const WorldMoment moment = world_moment(context);
-  const WorldContext world{context, model_, moment};
+  if (context.rig != nullptr) borders_.follow(*context.rig);
+  const WorldContext world{context, model_, moment, context.rig != nullptr ? &borders_ : nullptr};
   look_at_opened_project(world, rect);
   if (request.preset) preset(world, rect, *request.preset, look_);
   go_with_camera(world);
