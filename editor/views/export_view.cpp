@@ -31,7 +31,7 @@ VideoInfo video_of(const PreviewOutput& shown) {
   return shown.scene && shown.scene->footage->video ? *shown.scene->footage->video : VideoInfo{};
 }
 
-std::vector<fs::path> outputs_of(const ViewContext& context, const ExportRequest& request) {
+std::vector<fs::path> outputs_of_request(const ViewContext& context, const ExportRequest& request) {
   if (request.project.cameras.empty()) return outputs_of(request.project, video_of(context.shown), request.folder);
   std::vector<VideoInfo> footage;
   if (context.rig != nullptr)
@@ -245,7 +245,7 @@ void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
   const bool clicked = context.ui_probe.noted(dialog_button(go, true, !folder_.empty()), "export/go");
   if (!clicked) return;
   ExportRequest request = request_of(context);
-  const std::vector<fs::path> there = those_there(outputs_of(context, request));
+  const std::vector<fs::path> there = those_there(outputs_of_request(context, request));
   // What was agreed to be replaced is what was shown.
   if (!there.empty() && there != there_) {
     there_ = there;

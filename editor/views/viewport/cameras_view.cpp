@@ -167,7 +167,7 @@ std::string not_filming_text(const PreviewOutput& shown, int playhead) {
   const CountedFrames filmed = filmed_frames(shown.scene->draft.scene);
   if (playhead >= filmed.first_frame && playhead <= filmed.last_frame) return "";
   const std::optional<RigView>& view = shown.scene->project->rig_view;
-  return fmt::format("{} films frames {} to {} alone", view ? view->name : std::string("It"), filmed.first_frame,
+  return fmt::format("{} films from frame {} to {} only", view ? view->name : std::string("It"), filmed.first_frame,
                      filmed.last_frame);
 }
 

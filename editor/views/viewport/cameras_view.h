@@ -40,7 +40,7 @@ void ask_add_camera(const ViewContext& context);
 // Takes the active camera out, unless it is the first one.
 void ask_remove_camera(const ViewContext& context);
 
-// Why a camera shows another time than the playhead's: "left films frames 11 to 189 alone"; "": it does not.
+// Why a camera shows another time than the playhead's: "left films from frame 11 to 189 only"; "": it does not.
 //   shown  of that camera
 [[nodiscard]] std::string not_filming_text(const PreviewOutput& shown, int playhead);
 
