@@ -119,7 +119,7 @@ App::App(Window& window, Settings settings, ProbeWriter probe)
     : window_(window),
       settings_(std::move(settings)),
       probe_writer_(std::move(probe)),
-      previewer_(PreviewLimits(), [] { Window::wake(); }),
+      preview_(PreviewLimits(), [] { Window::wake(); }),
       own_body_(edits_, [] { Window::wake(); }),
       ego_motion_(edits_, [] { Window::wake(); }),
       horizon_watch_([] { Window::wake(); }),
@@ -157,22 +157,29 @@ double App::wait_timeout_s() const {
 }
 
 void App::ask_preview() {
-  previewer_.want({.revision = document_.revision(),
-                   .frame = document_.playhead(),
-                   .direction = playback_.speed() < 0 ? -1 : 1,
-                   .range_first = document_.range_first(),
-                   .range_last = document_.range_last(),
-                   .playing = playback_.playing(),
-                   .footage = needs_.footage,
-                   .stages = needs_.stages,
-                   .compare_with = needs_.compare_with,
-                   .turntable = needs_.turntable,
-                   .encounters = needs_.encounters});
+  const PreviewRequest active{.revision = document_.revision(),
+                              .frame = document_.playhead(),
+                              .direction = playback_.speed() < 0 ? -1 : 1,
+                              .range_first = document_.range_first(),
+                              .range_last = document_.range_last(),
+                              .playing = playback_.playing(),
+                              .footage = needs_.footage,
+                              .stages = needs_.stages,
+                              .compare_with = needs_.compare_with,
+                              .turntable = needs_.turntable,
+                              .encounters = needs_.encounters};
+  preview_.want(
+      document_,
+      {.active = active, .all_images = needs_.all_cameras, .only_active = ImGui::IsMouseDown(ImGuiMouseButton_Left)});
+}
+
+PreviewOutput App::active_of(const std::vector<PreviewOutput>& rig) const {
+  return rig[std::min(document_.active_camera(), rig.size() - 1)];
 }
 
 void App::advance(const PreviewOutput& shown) {
   if (!playback_.playing() || !shown.scene) return;
-  const FootageShape& shape = shown.scene->footage->shape;
+  const FootageShape& shape = counted_frames(shown.scene->draft.scene).footage;
   const PlayedFrame due = playback_.frame_at(now_s_, {shape.times_s, shape.frame_interval_s},
                                              {document_.range_first(), document_.range_last(), settings_.loop});
   document_.apply(Edit(GoToFrame{due.frame}));
@@ -194,27 +201,29 @@ void App::play(double speed) {
     playback_.play(now_s_, document_.playhead(), speed);
 }
 
-void App::draw(const PreviewOutput& shown) {
+void App::draw(const PreviewOutput& shown, const std::vector<PreviewOutput>& rig) {
   needs_ = {};
   ui_probe_.clear();
   // A key that ends a dialog or a menu in this update was meant for that.
   const bool keys_are_taken = any_popup_open();
   close_popup_with_escape();
-  const ViewContext context{.document = document_,
-                            .shown = shown,
-                            .settings = settings_,
-                            .textures = textures_,
-                            .edits = edits_,
-                            .needs = needs_,
-                            .ui_probe = ui_probe_,
-                            .playing = playback_.playing(),
-                            .speed = playback_.speed(),
-                            .scored = scored_.get(),
-                            .ego_motion = &ego_motion_.state(),
-                            .appearance = &appearance_.state(),
-                            .light = &light_.state(),
-                            .horizons = horizon_watch_.seen(),
-                            .guesses = &shell_.guesses()};
+  const ViewContext context{
+      .document = document_,
+      .shown = shown,
+      .settings = settings_,
+      .textures = textures_,
+      .edits = edits_,
+      .needs = needs_,
+      .ui_probe = ui_probe_,
+      .playing = playback_.playing(),
+      .speed = playback_.speed(),
+      .scored = scored_.get(),
+      .ego_motion = &ego_motion_.state(),
+      .appearance = &appearance_.state(),
+      .light = &light_.state(),
+      .horizons = horizon_watch_.seen(),
+      .guesses = &shell_.guesses(),
+      .rig = document_.cameras().empty() || rig.size() != document_.cameras().size() ? nullptr : &rig};
   ask_scores(context);
   shell_.draw_menu(context);
   const ImGuiViewport& screen = *ImGui::GetMainViewport();
@@ -237,8 +246,10 @@ void App::draw(const PreviewOutput& shown) {
 
 void App::ask_scores(const ViewContext& context) {
   if (results_.files().empty()) return scoring_.want({});
-  scoring_.want({.scene = context.shown.scene,
-                 .surveys = context.shown.surveys,
+  // Results are of the footage of a rig's first camera.
+  const PreviewOutput& first = context.rig != nullptr ? context.rig->front() : context.shown;
+  scoring_.want({.scene = first.scene,
+                 .surveys = first.surveys,
                  .files = results_.files(),
                  .intruder = current_intruder(context).value_or(0)});
 }
@@ -291,6 +302,7 @@ void App::handle(const Request& request) {
   if (const auto* wanted = std::get_if<LightLike>(&request)) light_.start(document_, *wanted);
   if (std::holds_alternative<StopLightLike>(request)) light_.stop();
   if (std::holds_alternative<ShowHorizon>(request)) layout_.show_horizon();
+  if (std::holds_alternative<ToggleAllCameras>(request)) layout_.toggle_all_cameras();
   if (const auto* wanted = std::get_if<Play>(&request)) play(wanted->speed);
   if (std::holds_alternative<TogglePlay>(request)) play(playback_.playing() ? 0 : 1);
   if (const auto* loop = std::get_if<SetLoop>(&request)) settings_.loop = loop->loop;
@@ -318,10 +330,10 @@ void App::update(double now_s, bool something_happened) {
   now_s_ = now_s;
   redraw_updates_left_ = something_happened ? kUpdatesToSettle : std::max(0, redraw_updates_left_ - 1);
   count_updates();
-  PreviewOutput shown = previewer_.shown();
-  // What is still there of a project that was closed.
-  if (shown.scene && shown.scene->revision < document_.first_number()) shown = {};
-  if (shown.scene) document_.set_frame_count(static_cast<int>(shown.scene->footage->shape.times_s.size()));
+  const std::vector<PreviewOutput>& rig = preview_.shown(document_);
+  const PreviewOutput shown = active_of(rig);
+  if (shown.scene)
+    document_.set_frame_count(static_cast<int>(counted_frames(shown.scene->draft.scene).footage.times_s.size()));
   advance(shown);
   scored_ = scoring_.scored();
   report_result_problems();
@@ -330,10 +342,10 @@ void App::update(double now_s, bool something_happened) {
   appearance_.follow(document_);
   light_.follow(document_);
   window_.begin(settings_);
-  draw(shown);
+  draw(shown, rig);
   window_.end();
   textures_.end_update(PreviewLimits().texture_bytes());
-  previewer_.set_texture_bytes(textures_.bytes());
+  preview_.set_texture_bytes(textures_.bytes());
   probe_writer_.write(document_, shown, ui_probe_,
                       {.page = shell_.has_project() ? "project" : "start",
                        .updates_per_second = updates_per_second_,
@@ -360,8 +372,8 @@ void App::update(double now_s, bool something_happened) {
     scoring_.want({});
   }
   if (const std::optional<RecoveredMask> mask = shell_.take_recovered_mask()) own_body_.recover(*mask);
-  previewer_.set_prefetch_paused(shell_.is_exporting() || own_body_.job().is_running() ||
-                                 ego_motion_.state().is_running() || appearance_.state().is_running());
+  preview_.set_prefetch_paused(shell_.is_exporting() || own_body_.job().is_running() ||
+                               ego_motion_.state().is_running() || appearance_.state().is_running());
   show_title();
   ask_preview();
   done_ = shell_.is_done();

@@ -18,7 +18,7 @@
 #include "editor/document/settings.h"
 #include "editor/preview/playback.h"
 #include "editor/preview/preview_output.h"
-#include "editor/preview/preview_state.h"
+#include "editor/preview/rig_preview.h"
 #include "editor/preview/scoring.h"
 #include "editor/views/context.h"
 #include "editor/views/estimate_session.h"
@@ -115,6 +115,8 @@ class App {
  private:
   // Sends the previewer what the document and the views want.
   void ask_preview();
+  // What the active camera shows.
+  [[nodiscard]] PreviewOutput active_of(const std::vector<PreviewOutput>& rig) const;
   // Moves the playhead while it plays.
   void advance(const PreviewOutput& shown);
   // Lets the document apply what is queued; playing goes on from where the playhead was moved to.
@@ -122,7 +124,8 @@ class App {
   // Asks to save the own-body mask; next: once the edit that uses it is applied.
   void keep_mask_then(std::function<void()> next);
   void play(double speed);
-  void draw(const PreviewOutput& shown);
+  //   rig  of each camera, by its index
+  void draw(const PreviewOutput& shown, const std::vector<PreviewOutput>& rig);
   void handle(const Request& request);
   // Requests of trackers' results. False: it was another one.
   bool handle_results(const Request& request);
@@ -141,7 +144,7 @@ class App {
   ViewNeeds needs_;
   UiProbe ui_probe_;
   ProbeWriter probe_writer_;
-  Previewer previewer_;
+  RigPreview preview_;
   OwnBodySession own_body_;
   EgoMotionSession ego_motion_;
   HorizonWatch horizon_watch_;

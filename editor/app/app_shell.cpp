@@ -106,7 +106,7 @@ bool AppShell::handle(const Request& request) {
   } else if (std::holds_alternative<ShowExport>(request)) {
     if (has_project()) export_view_.open(document_);
   } else if (std::holds_alternative<ShowMissingFiles>(request)) {
-    if (has_project()) relink_.open(document_.project());
+    if (has_project()) relink_.open(document_.whole());
   } else if (const auto* models = std::get_if<ShowModels>(&request)) {
     if (has_project()) change_model_.open(document_.project(), models->intruder);
   } else if (std::holds_alternative<ShowSettings>(request)) {

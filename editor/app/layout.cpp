@@ -41,6 +41,13 @@ float Layout::timeline_height_px(const Settings& settings, float room_px) {
 
 // The tabs and what is in the one that is shown.
 void Layout::draw_tabs(const ViewContext& context, OwnBodySession& own_body) {
+  if (context.rig != nullptr && context.rig->size() > 1) {
+    cameras_.draw(context);
+    if (cameras_.shows_all()) {
+      shows_own_body_ = false;
+      return draw_mosaic(context, cameras_);
+    }
+  }
   if (!ImGui::BeginTabBar("image tabs")) return;
   const auto tab = [&](const char* label, const char* place, ImGuiTabItemFlags flags, auto content) {
     const bool open = ImGui::BeginTabItem(label, nullptr, flags);

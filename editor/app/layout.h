@@ -7,12 +7,14 @@
 #include "editor/views/stages/stages_view.h"
 #include "editor/views/start_page.h"
 #include "editor/views/timeline/timeline_view.h"
+#include "editor/views/viewport/cameras_view.h"
 #include "editor/views/viewport/viewport_view.h"
 #include "editor/views/world/world_view.h"
 
 namespace sigs::editor {
 
-// Draws all panels of an open project: footage, stages or own body as tabs and the world view side by side above the
+// Draws all panels of an open project: footage, stages or own body as tabs (of a rig for one of its cameras, or the
+// footage of all) and the world view side by side above the
 // timeline, the inspector at the right. The lines between panels can be dragged, and a double click puts them back;
 // their positions are kept in the settings. It owns the views, and with them their zoom and switches, as long as the
 // program runs.
@@ -25,13 +27,19 @@ class Layout {
   [[nodiscard]] static float timeline_height_px(const Settings& settings, float room_px);
   // Brings the own-body view to the front, or the footage with the horizon line over it or ready for a box around
   // something lit, in the next update.
-  void show_own_body() { wants_own_body_ = true; }
+  void show_own_body() {
+    wants_own_body_ = true;
+    cameras_.show_all(false);
+  }
+  void toggle_all_cameras() { cameras_.show_all(!cameras_.shows_all()); }
   void show_horizon() {
     wants_footage_ = true;
+    cameras_.show_all(false);
     viewport_.show_horizon();
   }
   void show_light_like() {
     wants_footage_ = true;
+    cameras_.show_all(false);
     viewport_.ask_for_lit_box();
   }
 
@@ -40,6 +48,7 @@ class Layout {
   void draw_images(const ViewContext& context, OwnBodySession& own_body, Settings& settings);
   void draw_tabs(const ViewContext& context, OwnBodySession& own_body);
 
+  CameraTabs cameras_;
   ViewportView viewport_;
   WorldView world_;
   TimelineView timeline_;

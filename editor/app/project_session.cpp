@@ -151,7 +151,7 @@ void ProjectSession::leave_then(Step next) {
 void ProjectSession::leave_document_then(Step next) {
   if (!has_project_ || !document_.has_unsaved_changes()) return next();
   const auto give_up = [this, next] {
-    discardable_state_ = document_.revision().number;
+    discardable_state_ = document_.state().number;
     next();
   };
   ask({.title = "Unsaved changes",
@@ -214,14 +214,14 @@ void ProjectSession::take_loaded() {
     return show_message(loaded.read.error().text(), true);
   }
   // Something was done while the file was read.
-  const bool was_agreed = discardable_state_ == document_.revision().number;
+  const bool was_agreed = discardable_state_ == document_.state().number;
   const bool mask_was_agreed = unsaved_mask() == 0 || unsaved_mask() == discardable_mask_state_;
   if (has_project_ && ((document_.has_unsaved_changes() && !was_agreed) || !mask_was_agreed))
     return leave_then([this, path] { open(path); });
   show(std::move(loaded.read->project), std::move(loaded.as_read));
   remember_project(settings_, path);
   for (const Warning& warning : loaded.read->warnings) show_message(warning.text());
-  if (const std::size_t missing = missing_files(document_.project()).size(); missing > 0)
+  if (const std::size_t missing = missing_files(document_.whole()).size(); missing > 0)
     show_message(fmt::format("{} of this project {} missing; File > Find missing files shows which",
                              count_text(static_cast<std::int64_t>(missing), "file"), missing == 1 ? "is" : "are"),
                  true);

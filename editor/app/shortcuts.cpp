@@ -11,7 +11,7 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::array<Shortcut, 36> kShortcuts{{
+constexpr std::array<Shortcut, 38> kShortcuts{{
     {"Playing", "Space, K", "play, stop"},
     {"Playing", "L", "play on; again: faster"},
     {"Playing", "J", "play backwards; again: faster"},
@@ -19,6 +19,8 @@ constexpr std::array<Shortcut, 36> kShortcuts{{
     {"Going", "Shift + Left, Right", "ten frames"},
     {"Going", "Home, End", "first, last frame of the range"},
     {"Going", "Up, Down", "previous, next waypoint"},
+    {"Cameras", "C, Shift + C", "next, previous camera"},
+    {"Cameras", "A", "all side by side; again: one"},
     {"Range", "I, O", "mark in, out here"},
     {"Range", "X", "unmark"},
     {"Waypoints", "Enter or Insert", "add one here"},
@@ -77,6 +79,14 @@ void handle_transport_keys(const ViewContext& context) {
   if (pressed(Key::end)) go(context, context.document.range_last());
 }
 
+void handle_camera_keys(const ViewContext& context) {
+  const std::size_t count = context.document.cameras().size();
+  if (count < 2) return;
+  const std::size_t step = ImGui::GetIO().KeyShift ? count - 1 : 1;
+  if (pressed(Key::c)) context.edits.activate_camera((context.document.active_camera() + step) % count);
+  if (pressed(Key::a)) context.edits.ask(ToggleAllCameras{});
+}
+
 void handle_range_keys(const ViewContext& context) {
   const Document& document = context.document;
   if (pressed(Key::i)) context.edits.set_in_out(document.playhead(), document.out());
@@ -129,7 +139,9 @@ void handle_keys(const ViewContext& context, bool has_project) {
   }
   handle_transport_keys(context);
   handle_range_keys(context);
-  if (!mouse_holds) handle_waypoint_keys(context);
+  if (mouse_holds) return;
+  handle_camera_keys(context);
+  handle_waypoint_keys(context);
 }
 
 }  // namespace sigs::editor

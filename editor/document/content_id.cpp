@@ -76,12 +76,20 @@ void add(Digest& digest, const std::vector<WaypointSettings>& waypoints) {
 // Calls for each path that names a file to read.
 template <class ProjectOrConst, class Call>
 void for_each_input(ProjectOrConst& project, const Call& call) {
-  call(project.footage.video);
-  call(project.footage.timestamps);
-  call(project.footage.calibration);
-  call(project.footage.own_body_mask);
-  call(project.footage.occluder_mask);
-  call(project.footage.real_aircraft);
+  const auto call_for = [&call](auto& footage) {
+    call(footage.video);
+    call(footage.timestamps);
+    call(footage.calibration);
+    call(footage.own_body_mask);
+    call(footage.occluder_mask);
+    call(footage.real_aircraft);
+  };
+  call_for(project.footage);
+  for (auto& camera : project.cameras) call_for(camera.footage);
+  if (project.rig_view) {
+    call(project.rig_view->reference.video);
+    call(project.rig_view->reference.timestamps);
+  }
   call(project.camera.attitude_file);
   call(project.camera.track.file);
   for (auto& intruder : project.intruders) call(intruder.model.file);
@@ -107,6 +115,22 @@ ContentId id_of(const FileStamp& stamp) {
   return digest.id();
 }
 
+namespace {
+
+// Of the first camera of a rig: by it waypoints have their times. Its own camera's mount and clock are in the text.
+void add_reference(Digest& digest, const RigView& view) {
+  digest.add(std::uint64_t(view.camera == 0 ? 1 : 0));
+  const FootageSettings& first = view.reference;
+  digest.add(first.frame_rate_hz.value_or(0));
+  digest.add(std::uint64_t(first.first_frame));
+  digest.add(std::uint64_t(first.last_frame.value_or(-1)));
+  const MountSettings& mount = view.reference_mount;
+  for (int axis = 0; axis < 3; ++axis) digest.add(mount.position_m[axis]);
+  for (const double angle_deg : {mount.roll_deg, mount.pitch_deg, mount.yaw_deg}) digest.add(angle_deg);
+}
+
+}  // namespace
+
 ContentId content_id_of(const Project& project) {
   Project kept = project;
   Digest digest;
@@ -126,6 +150,7 @@ ContentId content_id_of(const Project& project) {
     add(digest, intruder.trajectory.waypoints);
     intruder.trajectory.waypoints.clear();
   }
+  if (kept.rig_view) add_reference(digest, *kept.rig_view);
   digest.add(text_of(kept));
   return digest.id();
 }

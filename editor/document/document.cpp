@@ -8,6 +8,7 @@
 #include "editor/document/project_paths.h"
 #include "project/json.h"
 #include "project/places.h"
+#include "project/rig.h"
 
 namespace sigs::editor {
 
@@ -37,6 +38,12 @@ FileStamp stamp_of_file(const Project& project) {
   return stamp_of(project.file.empty() ? project.file : std::filesystem::absolute(project.file));
 }
 
+// put_back() takes the name that seen_by() makes.
+Project whole_after(const Project& whole, Project seen) {
+  if (seen.rig_view) seen.name += "." + seen.rig_view->name;
+  return put_back(whole, std::move(seen));
+}
+
 std::size_t waypoints_in(const Project& project) {
   std::size_t count = 1;
   for (const IntruderSettings& intruder : project.intruders) count += intruder.trajectory.waypoints.size();
@@ -55,10 +62,18 @@ void Edits::move_waypoint(int intruder, int waypoint, const glm::dvec3& position
       std::move(gesture));
 }
 
+Revision revision_of_camera(const Revision& whole, std::size_t camera) {
+  if (whole.project->cameras.empty()) return whole;
+  Project seen = seen_by(*whole.project, camera);
+  seen.name = whole.project->name;
+  return {whole.number + (std::uint64_t(camera) << 40), std::make_shared<const Project>(std::move(seen))};
+}
+
 Document::Document() : Document(Project()) {}
 
 Document::Document(Project project, std::uint64_t first_number, std::optional<FileStamp> as_read)
-    : revision_{first_number, std::make_shared<const Project>(std::move(project))},
+    : state_{first_number, std::make_shared<const Project>(std::move(project))},
+      revision_(revision_of_camera(state_, 0)),
       first_number_(first_number),
       last_number_(first_number),
       saved_number_(first_number),
@@ -71,14 +86,25 @@ void Document::set_frame_count(int count) {
   keep_playhead_valid();
 }
 
+void Document::show(Revision state) {
+  state_ = std::move(state);
+  active_camera_ = std::min(active_camera_, std::max<std::size_t>(1, cameras().size()) - 1);
+  revision_ = revision_of_camera(state_, active_camera_);
+}
+
+const FootageSettings& Document::counted_footage() const {
+  return cameras().empty() ? whole().footage : cameras().front().footage;
+}
+
 int Document::first_frame() const {
-  const int first = std::max(0, project().footage.first_frame);
+  const int first = std::max(0, counted_footage().first_frame);
   return frame_count_ > 0 ? std::min(first, frame_count_ - 1) : first;
 }
 
 int Document::last_frame() const {
-  const int footage_last = frame_count_ > 0 ? frame_count_ - 1 : project().footage.last_frame.value_or(first_frame());
-  return std::max(first_frame(), std::min(project().footage.last_frame.value_or(footage_last), footage_last));
+  const std::optional<int>& stated = counted_footage().last_frame;
+  const int footage_last = frame_count_ > 0 ? frame_count_ - 1 : stated.value_or(first_frame());
+  return std::max(first_frame(), std::min(stated.value_or(footage_last), footage_last));
 }
 
 int Document::range_first() const {
@@ -109,6 +135,10 @@ void Document::apply(const Edit& edit) {
   if (std::holds_alternative<Redo>(edit)) step_forward();
   if (const auto* go = std::get_if<GoToFrame>(&edit)) playhead_ = go->frame;
   if (const auto* select = std::get_if<Select>(&edit)) selection_ = select->selection;
+  if (const auto* look = std::get_if<ActivateCamera>(&edit)) {
+    active_camera_ = look->camera;
+    show(state_);
+  }
   if (const auto* range = std::get_if<SetInOut>(&edit)) {
     in_ = range->in;
     out_ = range->out;
@@ -123,24 +153,26 @@ bool Document::has_other_changes(std::uint64_t since_revision, const std::string
 }
 
 void Document::change(const ChangeProject& change) {
-  Project changed = project();
+  const bool is_of_whole = change.of == ChangeOf::whole;
+  Project changed = is_of_whole ? whole() : project();
   try {
     change.change(changed);
   } catch (const std::exception&) {
     return;
   }
-  changed.file = project().file;
-  if (!finite(changed) || changed == project()) return;
-  keep_places(project(), changed);
-  if (!finite(changed) || changed == project()) return;
+  if (!is_of_whole) changed = whole_after(whole(), std::move(changed));
+  changed.file = whole().file;
+  if (!finite(changed) || changed == whole()) return;
+  keep_places(whole(), changed);
+  if (!finite(changed) || changed == whole()) return;
   const bool joins = !change.gesture.empty() && change.gesture == gesture_ && !past_.empty();
   if (!joins) {
     end_gesture();
-    past_.push_back({change.name, revision_, selection_});
+    past_.push_back({change.name, state_, selection_});
     future_of_gesture_ = std::exchange(future_, {});
   }
   gesture_ = change.gesture;
-  revision_ = {++last_number_, std::make_shared<const Project>(std::move(changed))};
+  show({++last_number_, std::make_shared<const Project>(std::move(changed))});
   if (gesture_.empty()) end_gesture();
 }
 
@@ -152,7 +184,7 @@ void Document::end_gesture() {
 
 void Document::cancel_gesture(const std::string& gesture) {
   if (gesture.empty() || gesture != gesture_ || past_.empty()) return;
-  revision_ = std::move(past_.back().before);
+  show(std::move(past_.back().before));
   selection_ = past_.back().selection;
   past_.pop_back();
   future_ = std::exchange(future_of_gesture_, {});
@@ -184,11 +216,12 @@ void Document::step_forward() {
 // A state from before the document was saved under another name is moved there when it comes back, and not when that
 // was done: a long history would take long to move, and most of it never comes back.
 Document::Step Document::exchanged(Step step) {
-  const std::filesystem::path file = project().file;
+  const std::filesystem::path file = whole().file;
   if (step.before.project->file != file)
     step.before = {++last_number_, std::make_shared<const Project>(moved_to(*step.before.project, file))};
-  return {std::move(step.name), std::exchange(revision_, std::move(step.before)),
-          std::exchange(selection_, step.selection)};
+  Step back{std::move(step.name), state_, std::exchange(selection_, step.selection)};
+  show(std::move(step.before));
+  return back;
 }
 
 void Document::keep_selection_valid() {
@@ -217,10 +250,10 @@ Result<void> Document::save() {
 
 Result<void> Document::save_as(const std::filesystem::path& path) {
   if (path.empty()) return fail("", "the project has no file name", ErrorKind::cannot_create);
-  Project moved = moved_to(project(), path);
+  Project moved = moved_to(whole(), path);
   if (const Result<void> written = write_project(moved, path, true); !written) return written;
-  if (moved != project()) revision_ = {++last_number_, std::make_shared<const Project>(std::move(moved))};
-  saved_number_ = revision_.number;
+  if (moved != whole()) show({++last_number_, std::make_shared<const Project>(std::move(moved))});
+  saved_number_ = state_.number;
   file_stamp_ = stamp_of_file(project());
   end_gesture();
   return {};

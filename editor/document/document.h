@@ -3,197 +3,19 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "base/image.h"
 #include "base/result.h"
 #include "editor/document/content_id.h"
+#include "editor/document/edits.h"
 #include "project/project.h"
 #include "project/validate.h"
 
 namespace sigs::editor {
-
-// Kinds of things that can be selected in the views.
-enum class Selected { nothing, footage, camera, light, intruder, waypoint };
-
-// What is selected. The indices count in the project; `intruder` means something for the kinds intruder and waypoint,
-// `waypoint` for the latter alone. Document keeps them valid.
-struct Selection {
-  Selected kind = Selected::nothing;
-  int intruder = 0;
-  int waypoint = 0;
-
-  [[nodiscard]] bool operator==(const Selection&) const = default;
-};
-
-// One change of the project.
-struct ChangeProject {
-  std::string name;  // for the menu: "move waypoint" reads "Undo move waypoint"
-  // Called once, on a copy of the project; it may throw, and then nothing changes.
-  std::function<void(Project&)> change;
-  // A change with the same gesture as the one before joins its undo step, so that a drag is one step. "": a step of its
-  // own.
-  std::string gesture;
-};
-// The drag is over: what follows is another undo step, even with the same gesture.
-struct EndGesture {};
-// As if the gesture had never begun: the project, the selection, and what could be undone and redone are as before it.
-// Nothing happens where another change has come since.
-struct CancelGesture {
-  std::string gesture;
-};
-struct Undo {};
-struct Redo {};
-// Moves the playhead; clamped to the project's range.
-struct GoToFrame {
-  int frame = 0;
-};
-struct Select {
-  Selection selection;
-};
-// Marks a part of the project's range, by frames of the footage, both included; swapped where in > out. Nothing set:
-// the whole range.
-struct SetInOut {
-  std::optional<int> in;
-  std::optional<int> out;
-};
-
-// What changes the document; see Document::apply().
-using Edit = std::variant<ChangeProject, EndGesture, CancelGesture, Undo, Redo, GoToFrame, Select, SetInOut>;
-
-// Requests to the program rather than to the document. An empty path asks for one.
-struct OpenProject {
-  std::filesystem::path path;
-};
-// An empty project.
-struct NewProject {};
-// The dialog that makes a project of a video.
-struct ShowNewProject {
-  std::filesystem::path video;  // to begin with; "": none
-};
-// Asks for a name where there is none.
-struct SaveProject {};
-struct SaveProjectAs {
-  std::filesystem::path path;  // empty: ask
-};
-// Back to the start page.
-struct CloseProject {};
-struct Quit {};
-// Opens the file browser. The answer comes as the call of `chosen`, in a later update; without an answer nothing is
-// called.
-struct AskForFile {
-  std::string title;
-  std::vector<std::string> extensions;  // with their dots: ".json"; empty: all files
-  bool for_saving = false;              // the file need not be there; one that is there is asked about
-  bool of_folder = false;               // a folder is wanted; extensions do not count
-  // As FileDialogRequest::start.
-  std::filesystem::path start;
-  std::function<void(const std::filesystem::path&)> chosen;
-};
-// Plays from the playhead on.
-struct Play {
-  double speed = 1;  // times the footage's own speed; negative: backwards; 0: stop
-};
-struct TogglePlay {};
-struct SetLoop {
-  bool loop = true;
-};
-struct ShowExport {};
-struct ShowHelp {};
-struct ShowSettings {};
-struct ShowAbout {};
-// Where the own body's mask is found and painted.
-struct ShowOwnBody {};
-// The simulated horizon over the footage, to be moved onto the footage's own.
-struct ShowHorizon {};
-// Begins to estimate the camera's motion from the footage, in the background; stops that.
-struct EstimateCameraMotion {};
-struct StopCameraMotion {};
-// Begins to find how the footage looks, in the background, to make the intruders look like it; stops that.
-struct MatchFootage {};
-struct StopMatchingFootage {};
-// Over the footage a box is drawn around something that the sun lights, and LightLike is asked for.
-struct ShowLightLike {};
-// Begins to find the light on what is in a box of a frame of the footage (continuous pixels), in the background; stops
-// that.
-struct LightLike {
-  int frame = 0;
-  Box box;
-};
-struct StopLightLike {};
-// Whether the inspector shows every setting, or those that most projects need.
-struct ShowAllSettings {
-  bool all = true;
-};
-// A dialog with the models that an intruder can have.
-struct ShowModels {
-  int intruder = 0;
-};
-// A dialog that asks where the project's missing files are.
-struct ShowMissingFiles {};
-struct ToggleFullScreen {};
-// Results of a tracker, to be shown beside the truth. An empty path asks for one.
-struct LoadResults {
-  std::filesystem::path path;
-};
-// The file with this ResultFile::id is no longer shown; on disk it stays.
-struct RemoveResults {
-  int id = 0;
-};
-// Switches whether the boxes and the curve of ResultFile::id are drawn.
-struct ShowResults {
-  int id = 0;
-  bool shown = true;
-};
-// Those that are shown speak of a project that is no longer open.
-struct ClearMessages {};
-// A passing message above the timeline.
-struct ShowMessage {
-  std::string text;
-  bool is_error = false;
-};
-
-// What the program does, and the document does not know of: App and what it owns handle them.
-using Request =
-    std::variant<OpenProject, NewProject, ShowNewProject, SaveProject, SaveProjectAs, CloseProject, Quit, AskForFile,
-                 Play, TogglePlay, SetLoop, ShowExport, ShowOwnBody, ShowHorizon, ShowHelp, ShowSettings, ShowAbout,
-                 ShowMissingFiles, ToggleFullScreen, EstimateCameraMotion, StopCameraMotion, MatchFootage,
-                 StopMatchingFootage, ShowLightLike, LightLike, StopLightLike, LoadResults, RemoveResults, ShowResults,
-                 ShowAllSettings, ShowModels, ClearMessages, ShowMessage>;
-
-// Views queue here what they want while they draw, so that the project does not change under the views that are drawn
-// after them. After that the document applies the edits and the program handles the requests, in the order in which
-// they came. For the window's thread.
-class Edits {
- public:
-  void change(std::string name, std::function<void(Project&)> change, std::string gesture = {}) {
-    edits_.emplace_back(ChangeProject{std::move(name), std::move(change), std::move(gesture)});
-  }
-  // Moves a waypoint, as part of the gesture of that name, which ends with end_gesture(). position_m is in the world.
-  void move_waypoint(int intruder, int waypoint, const glm::dvec3& position_m, std::string gesture);
-  void end_gesture() { edits_.emplace_back(EndGesture{}); }
-  void cancel_gesture(std::string gesture) { edits_.emplace_back(CancelGesture{std::move(gesture)}); }
-  void undo() { edits_.emplace_back(Undo{}); }
-  void redo() { edits_.emplace_back(Redo{}); }
-  void go_to_frame(int frame) { edits_.emplace_back(GoToFrame{frame}); }
-  void select(Selection selection) { edits_.emplace_back(Select{selection}); }
-  void set_in_out(std::optional<int> in, std::optional<int> out) { edits_.emplace_back(SetInOut{in, out}); }
-  void ask(Request request) { requests_.emplace_back(std::move(request)); }
-
-  // Each removes and returns what was queued since the last call.
-  [[nodiscard]] std::vector<Edit> take_edits() { return std::exchange(edits_, {}); }
-  [[nodiscard]] std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
-
- private:
-  std::vector<Edit> edits_;
-  std::vector<Request> requests_;
-};
 
 // Something that the person has to decide before the program goes on.
 struct Question {
@@ -218,9 +40,22 @@ struct Revision {
   [[nodiscard]] bool operator==(const Revision& other) const { return number == other.number; }
 };
 
+// The number of the state of which a revision shows what one camera sees: that of the first camera's revision, which is
+// the project's own where it has one camera.
+[[nodiscard]] constexpr std::uint64_t state_number(std::uint64_t revision_number) {
+  return revision_number & ((std::uint64_t(1) << 40) - 1);
+}
+// A project as each of its cameras sees it, by their index; one with a single camera as it is. They keep the project's
+// name. Their numbers differ, and have the state's state_number().
+[[nodiscard]] Revision revision_of_camera(const Revision& whole, std::size_t camera);
+
 // The project that is edited, its history, its selection and the playhead. It changes in apply(), which is called once
 // per update of the window's loop, after drawing, and in the other calls that are not const. Frames are indices of the
 // footage, from 0. For the window's thread; other threads work with the revision() that they were given.
+//
+// A project with several cameras is looked at through one of them, the active one: project() and revision() are what it
+// sees, and a change is made on that and goes back to the whole (put_back() of project/rig.h). Frames are those of the
+// first camera, which waypoints count.
 //
 // A document belongs to one file, the one that it was opened from or saved to last, which project().file names: no
 // edit, undo or redo changes that.
@@ -233,9 +68,17 @@ class Document {
   //   as_read  the stamp of the project's file from before it was read; none: the file is looked at here
   explicit Document(Project project, std::uint64_t first_number = 1, std::optional<FileStamp> as_read = {});
 
+  // As the active camera sees it; the project itself where it has one camera.
   [[nodiscard]] const Project& project() const { return *revision_.project; }
-  // The present state; keep a copy, not the reference.
+  // What the file has; the same as project() where it has one camera.
+  [[nodiscard]] const Project& whole() const { return *state_.project; }
+  // Names of the cameras of a project with several; else empty.
+  [[nodiscard]] const std::vector<RigCamera>& cameras() const { return whole().cameras; }
+  [[nodiscard]] std::size_t active_camera() const { return active_camera_; }
+  // The present state, as the active camera sees it; keep a copy, not the reference.
   [[nodiscard]] const Revision& revision() const { return revision_; }
+  // The same with all cameras.
+  [[nodiscard]] const Revision& state() const { return state_; }
   // Which numbers were given to revisions of this document: by them a result is known to be of another document.
   [[nodiscard]] std::uint64_t first_number() const { return first_number_; }
   [[nodiscard]] std::uint64_t last_number() const { return last_number_; }
@@ -251,7 +94,8 @@ class Document {
   // has to end then: the waypoint that it holds may have another index.
   [[nodiscard]] bool has_other_changes(std::uint64_t since_revision, const std::string& gesture) const;
 
-  // Number of frames of the footage, once it is open; 0: not known. The playhead is moved into the project's range.
+  // Number of frames of the footage (of a rig: of the first camera's), once it is open; 0: not known. The playhead is
+  // moved into the project's range.
   void set_frame_count(int count);
   [[nodiscard]] int frame_count() const { return frame_count_; }
 
@@ -271,7 +115,7 @@ class Document {
   [[nodiscard]] std::string redo_name() const;
 
   // Whether the present state is another one than that which was read or saved; undo may lead back to it.
-  [[nodiscard]] bool has_unsaved_changes() const { return revision_.number != saved_number_; }
+  [[nodiscard]] bool has_unsaved_changes() const { return state_.number != saved_number_; }
   [[nodiscard]] bool has_file() const { return !project().file.empty(); }
 
   // The file that save() writes, as it was when it was last read or saved here; its path is absolute.
@@ -312,13 +156,18 @@ class Document {
   void forget_oldest();
   void step_back();
   void step_forward();
+  // Sets the present state, and what the active camera sees of it.
+  void show(Revision state);
+  [[nodiscard]] const FootageSettings& counted_footage() const;
   // Makes the state of a step the present one, as a state of the document's file, and returns the step that leads back.
   Step exchanged(Step step);
   // After every edit: indices and frames that no longer exist become the nearest that do.
   void keep_selection_valid();
   void keep_playhead_valid();
 
-  Revision revision_;
+  Revision state_;     // the project with all of its cameras
+  Revision revision_;  // of that, what the active camera sees
+  std::size_t active_camera_ = 0;
   std::uint64_t first_number_;
   std::uint64_t last_number_;
   // Number of the state that lies in the file; 0: what is in memory was never written.

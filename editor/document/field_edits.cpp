@@ -136,9 +136,11 @@ std::unique_ptr<Project> without_waypoints(const Project& project) {
   return copy;
 }
 
-std::unique_ptr<Project> default_project(std::size_t intruders) {
+std::unique_ptr<Project> default_project_like(const Project& like) {
   auto project = std::make_unique<Project>();
-  project->intruders.resize(intruders);
+  project->intruders.resize(like.intruders.size());
+  project->cameras.resize(like.cameras.size());
+  if (like.rig_view) project->rig_view.emplace();
   return project;
 }
 
@@ -262,7 +264,7 @@ bool put_value(Project& project, std::string_view key, const PlainValue& value) 
 
 FieldSheet::FieldSheet(const Project& project)
     : project_(without_waypoints(project)),
-      defaults_(default_project(project.intruders.size())),
+      defaults_(default_project_like(project)),
       fields_(fields_of(*project_)),
       default_fields_(fields_of(*defaults_)) {}
 

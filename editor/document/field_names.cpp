@@ -14,13 +14,15 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 81> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 83> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
     {"camera.track.attitude", "Its attitude"},
     {"camera.track.mount", "Its mount"},
     {"camera.track.incomplete", "If incomplete"},
+    {"mount.position_m", "Position on the aircraft"},
+    {"clock.offset_s", "Clock offset"},
     {"camera.readout_s", "Shutter readout"},
     {"camera.exposure_s", "Exposure time"},
     {"light.sun.azimuth_deg", "Sun azimuth"},
@@ -138,7 +140,7 @@ std::string advice_on_guess(std::string_view key) {
 }
 
 bool is_common(std::string_view key) {
-  constexpr std::array<std::string_view, 43> kCommon{
+  constexpr std::array<std::string_view, 49> kCommon{
       "name",
       "footage.video",
       "footage.first_frame",
@@ -156,6 +158,12 @@ bool is_common(std::string_view key) {
       "camera.speed_mps",
       "camera.track.file",
       "camera.track.offset_s",
+      "mount.position_m",
+      "mount.attitude_deg.roll",
+      "mount.attitude_deg.pitch",
+      "mount.attitude_deg.yaw",
+      "clock.offset_s",
+      "clock.drift_ppm",
       "geo.latitude_deg",
       "geo.longitude_deg",
       "light.kind",

@@ -209,7 +209,8 @@ fs::path file_beside(const Project& project, const std::string& ending, const st
   const fs::path beside = !project.file.empty()            ? project.file
                           : !project.footage.video.empty() ? resolved(project, project.footage.video)
                                                            : fs::path(project.name);
-  return fs::absolute(beside.parent_path() / (beside.stem().string() + ending + extension)).lexically_normal();
+  const std::string camera = project.rig_view ? "." + project.rig_view->name : std::string();
+  return fs::absolute(beside.parent_path() / (beside.stem().string() + camera + ending + extension)).lexically_normal();
 }
 
 fs::path new_file_beside(const Project& project, const std::string& ending, const std::string& extension) {

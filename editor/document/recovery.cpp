@@ -85,7 +85,7 @@ std::optional<FileStamp> stamp_from(const Json& json, const fs::path& path) {
 }
 
 std::string text_of_recovery(const Document& document, const fs::path& mask_file, bool mask_has_strokes) {
-  const Project& project = document.project();
+  const Project& project = document.whole();
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   Json json;
   json["sigs_recovery"] = kFormat;
@@ -205,7 +205,7 @@ Result<void> Recovery::write(const Document& document, const MaskToKeep& mask) {
   if (const Result<void> done = write_text(file_, text, true); !done) return done;
   remove_mask_other_than(mask_file);
   written_ = true;
-  kept_revision_ = document.revision().number;
+  kept_revision_ = document.state().number;
   kept_mask_ = mask.state;
   waiting_since_s_.reset();
   return {};
@@ -224,7 +224,7 @@ void Recovery::remove_mask_other_than(const fs::path& kept) noexcept {
 }
 
 bool Recovery::is_kept(const Document& document, const MaskToKeep& mask) const {
-  return written_ && kept_revision_ == document.revision().number && kept_mask_ == mask.state;
+  return written_ && kept_revision_ == document.state().number && kept_mask_ == mask.state;
 }
 
 std::optional<Error> Recovery::keep(const Document& document, double now_s, double delay_s, const MaskToKeep& mask) {

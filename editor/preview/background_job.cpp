@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "export/export_rig.h"
 #include "scene/opened_project.h"
 
 namespace sigs::editor {
@@ -41,9 +42,30 @@ double steady_now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+namespace {
+
+// The export of a rig as one.
+Result<ExportReport> exported_cameras(const ExportRequest& request, const ExportControl& control) {
+  const double begun_s = steady_now_s();
+  Result<RigReport> rig = export_rig(request, control);
+  if (!rig) return fail(rig.error());
+  ExportReport all{.written = std::move(rig->written)};
+  for (const ExportReport& camera : rig->cameras) {
+    all.frames += camera.frames;
+    all.damaged_frames += camera.damaged_frames;
+    all.copied_frames += camera.copied_frames;
+    all.warnings.insert(all.warnings.end(), camera.warnings.begin(), camera.warnings.end());
+  }
+  all.times.wall_s = steady_now_s() - begun_s;
+  return all;
+}
+
+}  // namespace
+
 ExportJob::ExportJob(std::function<void()> wake)
     : BackgroundJob(std::move(wake), [](const ExportRequest& request, const JobControl& control) {
-        return export_project(request, {.progress = control.progress, .warn = control.warn, .cancel = control.cancel});
+        const ExportControl passed{.progress = control.progress, .warn = control.warn, .cancel = control.cancel};
+        return request.project.cameras.empty() ? export_project(request, passed) : exported_cameras(request, passed);
       }) {}
 
 Result<OwnBody> detected(const DetectionRequest& request, const DetectionControl& control) {

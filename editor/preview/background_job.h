@@ -248,8 +248,8 @@ class BackgroundJob {
   std::thread thread_;
 };
 
-// Exports a project as `sigs export` does. A run that is stopped leaves no files behind. The request holds the project
-// by value, so edits made meanwhile do not matter.
+// Exports a project as `sigs export` does, with all of its cameras where it has several. A run that is stopped leaves
+// no files behind. The request holds the project by value, so edits made meanwhile do not matter.
 using ExportState = JobState<ExportRequest, ExportReport>;
 class ExportJob : public BackgroundJob<ExportRequest, ExportReport> {
  public:

@@ -7,9 +7,11 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "export/export_rig.h"
 #include "labels/labels.h"
 #include "project/fields.h"
 #include "project/json.h"
+#include "project/rig.h"
 #include "scene/opened_project.h"
 
 namespace sigs::editor {
@@ -53,8 +55,19 @@ std::vector<fs::path> outputs_of(const Project& project, const VideoInfo& footag
   return paths;
 }
 
-std::vector<fs::path> outputs_there(const Project& project, const VideoInfo& footage, const fs::path& folder) {
-  std::vector<fs::path> paths = outputs_of(project, footage, folder);
+std::vector<fs::path> outputs_of_rig(const Project& whole, const std::vector<VideoInfo>& footage,
+                                     const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (std::size_t i = 0; i < whole.cameras.size(); ++i) {
+    const VideoInfo own = i < footage.size() ? footage[i] : VideoInfo();
+    for (fs::path& path : outputs_of(seen_by(whole, i), own, folder)) paths.push_back(std::move(path));
+  }
+  for (const std::string_view suffix : {kRigSuffix, kRigTableSuffix})
+    paths.push_back(folder / (whole.name + std::string(suffix)));
+  return paths;
+}
+
+std::vector<fs::path> those_there(std::vector<fs::path> paths) {
   std::erase_if(paths, [](const fs::path& path) {
     std::error_code code;
     return !fs::exists(path, code);
@@ -85,6 +98,7 @@ std::optional<std::vector<std::string>> assignments_between(const Project& saved
 std::string export_command(const ExportRequest& request, const std::vector<std::string>& assignments) {
   const fs::path& file = request.project.file;
   std::string text = "sigs export " + (file.empty() ? std::string("PROJECT.json") : quoted(file.string()));
+  if (request.project.rig_view) text += " --camera " + quoted(request.project.rig_view->name);
   for (const std::string& assignment : assignments) text += " --set " + quoted(assignment);
   if (request.frames) text += fmt::format(" --frames {}-{}", request.frames->first, request.frames->last);
   text += " --out " + quoted(request.folder.string());

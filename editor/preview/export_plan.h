@@ -17,16 +17,21 @@ namespace sigs::editor {
 [[nodiscard]] std::vector<std::filesystem::path> outputs_of(const Project& project, const VideoInfo& footage,
                                                             const std::filesystem::path& folder);
 
+// The same of a project with several cameras, whose footage is given by their index.
+[[nodiscard]] std::vector<std::filesystem::path> outputs_of_rig(const Project& whole,
+                                                                const std::vector<VideoInfo>& footage,
+                                                                const std::filesystem::path& folder);
+
 // Those that are there: they would be overwritten.
-[[nodiscard]] std::vector<std::filesystem::path> outputs_there(const Project& project, const VideoInfo& footage,
-                                                               const std::filesystem::path& folder);
+[[nodiscard]] std::vector<std::filesystem::path> those_there(std::vector<std::filesystem::path> paths);
 
 // What `--set` needs to make one project of the other: "export.video.codec=h264". None where that cannot be said in a
 // few settings: waypoints or intruders are added or taken away, or more than kMaxAssignments settings differ.
 inline constexpr std::size_t kMaxAssignments = 12;
 [[nodiscard]] std::optional<std::vector<std::string>> assignments_between(const Project& saved, const Project& present);
 
-// The equal command, quoted for a shell: "sigs export 'my project.json' --frames 10-20 --out out".
+// The equal command, quoted for a shell: "sigs export 'my project.json' --frames 10-20 --out out"; of one camera of a
+// rig with `--camera`.
 //   assignments  for `--set`
 [[nodiscard]] std::string export_command(const ExportRequest& request,
                                          const std::vector<std::string>& assignments = {});

@@ -69,6 +69,20 @@ struct EncounterSurvey {
 [[nodiscard]] EncounterSurvey encounter_survey(const Scene& scene, int intruder,
                                                const std::vector<WellClearVolume>& volumes);
 
+// The frames that the playhead, waypoints and the timeline count: those of the first camera of a rig, else those of the
+// footage itself. At what time each is, and which of them the project uses, both included. The scene must outlive it.
+struct CountedFrames {
+  const FootageShape& footage;
+  int first_frame = 0;
+  int last_frame = 0;
+};
+[[nodiscard]] CountedFrames counted_frames(const Scene& scene);
+// Those of them at whose time the scene's own camera films; one at least.
+[[nodiscard]] CountedFrames filmed_frames(const Scene& scene);
+// The frame of the scene's own footage that is nearest in time to a counted one, and the reverse; within what there is.
+[[nodiscard]] int own_frame_at(const Scene& scene, double counted_frame);
+[[nodiscard]] int counted_frame_at(const Scene& scene, int own_frame);
+
 // The footage of a project: a video that was opened, or grey frames that replace it. Immutable and shared between
 // threads.
 struct Footage {
@@ -151,6 +165,7 @@ struct PreviewRequest {
   int range_first = 0;
   int range_last = 0;
   bool playing = false;                      // whether the frames ahead go on at the range's other end
+  bool image = true;                         // the composited frame is wanted; false: the scene and its surveys alone
   bool footage = false;                      // the untouched frame is wanted too (for the wipe)
   bool stages = false;                       // images of all stages of the frame are wanted too
   std::optional<MethodChoice> compare_with;  // the same frame by another method is wanted too

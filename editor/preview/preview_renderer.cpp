@@ -65,7 +65,7 @@ class SceneRenderer {
   //   content  combined_id() of the revision and its files
   [[nodiscard]] std::shared_ptr<const OpenedScene> opened(const Revision& revision, const ContentId& content,
                                                           std::shared_ptr<const Footage> footage) {
-    DraftScene draft = draft_scene(*revision.project, footage->shape, files_);
+    DraftScene draft = draft_scene(*revision.project, in_rig_time(footage->shape, *revision.project), files_);
     for (const std::shared_ptr<const Model>& model : draft.scene.models) keep(model);
     drop_unused(draft.scene.models.size());
     return std::make_shared<const OpenedScene>(OpenedScene{.revision = revision.number,
@@ -189,7 +189,8 @@ class PreviewRenderer {
     if (!snapshot.wanted || !snapshot.wanted->revision.project) return false;
     check_input_files(snapshot);
     open_revision(snapshot);
-    if (scene_fits() && (render_requested(snapshot) || render_extras(snapshot))) return true;
+    const bool shows_image = snapshot.wanted->image && scene_fits();
+    if (shows_image && (render_requested(snapshot) || render_extras(snapshot))) return true;
     for (int i = 0; i < kBackgroundTasks; ++i) {
       next_background_task_ = (next_background_task_ + 1) % kBackgroundTasks;
       const bool did = next_background_task_ == 0   ? prefetch(snapshot)
@@ -236,7 +237,7 @@ class PreviewRenderer {
 
   // One frame ahead of the playhead.
   bool prefetch(const PreviewSnapshot& snapshot) {
-    if (!snapshot.ahead || !scene_fits()) return false;
+    if (!snapshot.ahead || !snapshot.wanted->image || !scene_fits()) return false;
     const int count = static_cast<int>(scene_->footage->shape.times_s.size());
     const std::optional<int> frame = preview_state_.next_prefetch(snapshot, content_, count);
     return frame && compose(*frame, false);

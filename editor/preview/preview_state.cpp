@@ -152,7 +152,8 @@ PreviewOutput PreviewState::shown() const {
     for (const int frame : images_.frames_of(key->content))
       if (static_cast<std::size_t>(frame) < shown.cached.size()) shown.cached[static_cast<std::size_t>(frame)] = true;
   shown.memory = memory();
-  shown.busy = wanted_ && (!shown.image_is_current || rendering_ || decoding_ || shown.opening);
+  const bool lacks_image = wanted_ && wanted_->image && !shown.image_is_current;
+  shown.busy = wanted_ && (lacks_image || rendering_ || decoding_ || shown.opening);
   return shown;
 }
 
@@ -160,6 +161,13 @@ void PreviewState::set_texture_bytes(std::size_t bytes) {
   const std::lock_guard lock(mutex_);
   if (texture_bytes_ == bytes) return;
   texture_bytes_ = bytes;
+  share_memory();
+}
+
+void PreviewState::set_cache_bytes(std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (limits_.cache_bytes == bytes) return;
+  limits_.cache_bytes = bytes;
   share_memory();
 }
 
@@ -181,7 +189,7 @@ bool PreviewState::may_prefetch() const {
 
 std::optional<FrameKey> PreviewState::next_to_decode() const {
   const bool is_there = footage_.id != ContentId() && footage_.id == footage_wanted_.id && opened_footage_->video;
-  if (!wanted_ || !is_there) return std::nullopt;
+  if (!wanted_ || !wanted_->image || !is_there) return std::nullopt;
   const int count = opened_footage_->video->frame_count();
   const FrameKey first{footage_.id, std::clamp(wanted_->frame, 0, count - 1)};
   if (!is_decoded(first)) return first;

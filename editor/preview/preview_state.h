@@ -67,6 +67,8 @@ class PreviewState {
   // Copies pointers, not images. An image that is in memory for the wanted frame is there at once, also after undo.
   [[nodiscard]] PreviewOutput shown() const;
   void set_texture_bytes(std::size_t bytes);
+  // PreviewLimits::cache_bytes from now on.
+  void set_cache_bytes(std::size_t bytes);
   void set_prefetch_paused(bool paused);
   // From then on snapshot() and next_decoding() return none, those that wait included, and wake is not called any more.
   void stop();
@@ -151,7 +153,7 @@ class PreviewState {
   // Sets the limits of both caches by what textures and shown images leave of PreviewLimits::cache_bytes.
   void share_memory();
 
-  // Guards all that follows but wake_ and limits_, which never change.
+  // Guards all that follows but wake_, which never changes.
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::function<void()> wake_;
@@ -225,6 +227,9 @@ class Previewer {
 
   // Bytes that the window holds in textures; the caches keep so much less.
   void set_texture_bytes(std::size_t bytes) { state_->set_texture_bytes(bytes); }
+
+  // PreviewLimits::cache_bytes from now on: several previews share the memory.
+  void set_cache_bytes(std::size_t bytes) { state_->set_cache_bytes(bytes); }
 
   // While set, nothing is decoded or composited ahead: exporting shares the machine. The wanted frame is made as ever.
   void set_prefetch_paused(bool paused) { state_->set_prefetch_paused(paused); }

@@ -66,6 +66,43 @@ Attitude deviations_of_angles(const Attitude& at, const glm::dvec3& sd_rad) {
 
 }  // namespace
 
+CountedFrames counted_frames(const Scene& scene) {
+  if (scene.timeline) return {scene.timeline->footage, scene.timeline->first_frame, scene.timeline->last_frame};
+  return {scene.footage, scene.first_frame, scene.last_frame};
+}
+
+namespace {
+
+int nearest_frame(const FootageShape& footage, double frame) {
+  const double last = std::max<double>(0, static_cast<double>(footage.times_s.size()) - 1);
+  return static_cast<int>(std::lround(std::clamp(frame, 0.0, last)));
+}
+
+}  // namespace
+
+CountedFrames filmed_frames(const Scene& scene) {
+  CountedFrames filmed = counted_frames(scene);
+  if (!scene.timeline) return filmed;
+  const auto own = [&](int frame) {
+    return std::lround(frame_at_time(scene.footage, time_of_frame_s(filmed.footage, frame)));
+  };
+  while (filmed.first_frame < filmed.last_frame && own(filmed.first_frame) < scene.first_frame) ++filmed.first_frame;
+  while (filmed.last_frame > filmed.first_frame && own(filmed.last_frame) > scene.last_frame) --filmed.last_frame;
+  return filmed;
+}
+
+int own_frame_at(const Scene& scene, double counted_frame) {
+  if (!scene.timeline) return nearest_frame(scene.footage, counted_frame);
+  const double time_s = time_of_frame_s(scene.timeline->footage, counted_frame);
+  return nearest_frame(scene.footage, frame_at_time(scene.footage, time_s));
+}
+
+int counted_frame_at(const Scene& scene, int own_frame) {
+  if (!scene.timeline) return own_frame;
+  const double time_s = time_of_frame_s(scene.footage, own_frame);
+  return nearest_frame(scene.timeline->footage, frame_at_time(scene.timeline->footage, time_s));
+}
+
 std::vector<WellClearVolume> shown_volumes(const Project& project) {
   std::vector<WellClearVolume> volumes;
   for (const std::string& name : project.output.encounter)
@@ -92,22 +129,51 @@ bool EncounterSurvey::is_lost(std::size_t volume, double frame) const {
 }
 
 EncounterSurvey encounter_survey(const Scene& scene, int intruder, const std::vector<WellClearVolume>& volumes) {
-  EncounterSurvey survey{.first_frame = scene.first_frame};
+  const CountedFrames counted = filmed_frames(scene);
+  EncounterSurvey survey{.first_frame = counted.first_frame};
   const EncounterTrack own = encounter_track_of_camera(scene);
   const EncounterTrack flight = encounter_track_of_intruder(scene, static_cast<std::size_t>(intruder));
   const Result<EncounterSummary> summary = encounter_of(own, flight, {.volumes = volumes, .row_times_s = {}});
   if (!summary) return survey;
   survey.nearest = summary->nearest_horizontal;
-  survey.nearest_frame = frame_at_time(scene.footage, survey.nearest.time_s);
+  survey.nearest_frame = frame_at_time(counted.footage, survey.nearest.time_s);
   for (const VolumeOutcome& outcome : summary->volumes)
-    survey.volumes.push_back(losses_of(outcome, *summary, scene.footage));
-  for (int frame = scene.first_frame; frame <= scene.last_frame; ++frame) {
-    const double time_s = time_of_frame_s(scene.footage, frame);
+    survey.volumes.push_back(losses_of(outcome, *summary, counted.footage));
+  for (int frame = counted.first_frame; frame <= counted.last_frame; ++frame) {
+    const double time_s = time_of_frame_s(counted.footage, frame);
     const RelativeState state = relative_state(own.at(time_s), flight.at(time_s));
     survey.horizontal_range_m.push_back(std::hypot(state.horizontal_m.x, state.horizontal_m.y));
     survey.tau_mod_s.push_back(tau_mod_s(state, volumes.front().dmod_m));
   }
   return survey;
+}
+
+std::shared_ptr<const Survey> on_timeline(const std::shared_ptr<const Survey>& survey, const Scene& scene) {
+  if (!survey || !scene.timeline) return survey;
+  const CountedFrames counted = filmed_frames(scene);
+  const auto counted_at = [&](double frame) {
+    return frame_at_time(counted.footage, time_of_frame_s(scene.footage, frame));
+  };
+  auto made = std::make_shared<Survey>(Survey{.revision = survey->revision,
+                                              .first_frame = counted.first_frame,
+                                              .flags = survey->flags,
+                                              .closest = survey->closest,
+                                              .encounter = survey->encounter});
+  for (int frame = counted.first_frame; frame <= counted.last_frame; ++frame) {
+    const auto i = static_cast<std::size_t>(std::max(0, own_frame_at(scene, frame) - survey->first_frame));
+    if (i < survey->estimates.size()) {
+      made->estimates.push_back(survey->estimates[i]);
+      made->estimates.back().frame = frame;
+    }
+    if (i < survey->flight.size()) made->flight.push_back(survey->flight[i]);
+    if (i < survey->camera.size()) made->camera.push_back(survey->camera[i]);
+  }
+  made->closest.frame = counted_at(survey->closest.frame);
+  for (FlightFlag& flag : made->flags) {
+    flag.first_frame = counted_at(flag.first_frame);
+    flag.last_frame = counted_at(flag.last_frame);
+  }
+  return made;
 }
 
 FootageTruth footage_truth_of(const OpenedScene& scene) {

@@ -58,6 +58,11 @@ class SurveyBuilder {
 // What result files of this scene's footage count in.
 [[nodiscard]] FootageTruth footage_truth_of(const OpenedScene& scene);
 
+// The survey of a camera of a rig by the frames that the timeline counts: of each the state in the camera's frame that
+// is nearest in time, for as long as that camera films. Of a scene without a timeline of its own it is the same.
+[[nodiscard]] std::shared_ptr<const Survey> on_timeline(const std::shared_ptr<const Survey>& survey,
+                                                        const Scene& scene);
+
 // The footage's truth as far as it is known without drawing: by the outlines of the surveys, one for each of the
 // project's intruders. Boxes are within a pixel or so of those that are measured in drawn frames; what stands behind
 // the own body in part counts as seen whole. Null where a survey is missing or not complete.

@@ -14,6 +14,7 @@
 #include "first_project/first_model.h"
 #include "frame/compose_frame.h"
 #include "project/json.h"
+#include "project/rig.h"
 #include "scene/opened_project.h"
 #include "scene/scene.h"
 #include "scene/visibility.h"
@@ -180,7 +181,7 @@ Result<cv::Mat> turntable_image(const Mesh& mesh, double turn_rad, cv::Size size
 Result<cv::Mat> project_thumbnail(const fs::path& project_file, cv::Size size_px) {
   const Result<ReadProject> read = read_project(project_file);
   if (!read) return fail(read.error());
-  const Project& project = read->project;
+  const Project project = seen_by_each(read->project).front();
   Result<FrameSource> source = open_footage(project);
   if (!source) return fail(source.error());
   if (const Result<Scene> scene = open_scene(project, footage_shape(project, source->info())))

@@ -34,7 +34,13 @@ CameraPose camera_pose_at(const ViewContext& context, double time_s) {
 
 double time_of(const ViewContext& context, double frame) {
   if (!context.shown.scene) return frame * kUsualInterval_s;
-  return time_of_frame_s(context.shown.scene->draft.scene.footage, frame);
+  return time_of_frame_s(counted_frames(context.shown.scene->draft.scene).footage, frame);
+}
+
+int footage_frame(const ViewContext& context) {
+  const Scene* const scene = shown_scene(context);
+  const int playhead = context.document.playhead();
+  return scene != nullptr && scene->timeline ? own_frame_at(*scene, playhead) : playhead;
 }
 
 glm::dvec3 path_shift_m(const ViewContext& context) {

@@ -30,6 +30,7 @@ struct ViewNeeds {
   std::optional<MethodChoice> compare_with;            // the frame by this method too
   std::optional<PreviewRequest::Turntable> turntable;  // an image of one intruder's model
   bool encounters = false;                             // Survey::encounter
+  bool all_cameras = false;                            // the images of all cameras of a rig
   // The view that is worked in takes undo and redo itself: the program's own keys for them do nothing in this update.
   bool own_undo = false;
   bool own_escape = false;  // a view has taken Escape
@@ -41,7 +42,8 @@ struct ViewNeeds {
 // functions that are called later must not keep it.
 struct ViewContext {
   const Document& document;
-  // May be of an older revision than the document, and empty at first.
+  // May be of an older revision than the document, and empty at first. Of a rig it is what the active camera shows. Its
+  // surveys, and what is in memory, are by the frames that the document counts; its images by those of the footage.
   const PreviewOutput& shown;
   const Settings& settings;
   Textures& textures;
@@ -60,9 +62,25 @@ struct ViewContext {
   std::shared_ptr<const SeenHorizons> horizons = {};
   // What was guessed of this project when it was made, by setting. Null: nothing.
   const std::vector<Problem>* guesses = nullptr;
+  // The same as `shown` for each camera of a rig, by its index. Null: the project has one camera.
+  const std::vector<PreviewOutput>* rig = nullptr;
 
   [[nodiscard]] const Project& project() const { return document.project(); }
 };
+
+// The same with what another camera of the rig shows. The document is still seen through the active one.
+[[nodiscard]] inline ViewContext seen_from(const ViewContext& context, std::size_t camera) {
+  return {.document = context.document,
+          .shown = (*context.rig)[camera],
+          .settings = context.settings,
+          .textures = context.textures,
+          .edits = context.edits,
+          .needs = context.needs,
+          .ui_probe = context.ui_probe,
+          .playing = context.playing,
+          .speed = context.speed,
+          .rig = context.rig};
+}
 
 // A drag of the mouse that changes the project. All its changes carry the same gesture name and so make one undo step.
 // Escape takes them back; a change that anything else makes to the project meanwhile ends the drag, because its numbers
@@ -122,11 +140,14 @@ struct DragGesture {
 // The camera by the settings alone: straight on along world X, with what carries it level.
 [[nodiscard]] CameraPose camera_pose_at(const Project& project, double time_s);
 
-// The camera at a time of the footage.
+// The camera at a time of the footage; of a rig the active one, at a time of the rig's clock.
 [[nodiscard]] CameraPose camera_pose_at(const ViewContext& context, double time_s);
 
-// Time of a frame in seconds, by the footage where it is known, else by 25 frames a second.
+// Time of a frame that the document counts, in seconds, by the footage where it is known, else by 25 frames a second.
 [[nodiscard]] double time_of(const ViewContext& context, double frame);
+
+// The frame of the active camera's footage at the playhead; the playhead itself where the project has one camera.
+[[nodiscard]] int footage_frame(const ViewContext& context);
 
 // How far the document's camera.position_m has moved the path of the scene's log since that scene was opened; 0 where
 // no log moves the camera. World, metres.

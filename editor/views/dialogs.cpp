@@ -202,7 +202,7 @@ void RelinkDialog::browse(const ViewContext& context, const MissingFile& missing
 void RelinkDialog::apply(const ViewContext& context) const {
   std::vector<Relinked> places;
   for (const auto& [field, place] : places_) places.push_back({field, place});
-  context.edits.change("find missing files", [places](Project& project) { relink(project, places); });
+  context.edits.change_whole("find missing files", [places](Project& project) { relink(project, places); });
 }
 
 void RelinkDialog::draw_rows(const ViewContext& context) {

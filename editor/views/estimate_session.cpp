@@ -52,6 +52,11 @@ void EgoMotionSession::start(const Document& document) {
   if (project.footage.video.empty() || project.footage.calibration.empty())
     return edits().ask(
         ShowMessage{"The camera's motion is estimated from footage and calibration: choose both first.", true});
+  if (document.active_camera() > 0)
+    return edits().ask(
+        ShowMessage{fmt::format("The aircraft's motion is estimated by its first camera: choose {} first.",
+                                document.cameras().front().name),
+                    true});
   begin(document, {project, new_attitude_file(project)});
 }
 

@@ -34,7 +34,8 @@ class EstimateSession {
     was_running_ = false;
   }
 
-  // Once per update: takes the state, stops where the project has another footage, and uses what was found, once.
+  // Once per update: takes the state, stops where the project has another footage, and uses what was found, once; of a
+  // rig the camera that it was begun for is active then.
   void follow(const Document& document) {
     if (video_of(document) != video_ && job_.is_running()) job_.forget();
     state_ = job_.state();
@@ -42,6 +43,7 @@ class EstimateSession {
     if (state_.value != nullptr && state_.value != taken_) {
       taken_ = state_.value;
       edits_.end_gesture();
+      if (camera_ != document.active_camera()) edits_.activate_camera(camera_);
       use_(taken_);
     }
     if (has_ended && state_.phase == JobPhase::failed)
@@ -62,6 +64,7 @@ class EstimateSession {
   // Nothing happens while an estimate is running.
   void begin(const Document& document, Request request) {
     if (!job_.start(std::move(request))) return;
+    camera_ = document.active_camera();
     video_ = video_of(document);
     was_running_ = true;  // also where it ends before the next follow()
   }
@@ -69,8 +72,10 @@ class EstimateSession {
   [[nodiscard]] Edits& edits() { return edits_; }
 
  private:
-  [[nodiscard]] static std::filesystem::path video_of(const Document& document) {
-    return resolved(document.project(), document.project().footage.video);
+  [[nodiscard]] std::filesystem::path video_of(const Document& document) const {
+    const std::vector<RigCamera>& cameras = document.cameras();
+    const FootageSettings& footage = camera_ < cameras.size() ? cameras[camera_].footage : document.project().footage;
+    return resolved(document.whole(), footage.video);
   }
 
   Edits& edits_;
@@ -78,6 +83,7 @@ class EstimateSession {
   Use use_;
   BackgroundJob<Request, Value> job_;
   JobState<Request, Value> state_;
+  std::size_t camera_ = 0;              // of a rig, whose footage is looked at
   std::filesystem::path video_;         // that is looked at
   std::shared_ptr<const Value> taken_;  // used by the project
   bool was_running_ = false;

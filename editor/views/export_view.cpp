@@ -10,6 +10,7 @@
 #include "editor/preview/export_plan.h"
 #include "editor/widgets/dialog.h"
 #include "project/json.h"
+#include "project/rig.h"
 
 namespace sigs::editor {
 
@@ -24,6 +25,32 @@ bool marks_range(const Document& document) {
 // As the command line has it: decoding and writing take a core of their own.
 int usual_jobs() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+}
+
+VideoInfo video_of(const PreviewOutput& shown) {
+  return shown.scene && shown.scene->footage->video ? *shown.scene->footage->video : VideoInfo{};
+}
+
+std::vector<fs::path> outputs_of_request(const ViewContext& context, const ExportRequest& request) {
+  if (request.project.cameras.empty()) return outputs_of(request.project, video_of(context.shown), request.folder);
+  std::vector<VideoInfo> footage;
+  if (context.rig != nullptr)
+    for (const PreviewOutput& camera : *context.rig) footage.push_back(video_of(camera));
+  return outputs_of_rig(request.project, footage, request.folder);
+}
+
+// The first problem of what is exported, with the camera that has it.
+std::string problem_of(const ViewContext& context, bool only_active) {
+  const auto in = [](const PreviewOutput& shown) {
+    if (!shown.scene || shown.scene->draft.problems.empty()) return std::string();
+    const Problem& problem = shown.scene->draft.problems.front();
+    return problem.field + ": " + problem.what;
+  };
+  if (context.rig == nullptr || only_active) return in(context.shown);
+  for (std::size_t i = 0; i < context.rig->size(); ++i)
+    if (const std::string text = in((*context.rig)[i]); !text.empty())
+      return context.document.cameras()[i].name + ": " + text;
+  return "";
 }
 
 // Of the whole dialog, before an export and from its start on. What there is to say is scrolled where it needs more
@@ -60,9 +87,16 @@ void ExportView::open(const Document& document) {
 }
 
 ExportRequest ExportView::request_of(const ViewContext& context) const {
-  ExportRequest request{.project = context.project(), .folder = folder_, .jobs = jobs_ > 0 ? jobs_ : usual_jobs()};
-  if (only_range_ && marks_range(context.document))
-    request.frames = FrameRange{context.document.range_first(), context.document.range_last()};
+  const Document& document = context.document;
+  const bool is_of_one = only_active_ && !document.cameras().empty();
+  ExportRequest request{.project = is_of_one ? seen_by(document.whole(), document.active_camera()) : document.whole(),
+                        .folder = folder_,
+                        .jobs = jobs_ > 0 ? jobs_ : usual_jobs()};
+  if (!only_range_ || !marks_range(document)) return request;
+  request.frames = FrameRange{document.range_first(), document.range_last()};
+  if (const Scene* const scene = shown_scene(context); is_of_one && scene != nullptr)
+    request.frames = FrameRange{std::max(scene->first_frame, own_frame_at(*scene, document.range_first())),
+                                std::min(scene->last_frame, own_frame_at(*scene, document.range_last()))};
   return request;
 }
 
@@ -111,8 +145,20 @@ void ExportView::draw_range(const ViewContext& context) {
   context.ui_probe.note_item("export/range");
 }
 
+void ExportView::draw_cameras(const ViewContext& context) {
+  const std::vector<RigCamera>& cameras = context.document.cameras();
+  if (cameras.size() < 2) return;
+  begin_setting("Cameras");
+  const std::string all = fmt::format("all {}, and what they see together", cameras.size());
+  if (context.ui_probe.noted(ImGui::RadioButton(all.c_str(), !only_active_), "export/all cameras"))
+    only_active_ = false;
+  const std::string one = shortened(cameras[context.document.active_camera()].name, 40) + " alone###one camera";
+  if (context.ui_probe.noted(ImGui::RadioButton(one.c_str(), only_active_), "export/one camera")) only_active_ = true;
+}
+
 void ExportView::draw_choices(const ViewContext& context) {
   draw_folder(context);
+  draw_cameras(context);
   draw_range(context);
   begin_setting("Video");
   draw_video_choices(context);
@@ -131,12 +177,12 @@ void ExportView::draw_choices(const ViewContext& context) {
 }
 
 const std::optional<std::vector<std::string>>& ExportView::assignments(const Document& document) {
-  const std::uint64_t revision = document.has_unsaved_changes() ? document.revision().number : 0;
+  const std::uint64_t revision = document.has_unsaved_changes() ? document.state().number : 0;
   if (std::exchange(assignments_of_, revision) == revision && assignments_) return assignments_;
   assignments_ = std::vector<std::string>();
   if (revision == 0 && document.has_file()) return assignments_;
-  const Result<ReadProject> saved = read_project(document.project().file);
-  assignments_ = saved ? assignments_between(saved->project, document.project()) : std::nullopt;
+  const Result<ReadProject> saved = read_project(document.whole().file);
+  assignments_ = saved ? assignments_between(saved->project, document.whole()) : std::nullopt;
   return assignments_;
 }
 
@@ -168,10 +214,8 @@ void ExportView::draw_notes(const ViewContext& context) {
     note_line(Icon::info, color::kAccent,
               "There are unsaved changes. They are exported; the command below takes the project as it was last saved. "
               "Save it first (Ctrl+S) for the same from the command line.");
-  if (context.shown.scene && !context.shown.scene->draft.problems.empty()) {
-    const Problem& problem = context.shown.scene->draft.problems.front();
-    note_line(Icon::warning, color::kBad, problem.field + ": " + problem.what);
-  }
+  if (const std::string problem = problem_of(context, only_active_); !problem.empty())
+    note_line(Icon::warning, color::kBad, problem);
   if (const std::string names = labels_without_images(context.document.project().output); !names.empty())
     note_line(Icon::warning, color::kPartly,
               fmt::format("Labels {} name numbered images, which a video does not have: choose png, tiff or jpeg as "
@@ -201,9 +245,7 @@ void ExportView::draw_setup(const ViewContext& context, ExportJob& job) {
   const bool clicked = context.ui_probe.noted(dialog_button(go, true, !folder_.empty()), "export/go");
   if (!clicked) return;
   ExportRequest request = request_of(context);
-  const bool is_open = context.shown.scene && context.shown.scene->footage->video;
-  const VideoInfo footage = is_open ? *context.shown.scene->footage->video : VideoInfo{};
-  const std::vector<fs::path> there = outputs_there(request.project, footage, request.folder);
+  const std::vector<fs::path> there = those_there(outputs_of_request(context, request));
   // What was agreed to be replaced is what was shown.
   if (!there.empty() && there != there_) {
     there_ = there;

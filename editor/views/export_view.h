@@ -54,6 +54,7 @@ class ExportView {
   void draw_choices(const ViewContext& context);
   void draw_folder(const ViewContext& context);
   void draw_range(const ViewContext& context);
+  void draw_cameras(const ViewContext& context);
   void draw_notes(const ViewContext& context);
   void draw_command(const ViewContext& context);
   void draw_running(const ViewContext& context, ExportJob& job, const ExportState& state);
@@ -63,10 +64,11 @@ class ExportView {
   const std::optional<std::vector<std::string>>& assignments(const Document& document);
 
   bool open_ = false;
-  bool closed_ = false;      // the person has closed it in this update
-  std::string folder_;       // where the files go, as typed; "": not chosen yet
-  bool only_range_ = false;  // from in to out rather than the project's whole range
-  int jobs_ = 0;             // frames composed in parallel; 0: by the number of cores
+  bool closed_ = false;       // the person has closed it in this update
+  std::string folder_;        // where the files go, as typed; "": not chosen yet
+  bool only_active_ = false;  // of a rig the active camera rather than all
+  bool only_range_ = false;   // from in to out rather than the project's whole range
+  int jobs_ = 0;              // frames composed in parallel; 0: by the number of cores
   // The question whether the files in there_ may be replaced is shown.
   bool overwrite_asked_ = false;
   // For the revision with this number.

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "editor/views/export_view.h"
+#include "editor/views/viewport/cameras_view.h"
 #include "editor/views/waypoint_actions.h"
 
 namespace sigs::editor {
@@ -68,6 +69,9 @@ void draw_edit_menu(const ViewContext& context, bool has_project) {
   ImGui::Separator();
   const bool on_waypoint = document.selection().kind == Selected::waypoint;
   const bool on_intruder = on_waypoint || document.selection().kind == Selected::intruder;
+  if (item(context, "Add camera...", "", has_project)) ask_add_camera(context);
+  if (item(context, "Remove camera", "", document.active_camera() > 0)) ask_remove_camera(context);
+  ImGui::Separator();
   if (item(context, "Own body...", "", has_project)) context.edits.ask(ShowOwnBody{});
   const bool estimates = context.ego_motion != nullptr && context.ego_motion->is_running();
   if (item(context, "Estimate camera motion", "", has_project && !estimates)) context.edits.ask(EstimateCameraMotion{});
@@ -90,6 +94,7 @@ void draw_view_menu(const ViewContext& context, Settings& settings) {
   if (!begin_menu(context, "View")) return;
   if (item(context, "World view", "", true, settings.show_world)) settings.show_world = !settings.show_world;
   if (item(context, "Inspector", "", true, settings.show_inspector)) settings.show_inspector = !settings.show_inspector;
+  if (item(context, "All cameras", "A", context.document.cameras().size() > 1)) context.edits.ask(ToggleAllCameras{});
   if (item(context, "Full screen", "F11")) context.edits.ask(ToggleFullScreen{});
   ImGui::Separator();
   if (item(context, "Settings...", "")) context.edits.ask(ShowSettings{});

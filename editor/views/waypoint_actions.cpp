@@ -82,7 +82,7 @@ std::optional<glm::dvec3> position_of(const ViewContext& context, int intruder, 
   const auto index = static_cast<std::size_t>(intruder);
   if (index >= draft.intruder_of_project.size() || draft.intruder_of_project[index] < 0) return std::nullopt;
   const auto in_scene = static_cast<std::size_t>(draft.intruder_of_project[index]);
-  return draft.scene.intruders[in_scene].trajectory.position_m(time_of_frame_s(draft.scene.footage, frame));
+  return draft.scene.intruders[in_scene].trajectory.position_m(time_of(context, frame));
 }
 
 void add_waypoint(const ViewContext& context, int intruder, double frame, const glm::dvec3& position_m) {

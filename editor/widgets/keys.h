@@ -16,7 +16,9 @@ namespace sigs::editor {
   KEY(right_bracket, RIGHT_BRACKET, RightBracket) \
   KEY(digit0, 0, 0)                               \
   KEY(digit1, 1, 1)                               \
+  KEY(a, A, A)                                    \
   KEY(b, B, B)                                    \
+  KEY(c, C, C)                                    \
   KEY(d, D, D)                                    \
   KEY(e, E, E)                                    \
   KEY(f, F, F)                                    \

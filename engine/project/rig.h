@@ -13,12 +13,14 @@ namespace sigs {
 // works with has one camera: seen_by() gives the project as each of them sees it.
 
 // The project with the footage, mount, clock, readout, exposure and look of one of its cameras in place of those of a
-// project with one. Its name is NAME.CAMERA. `cameras` is empty in it, and rig_view says where it comes from.
+// project with one. Its name is NAME.CAMERA. `cameras` is empty in it, and rig_view says where it comes from. Its
+// fields (project/fields.h) are those of a project with one camera, and mount and clock: "mount.position_m",
+// "clock.offset_s".
 //   camera  index in project.cameras
 [[nodiscard]] Project seen_by(const Project& project, std::size_t camera);
 
-// The reverse, after `seen` was changed: what a camera of a rig has of its own goes back to that camera, all else is the
-// rig's. A look that was changed is from then on the camera's own. Without a rig_view `seen` itself.
+// The reverse, after `seen` was changed: what a camera of a rig has of its own goes back to that camera, all else is
+// the rig's. A look that was changed is from then on the camera's own. Without a rig_view `seen` itself.
 [[nodiscard]] Project put_back(const Project& whole, Project seen);
 
 // All cameras of a project as projects with one: of a rig seen_by() each; else the project itself.

@@ -133,11 +133,23 @@ void sanitize(const Field& field, const Field& plain) {
 Project plain_like(const Project& project) {
   Project plain;
   plain.cameras.resize(project.cameras.size());
+  if (project.rig_view) plain.rig_view.emplace();
   for (std::size_t i = 0; i < plain.cameras.size(); ++i)
     if (project.cameras[i].appearance) plain.cameras[i].appearance.emplace();
   for (const IntruderSettings& intruder : project.intruders)
     plain.intruders.emplace_back().trajectory.waypoints.resize(intruder.trajectory.waypoints.size());
   return plain;
+}
+
+// Waypoints count the same frames in all cameras of a rig, also where the first one's cannot be opened.
+Timeline drafted_timeline(const Project& clean, SceneFiles& files) {
+  if (const Result<std::optional<Timeline>, Problem> known = scene_timeline(clean, files); known && *known)
+    return **known;
+  Project first = clean;
+  first.footage = clean.rig_view->reference;
+  FootageShape footage = placeholder_footage(first);
+  const FrameRange range = clamped_range(first.footage, footage);
+  return {std::move(footage), range.first, range.last};
 }
 
 Camera placeholder_camera(cv::Size size_px) {
@@ -167,6 +179,7 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
   scene.first_frame = clamped.first;
   scene.last_frame = clamped.last;
   if (const Result<void, Problem> timed = set_range(scene, clean, files); !timed) note(draft.problems, timed.error());
+  if (clean.rig_view && clean.rig_view->camera > 0 && !scene.timeline) scene.timeline = drafted_timeline(clean, files);
   const FrameRange range{scene.first_frame, scene.last_frame};
   scene.camera = part_or_placeholder(scene_camera(clean, footage.size_px, files), placeholder_camera(footage.size_px),
                                      draft.problems);

@@ -17,6 +17,7 @@ namespace sigs {
 //   own-body mask           no mask
 //   model                   a cross (cross_mesh) of its length: length_m where it is set, else 10 m
 //   trajectory              hovering at its first waypoint, where the waypoints make no trajectory
+//   first camera's footage  of a rig seen by another camera: placeholder_footage(), whose frames the waypoints count
 //   number                  as in sanitized()
 struct DraftScene {
   Scene scene;

@@ -103,12 +103,12 @@ std::optional<double> rad_of_deg(const std::optional<double>& angle_deg) {
 
 CameraMotion steady_motion(const Project& project) {
   const CameraSettings& camera = project.camera;
-  return {.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
-          .speed_mps = camera.speed_mps,
-          .readout_s = camera.readout_s.value_or(0),
-          .exposures =
-              camera.exposure_s ? std::vector<ExposureTime>{{0, *camera.exposure_s}} : std::vector<ExposureTime>{},
-          .mount = project.rig_view ? std::optional(body_from_camera(project.rig_view->mount)) : std::nullopt};
+  return {
+      .world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
+      .speed_mps = camera.speed_mps,
+      .readout_s = camera.readout_s.value_or(0),
+      .exposures = camera.exposure_s ? std::vector<ExposureTime>{{0, *camera.exposure_s}} : std::vector<ExposureTime>{},
+      .mount = project.rig_view ? std::optional(body_from_camera(project.rig_view->mount)) : std::nullopt};
 }
 
 namespace {
@@ -198,9 +198,9 @@ Result<void, Problem> set_range(Scene& scene, const Project& project, SceneFiles
   if (!range) return tl::unexpected<Problem>(range.error());
   Result<std::optional<Timeline>, Problem> timeline = scene_timeline(project, files);
   if (!timeline) return tl::unexpected<Problem>(timeline.error());
-  if (*timeline) range = common_range(*range, scene.footage, **timeline);
-  if (!range) return tl::unexpected<Problem>(range.error());
   scene.timeline = *std::move(timeline);
+  if (scene.timeline) range = common_range(*range, scene.footage, *scene.timeline);
+  if (!range) return tl::unexpected<Problem>(range.error());
   scene.first_frame = range->first;
   scene.last_frame = range->last;
   return {};

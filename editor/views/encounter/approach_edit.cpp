@@ -170,7 +170,8 @@ std::optional<PresentApproach> present_approach(const ViewContext& context, int 
   if (!in_scene) return std::nullopt;
   const Scene& scene = *shown_scene(context);
   return approach_between(encounter_track_of_camera(scene),
-                          encounter_track_of_intruder(scene, static_cast<std::size_t>(*in_scene)), scene.footage);
+                          encounter_track_of_intruder(scene, static_cast<std::size_t>(*in_scene)),
+                          counted_frames(scene).footage);
 }
 
 const PresentApproach* PresentApproachMemory::of(const ViewContext& context, int intruder) {
@@ -186,19 +187,20 @@ std::optional<ApproachStart> approach_start(const ViewContext& context, int intr
   const std::optional<int> in_scene = scene_intruder(context, intruder);
   if (!in_scene || context.shown.scene->revision != context.document.revision().number) return std::nullopt;
   const Scene& scene = *shown_scene(context);
-  const double first = scene.first_frame;
-  const double last = std::max(scene.last_frame, scene.first_frame + 1);
+  const CountedFrames counted = counted_frames(scene);
+  const double first = counted.first_frame;
+  const double last = std::max(counted.last_frame, counted.first_frame + 1);
   ApproachStart start{.intruder = intruder,
                       .own = encounter_track_of_camera(scene),
                       .flight = encounter_track_of_intruder(scene, static_cast<std::size_t>(*in_scene)),
                       .plan = context.project().intruders[static_cast<std::size_t>(intruder)].trajectory,
                       .first_frame = first,
                       .last_frame = last,
-                      .first_s = time_of_frame_s(scene.footage, first),
-                      .last_s = time_of_frame_s(scene.footage, last),
+                      .first_s = time_of_frame_s(counted.footage, first),
+                      .last_s = time_of_frame_s(counted.footage, last),
                       .earth = stated_frame(context.project().geo),
-                      .footage = scene.footage};
-  const std::optional<PresentApproach> present = approach_between(start.own, start.flight, scene.footage);
+                      .footage = counted.footage};
+  const std::optional<PresentApproach> present = approach_between(start.own, start.flight, counted.footage);
   if (!present || start.plan.waypoints.empty() || !(start.last_s > start.first_s)) return std::nullopt;
   start.present = *present;
   return start;

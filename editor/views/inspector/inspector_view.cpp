@@ -209,6 +209,7 @@ void InspectorView::block(const ViewContext& context, const char* title, bool op
 void InspectorView::draw_blocks(const ViewContext& context, FieldRows& rows) {
   if (context.scored != nullptr) block(context, "Tracker results", true, rows, [&] { draw_results_panel(context); });
   block(context, "Inputs", true, rows, [&] { draw_inputs(context, rows); });
+  if (!context.document.cameras().empty()) block(context, kMountBlock, true, rows, [&] { mount_.draw(context, rows); });
   block(context, "Own body", false, rows, [&] { draw_own_body(context, rows); });
   block(context, "Camera", true, rows, [&] { draw_camera(context, rows); });
   block(context, kCameraLogBlock, false, rows, [&] { draw_camera_log(context, rows); });

@@ -22,6 +22,16 @@ namespace sigs::editor {
 // Place, mounting and speed of the camera; what its log decides cannot be edited.
 void draw_camera(const ViewContext& context, FieldRows& rows);
 
+// Of a rig: the active camera's name, where it sits on the aircraft and how its clock goes; adds and removes cameras.
+class MountBlock {
+ public:
+  void draw(const ViewContext& context, FieldRows& rows);
+
+ private:
+  std::string typed_;  // the name, while it is typed
+  bool is_typing_ = false;
+};
+
 // The log by which the camera moves, what it gives, and the estimate from the footage with its progress.
 void draw_camera_log(const ViewContext& context, FieldRows& rows);
 
@@ -245,6 +255,7 @@ class InspectorView {
   LossOfView loss_of_view_;
   RowMemory memory_;
   LightBlock light_;
+  MountBlock mount_;
   ModelBlock model_;
   AppearanceBlock appearance_;
   TrajectoryBlock trajectory_;

@@ -116,8 +116,9 @@ std::vector<Problem> warnings_of_files(const OpenedScene& opened) {
   return found;
 }
 
-// Of all frames, once all have been looked at.
+// Of all frames, once all have been looked at. None of a rig: what one camera of several never shows is no mistake.
 std::optional<Visibility> whole_visibility(const OpenedScene& opened, const Survey* survey) {
+  if (opened.project->rig_view) return std::nullopt;
   const Scene& scene = opened.draft.scene;
   const int frames = scene.last_frame - scene.first_frame + 1;
   const bool is_whole =
@@ -141,9 +142,11 @@ int weight_of(std::string_view field) {
 }  // namespace
 
 std::string block_of(std::string_view key) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 13> kBlocks{{{"footage.occluder_", "Own body"},
+  constexpr std::array<std::pair<std::string_view, const char*>, 15> kBlocks{{{"footage.occluder_", "Own body"},
                                                                               {"footage.cloud_", "Own body"},
                                                                               {"footage.", "Inputs"},
+                                                                              {"mount.", kMountBlock},
+                                                                              {"clock.", kMountBlock},
                                                                               {"camera.track.", kCameraLogBlock},
                                                                               {"camera.readout_s", kCameraLogBlock},
                                                                               {"camera.exposure_s", kCameraLogBlock},
@@ -180,6 +183,7 @@ void ProblemList::find_warnings() {
   for (const Problem& warning : scene_->draft.scene.issues) add(warning);
   const std::vector<IntruderSettings>& intruders = scene_->project->intruders;
   never_visible_.resize(intruders.size());
+  if (scene_->project->rig_view) never_visible_.assign(intruders.size(), std::nullopt);
   for (std::size_t i = 0; i < intruders.size(); ++i) {
     const Survey* const survey = i < surveys_.size() ? surveys_[i].get() : nullptr;
     if (const std::optional<Visibility> visibility = whole_visibility(*scene_, survey))

@@ -15,6 +15,7 @@ namespace sigs::editor {
 
 // Blocks of the inspector that take some of a group's settings.
 inline constexpr const char* kCameraLogBlock = "Camera log";
+inline constexpr const char* kMountBlock = "Mount and clock";
 inline constexpr const char* kPlaceBlock = "Place on the Earth";
 
 // The inspector's block that a key belongs to; "" for the project's own.

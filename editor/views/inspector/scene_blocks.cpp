@@ -303,6 +303,7 @@ std::string place_text(const Scene& scene) {
 }
 
 void draw_camera(const ViewContext& context, FieldRows& rows) {
+  if (context.project().rig_view) note("Of the aircraft that carries the cameras.");
   for (const Field& field : rows.sheet().fields())
     if (field.key.starts_with("camera.") && !field.key.starts_with("camera.track.") &&
         field.key != "camera.readout_s" && field.key != "camera.exposure_s")

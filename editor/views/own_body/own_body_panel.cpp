@@ -193,7 +193,7 @@ void OwnBodyPanel::draw_file(const ViewContext& context, OwnBodySession& session
           wide_button("Use as occluder...", false, session.fits() && !session.painting().empty()), "own body/occluder",
           "Not the own body, but what stands in the world: trees, hills or clouds as this frame shows them. Saves the "
           "mask; it hides what is farther than \"Its distance\", and follows the camera's motion"))
-    session.ask_use_as_occluder(project, context.document.playhead());
+    session.ask_use_as_occluder(project, footage_frame(context));
 }
 
 bool OwnBodyPanel::draw(const ViewContext& context, OwnBodySession& session) {

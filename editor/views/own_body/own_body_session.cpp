@@ -122,6 +122,10 @@ void OwnBodySession::measure_share() {
 
 void OwnBodySession::follow(const Document& document, const OpenedScene* scene) {
   const Project& project = document.project();
+  is_elsewhere_ = document.active_camera() != camera_ && painting_.has_unsaved_changes();
+  if (is_elsewhere_) return;
+  if (document.active_camera() != camera_) forget();
+  camera_ = document.active_camera();
   // What was found in other footage says nothing of this.
   const fs::path video = resolved(project, project.footage.video);
   if (std::exchange(video_, video) != video) job_.forget();
@@ -189,6 +193,7 @@ bool OwnBodySession::start(const Document& document) {
 }
 
 void OwnBodySession::begin_anew() {
+  is_elsewhere_ = false;
   begin(cv::Mat::zeros(footage_px_, CV_8UC1), "");
   project_mask_ = cv::Mat();
 }
@@ -290,6 +295,7 @@ void OwnBodySession::ask_save_as(const Project& project, std::function<void()> n
 }
 
 void OwnBodySession::name_in_project() {
+  if (is_elsewhere_) edits_.activate_camera(camera_);
   edits_.change("use own-body mask",
                 [file = file_](Project& project) { project.footage.own_body_mask = path_in_project(project, file); });
   edits_.ask(ShowMessage{file_.filename().string() + " hides intruders"});

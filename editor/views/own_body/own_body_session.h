@@ -48,8 +48,9 @@ class OwnBodySession {
 
   [[nodiscard]] MaskPainting& painting() { return painting_; }
   [[nodiscard]] const MaskPainting& painting() const { return painting_; }
-  // The painting is of another size than the footage, and unsaved: it neither fits nor may it go.
-  [[nodiscard]] bool fits() const { return painting_.mask().size() == footage_px_; }
+  // False: the painting is of another size than the footage, or for another camera of the rig, and unsaved: it neither
+  // fits nor may it go.
+  [[nodiscard]] bool fits() const { return !is_elsewhere_ && painting_.mask().size() == footage_px_; }
   [[nodiscard]] cv::Size footage_px() const { return footage_px_; }
   void begin_anew();  // empty, of the footage's size, whatever was there
 
@@ -114,6 +115,8 @@ class OwnBodySession {
   OwnBodyJob job_;
   DetectionState detection_;
   MaskPainting painting_;
+  std::size_t camera_ = 0;     // of a rig, that is painted for
+  bool is_elsewhere_ = false;  // another one is active, and the painting is unsaved
   cv::Size footage_px_;
   cv::Mat project_mask_;                  // CV_32FC1 as the scene has it; what the project was seen with last
   std::shared_ptr<const OwnBody> taken_;  // what was found and taken over, or passed over

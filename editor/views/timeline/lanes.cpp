@@ -136,6 +136,8 @@ struct LaneRows::Row {
   const LaneState& lane;
   float top_y = 0;
   float height = 0;
+  const Survey* survey = nullptr;
+  std::string camera = {};  // whose visibility it shows; "": that of the only one
 };
 
 LaneRows::LaneRows() {
@@ -180,13 +182,17 @@ bool LaneRows::is_drawn(const LaneState& lane) const {
   return is_shown(lane) && !groups_.is_folded(group_of(lane.style));
 }
 
+std::size_t LaneRows::rows_of(const LaneState& lane) const {
+  return lane.style.lane == Lane::visibility ? cameras_ : 1;
+}
+
 float LaneRows::curve_height(float room_px, bool with_errors) const {
   float shares = with_errors ? kErrorsShare : 0;
   float for_curves = room_px - (camera_turns_ ? kLaneGroups * LaneGroups::height() : 0);
   for (const LaneState& lane : lanes_) {
     if (!is_drawn(lane)) continue;
     if (lane.style.is_strip())
-      for_curves -= strip_height();
+      for_curves -= strip_height() * static_cast<float>(rows_of(lane));
     else
       shares += 1;
   }
@@ -217,10 +223,10 @@ void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& r
   const LaneStyle& style = row.lane.style;
   ImGui::SetCursorScreenPos({row.strip.names_x, row.top_y});
   ImGui::Dummy({row.strip.names_width, row.height});
-  tooltip_for_item(style.help);
+  tooltip_for_item(row.camera.empty() ? style.help : ("What " + row.camera + " sees of it").c_str());
   ImGui::SetCursorScreenPos(low);
   ImGui::InvisibleButton("lane", {std::max(1.0F, high.x - low.x), row.height});
-  context.ui_probe.note_item(fmt::format("timeline/lane/{}", style.title));
+  context.ui_probe.note_item(fmt::format("timeline/lane/{}", row.camera.empty() ? style.title : row.camera));
   const bool is_taken = style.is_of_camera() ? offset_.update_on_item(context, row.strip)
                                              : style.lane == Lane::clear && jumps_to_mark(context, row.strip);
   if (!is_taken) ruler.scrub_on_item(context, row.strip);
@@ -229,12 +235,12 @@ void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& r
   const LaneMarks marks{.strip = row.strip,
                         .style = style,
                         .values = row.lane.values,
-                        .survey = survey_.get(),
+                        .survey = row.survey,
                         .top_y = row.top_y,
                         .height = row.height - 1};
   const int playhead = context.document.playhead();
-  draw_lane_names(row.strip, style.title, {row.strip.names_x, row.top_y}, row.height, lane_text_at(marks, playhead),
-                  extent_text(style.lane, row.lane.values));
+  draw_lane_names(row.strip, row.camera.empty() ? style.title : row.camera.c_str(), {row.strip.names_x, row.top_y},
+                  row.height, lane_text_at(marks, playhead), extent_text(style.lane, row.lane.values));
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(low, high, true);
   draw_lane_marks(list, marks);
@@ -253,7 +259,8 @@ void LaneRows::draw_lane(const ViewContext& context, const Row& row, RulerRow& r
 float LaneRows::height_of(LaneGroup group, float curve, bool with_errors) const {
   float height = with_errors && group == LaneGroup::intruder ? std::floor(curve * kErrorsShare) : 0;
   for (const LaneState& lane : lanes_)
-    if (is_drawn(lane) && group_of(lane.style) == group) height += lane.style.is_strip() ? strip_height() : curve;
+    if (is_drawn(lane) && group_of(lane.style) == group)
+      height += lane.style.is_strip() ? strip_height() * static_cast<float>(rows_of(lane)) : curve;
   return height;
 }
 
@@ -268,9 +275,22 @@ void LaneRows::draw_group(const ViewContext& context, const TimelineStrip& strip
     if (!is_drawn(lane) || group_of(lane.style) != group) continue;
     const float height = lane.style.is_strip() ? strip_height() : curve;
     ImGui::PushID(lane.style.title);
-    draw_lane(context, {.strip = strip, .lane = lane, .top_y = y, .height = height}, ruler);
-    ImGui::PopID();
-    y += height;
+    for (std::size_t i = 0; i < rows_of(lane); ++i) {
+      const bool is_of_rig = rows_of(lane) > 1;
+      const std::shared_ptr<const Survey> survey =
+          is_of_rig ? survey_of(seen_from(context, i), current_intruder(context).value_or(-1)) : survey_;
+      ImGui::PushID(static_cast<int>(i));
+      draw_lane(context,
+                {.strip = strip,
+                 .lane = lane,
+                 .top_y = y,
+                 .height = height,
+                 .survey = survey.get(),
+                 .camera = is_of_rig ? context.document.cameras()[i].name : std::string()},
+                ruler);
+      ImGui::PopID();
+      y += height;
+    }
   }
 }
 
@@ -278,6 +298,7 @@ void LaneRows::draw(const ViewContext& context, const TimelineStrip& strip, floa
   // While the log is shifted, so far that it covers no frame, its lanes stay under the mouse.
   const bool turns = context.shown.scene && !context.shown.scene->draft.scene.motion.attitudes.empty();
   camera_turns_ = turns || offset_.is_active();
+  cameras_ = context.rig != nullptr ? std::max<std::size_t>(1, context.rig->size()) : 1;
   names_volumes_ = !context.project().output.encounter.empty();
   if (current_intruder(context))
     for (const LaneState& lane : lanes_) context.needs.encounters |= lane.style.is_of_encounter() && is_drawn(lane);

@@ -165,7 +165,7 @@ void draw_row_line(ImDrawList& list, const TimelineStrip& strip, float y) {
 
 std::string time_text_of(const ViewContext& context, int frame) {
   if (!context.shown.scene) return {};
-  return time_text(time_of_frame_s(context.shown.scene->footage->shape, frame));
+  return time_text(time_of(context, frame));
 }
 
 float RulerRow::height() {

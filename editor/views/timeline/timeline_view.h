@@ -222,6 +222,8 @@ class LaneRows {
   };
   struct Row;
 
+  // How many strips show the lane: visibility is shown for each camera of a rig.
+  [[nodiscard]] std::size_t rows_of(const LaneState& lane) const;
   // Takes the values of another survey; null: none is known.
   void refresh(std::shared_ptr<const Survey> survey);
   [[nodiscard]] bool shows_errors(const ViewContext& context) const;
@@ -242,6 +244,7 @@ class LaneRows {
   bool shows_errors_ = true;      // where there are any
   ErrorLane errors_;
   std::shared_ptr<const Survey> survey_;  // of the current intruder
+  std::size_t cameras_ = 1;               // of the project, in this update
   LaneGroups groups_;                     // have headers where the camera has lanes
   OffsetDrag offset_;
   bool camera_turns_ = false;   // in this update

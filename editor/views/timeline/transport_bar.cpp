@@ -199,7 +199,8 @@ void TransportBar::draw_frame_field(const ViewContext& context, float width) {
   if (ImGui::IsItemActivated() && context.playing) context.edits.ask(Play{0});
   if (ImGui::IsItemDeactivatedAfterEdit()) {
     static const std::vector<double> kNoTimes;
-    const auto& times_s = context.shown.scene ? context.shown.scene->footage->shape.times_s : kNoTimes;
+    const Scene* const scene = shown_scene(context);
+    const auto& times_s = scene != nullptr ? counted_frames(*scene).footage.times_s : kNoTimes;
     if (const std::optional<int> frame = frame_from_entry(entry_.data(), playhead, times_s))
       go_by_hand(context, *frame);
   }

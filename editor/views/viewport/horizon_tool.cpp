@@ -100,7 +100,16 @@ std::vector<PixelLine> horizon_of(const ToolContext& tool) {
   return horizon_through_lens(tool.eye.world_from_camera, tool.eye.lens, image_size(tool));
 }
 
+// Of a rig the line tilts the mount of the active camera, while the aircraft is level.
+bool can_be_dragged(const ViewContext& context) {
+  const CameraSettings& camera = context.project().camera;
+  const bool is_level = camera.roll_deg.value_or(0) == 0 && camera.pitch_deg.value_or(0) == 0;
+  return !is_turned_by_file(context) && (!context.project().rig_view || is_level);
+}
+
 HorizonTilt tilt_of(const Project& project) {
+  if (const std::optional<RigView>& view = project.rig_view)
+    return {rad_of_deg(view->mount.roll_deg), rad_of_deg(view->mount.pitch_deg)};
   const Attitude attitude = mount_attitude(project.camera);
   return {attitude.roll_rad, attitude.pitch_rad};
 }
@@ -114,6 +123,12 @@ void put_tilt(const ViewContext& context, const HorizonTilt& tilt, const std::st
   context.edits.change(
       "set horizon",
       [roll_deg = rounded_deg(tilt.roll_rad), pitch_deg = rounded_deg(tilt.pitch_rad)](Project& project) {
+        if (project.rig_view) {
+          project.rig_view->mount.roll_deg = roll_deg;
+          project.rig_view->mount.pitch_deg = pitch_deg;
+          project.camera.roll_deg = project.camera.pitch_deg = 0;  // they count as set from then on
+          return;
+        }
         project.camera.roll_deg = roll_deg;
         project.camera.pitch_deg = pitch_deg;
       },
@@ -122,7 +137,7 @@ void put_tilt(const ViewContext& context, const HorizonTilt& tilt, const std::st
 
 // On the line, within the mouse's reach.
 std::optional<HorizonGrip> grip_at(const ToolContext& tool) {
-  if (is_turned_by_file(tool.context)) return std::nullopt;
+  if (!can_be_dragged(tool.context)) return std::nullopt;
   const std::optional<HorizonGrip> grip =
       grip_of(horizon_of(tool), tool.canvas.view.image_of(tool.mouse), image_size(tool));
   if (!grip) return std::nullopt;
@@ -261,7 +276,7 @@ void HorizonTool::draw(const ToolContext& tool, bool highlighted, LabelPlacer& l
   const glm::dvec2 middle = tool.canvas.view.screen_of(grip->middle_px);
   const auto handle = static_cast<double>(scaled(6));
   tool.context.ui_probe.note("viewport/horizon", {middle - handle, middle + handle});
-  if (!is_turned_by_file(tool.context))
+  if (can_be_dragged(tool.context))
     for (const glm::dvec2& pixel : {grip->first_px, grip->middle_px, grip->last_px}) draw_handle(tool.canvas, pixel);
   if (!is_known)
     draw_text(tool.canvas, *grip, "Horizon not set: drag this line onto it, its ends to tilt it", labels);

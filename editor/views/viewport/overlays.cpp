@@ -182,7 +182,8 @@ void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, 
                          LabelPlacer& labels) {
   const std::optional<int> current = current_intruder(context);
   const double radius = scaled(kMark_px) - 1;
-  const int frame = context.shown.image ? context.shown.image->frame : -1;
+  const bool is_shown = context.shown.image && context.shown.scene;
+  const int frame = is_shown ? counted_frame_at(context.shown.scene->draft.scene, context.shown.image->frame) : -1;
   int kept = 0;
   for (const WaypointMark& mark : marks) {
     const glm::dvec2 at = canvas.view.screen_of(mark.pixel);
@@ -223,19 +224,20 @@ void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::
 
 void PathOverlay::make(const Scene& scene, const FootageCamera& eye) {
   pieces_.clear();
-  const int here = std::clamp(eye.frame, scene.first_frame, scene.last_frame);
+  const CountedFrames counted = counted_frames(scene);
+  const int here = std::clamp(eye.frame, counted.first_frame, counted.last_frame);
   for (std::size_t i = 0; i < scene.intruders.size(); ++i) {
     const Trajectory& trajectory = scene.intruders[i].trajectory;
     const auto add = [&](int from, int to, bool past) {
-      const std::vector<double> times = times_between(scene.footage, from, to);
+      const std::vector<double> times = times_between(counted.footage, from, to);
       if (times.size() < 2) return;
       const auto position = [&](double time_s) { return trajectory.position_m(time_s); };
       pieces_.push_back(
           {static_cast<int>(i), past,
            path_through_lens(position, times, eye.world_from_camera, eye.lens, size_of(scene.footage.size_px))});
     };
-    add(scene.first_frame, here, true);
-    add(here, scene.last_frame, false);
+    add(counted.first_frame, here, true);
+    add(here, counted.last_frame, false);
   }
 }
 

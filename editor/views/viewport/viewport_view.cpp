@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "editor/views/results/results_view.h"
+#include "editor/views/viewport/cameras_view.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/toolbar.h"
 
@@ -21,7 +22,10 @@ cv::Size image_size(const ViewContext& context) {
 
 // Overlays lie on what is seen: while it plays that may be a frame behind.
 int frame_of_overlays(const ViewContext& context) {
-  return context.playing && context.shown.image ? context.shown.image->frame : context.document.playhead();
+  if (!context.playing || !context.shown.image) return context.document.playhead();
+  const Scene* const scene = shown_scene(context);
+  const int frame = context.shown.image->frame;
+  return scene != nullptr ? counted_frame_at(*scene, frame) : frame;
 }
 
 }  // namespace
@@ -111,6 +115,9 @@ void ViewportView::draw_overlays(const ViewContext& context, const ImageCanvas& 
   draw_pixel_values(canvas, watched_image(context, footage_alone_), dv(ImGui::GetMousePos()));
   draw_image_grid(canvas, overlays_.grid);
   if (footage_alone_) return;
+  if (const std::string text = not_filming_text(context.shown, context.document.playhead()); !text.empty())
+    draw_label(canvas, glm::dvec2(canvas.rect.low.x, canvas.rect.high.y) + glm::dvec2(scaled(12), -scaled(12)), text,
+               color::kPartly);
   LabelPlacer labels;
   keep_waypoints_free(canvas, context, marks, labels);
   if (overlays_.horizon && tool != nullptr)
@@ -118,8 +125,10 @@ void ViewportView::draw_overlays(const ViewContext& context, const ImageCanvas& 
   if (overlays_.path && eye != nullptr) path_.draw(canvas, context, *eye);
   if (overlays_.box && image != nullptr) {
     draw_boxes(canvas, context, *image, labels);
-    draw_result_boxes(canvas, context, image->frame);
-    draw_result_legend(canvas, context, image->frame);
+    if (context.document.active_camera() == 0) {  // of whose footage results are
+      draw_result_boxes(canvas, context, image->frame);
+      draw_result_legend(canvas, context, image->frame);
+    }
   }
   if (eye != nullptr) draw_waypoints(canvas, context, marks, *eye, labels);
 }
@@ -182,8 +191,7 @@ void ViewportView::drag_lit_box(const ViewContext& context, const ImageCanvas& c
   const glm::dvec2 low = glm::min(*lit_box_->from_px, *lit_box_->to_px);
   const glm::dvec2 size = glm::abs(*lit_box_->to_px - *lit_box_->from_px);
   lit_box_.reset();
-  if (size.x >= 3 && size.y >= 3)
-    context.edits.ask(LightLike{context.document.playhead(), {low.x, low.y, size.x, size.y}});
+  if (size.x >= 3 && size.y >= 3) context.edits.ask(LightLike{footage_frame(context), {low.x, low.y, size.x, size.y}});
 }
 
 void ViewportView::draw_lit_box(const ViewContext& context, const ImageCanvas& canvas) const {

@@ -51,7 +51,8 @@ bool moves_along_sight() {
 std::optional<FootageCamera> footage_camera_at(const ViewContext& context, int frame) {
   if (!context.shown.scene) return std::nullopt;
   const Scene& scene = context.shown.scene->draft.scene;
-  return FootageCamera{frame, camera_at(scene.motion, time_of_frame_s(scene.footage, frame)), lens_of(scene)};
+  const double time_s = time_of_frame_s(scene.footage, scene.timeline ? own_frame_at(scene, frame) : frame);
+  return FootageCamera{frame, camera_at(scene.motion, time_s), lens_of(scene)};
 }
 
 const std::vector<WaypointMark>& WaypointMarks::of(const ViewContext& context, const FootageCamera& eye) {

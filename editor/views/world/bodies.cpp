@@ -119,8 +119,8 @@ void draw_arc(WorldCanvas& canvas, const Drawing& drawing, double radius_m, doub
 
 // From where which position light is seen (14 CFR 25.1387), and the beam of the landing light.
 void draw_lights(WorldCanvas& canvas, const LampSettings& lights, const Drawing& drawing, double length_m) {
-  constexpr double kSide_deg = 110, kRadius = 0.9, kBeam = 3;  // radius and beam in lengths of the aircraft
-  const double radius_m = kRadius * length_m * drawing.enlarged;
+  constexpr double kSide_deg = 110, kArcRadius = 0.9, kBeam = 3;  // radius and beam in lengths of the aircraft
+  const double radius_m = kArcRadius * length_m * drawing.enlarged;
   if (lights.position_cd > 0) {
     draw_arc(canvas, drawing, radius_m, -kSide_deg, 0, IM_COL32(235, 70, 70, 220));
     draw_arc(canvas, drawing, radius_m, 0, kSide_deg, IM_COL32(70, 210, 110, 220));

@@ -9,6 +9,7 @@
 #include <queue>
 
 #include "editor/geometry/rulers.h"
+#include "project/rig.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 
@@ -77,26 +78,27 @@ std::vector<WorldTick> ticks_along(const Trajectory& trajectory, double first_s,
 WorldCurve curve_of(const OpenedScene& opened, int intruder, const SceneIntruder& flown) {
   const Scene& scene = opened.draft.scene;
   const auto& waypoints = opened.project->intruders[static_cast<std::size_t>(intruder)].trajectory.waypoints;
-  const std::vector<double> knots = waypoint_frames(waypoints, scene.first_frame, scene.last_frame);
-  double first = scene.first_frame;
-  double last = scene.last_frame;
+  const CountedFrames counted = counted_frames(scene);
+  const std::vector<double> knots = waypoint_frames(waypoints, scene);
+  double first = counted.first_frame;
+  double last = counted.last_frame;
   for (const double knot : knots) {
     first = std::min(first, knot);
     last = std::max(last, knot);
   }
   const auto position = [&](double frame) {
-    return flown.trajectory.position_m(time_of_frame_s(scene.footage, frame));
+    return flown.trajectory.position_m(time_of_frame_s(counted.footage, frame));
   };
   std::vector<glm::dvec3> rough_m;
   for (int i = 0; i <= 8; ++i) rough_m.push_back(position(std::lerp(first, last, i / 8.0)));
   const double tolerance_m = std::max(1e-3, kToleranceShare * extent_m(rough_m));
-  const double first_s = time_of_frame_s(scene.footage, scene.first_frame);
-  const double last_s = time_of_frame_s(scene.footage, scene.last_frame);
+  const double first_s = time_of_frame_s(counted.footage, counted.first_frame);
+  const double last_s = time_of_frame_s(counted.footage, counted.last_frame);
   const double step_s = std::max(1.0, round_step((last_s - first_s) / double(kMaxTicks)));
   return {.intruder = intruder,
           .samples = sampled_curve(position, first, last, knots, tolerance_m, kMaxPoints),
-          .range_first = static_cast<double>(scene.first_frame),
-          .range_last = static_cast<double>(scene.last_frame),
+          .range_first = static_cast<double>(counted.first_frame),
+          .range_last = static_cast<double>(counted.last_frame),
           .ticks = ticks_along(flown.trajectory, first_s, last_s, step_s),
           .tick_step_s = step_s};
 }
@@ -106,7 +108,7 @@ double farthest_from_camera_m(const Scene& scene, const WorldCurve& curve) {
   for (std::size_t i = 0; i < curve.samples.at.size(); ++i) {
     const double frame = curve.samples.at[i];
     if (frame < curve.range_first || frame > curve.range_last) continue;
-    const double time_s = time_of_frame_s(scene.footage, frame);
+    const double time_s = time_of_frame_s(counted_frames(scene).footage, frame);
     const glm::dvec3 camera_m = camera_at(scene.motion, time_s).translation_m;
     farthest_m = std::max(farthest_m, glm::distance(camera_m, curve.samples.points_m[i]));
   }
@@ -138,13 +140,14 @@ std::shared_ptr<const Model> shared_model(const Scene& scene, const Model* model
 }
 
 CurveSamples camera_path_of(const Scene& scene) {
+  const CountedFrames counted = counted_frames(scene);
   const auto place = [&](double frame) {
-    return camera_at(scene.motion, time_of_frame_s(scene.footage, frame)).translation_m;
+    return camera_at(scene.motion, time_of_frame_s(counted.footage, frame)).translation_m;
   };
   std::vector<glm::dvec3> rough_m;
-  for (int i = 0; i <= 8; ++i) rough_m.push_back(place(std::lerp(scene.first_frame, scene.last_frame, i / 8.0)));
+  for (int i = 0; i <= 8; ++i) rough_m.push_back(place(std::lerp(counted.first_frame, counted.last_frame, i / 8.0)));
   const double tolerance_m = std::max(1e-3, kToleranceShare * extent_m(rough_m));
-  return sampled_curve(place, scene.first_frame, scene.last_frame, {}, tolerance_m, kMaxPoints);
+  return sampled_curve(place, counted.first_frame, counted.last_frame, {}, tolerance_m, kMaxPoints);
 }
 
 }  // namespace
@@ -229,9 +232,35 @@ WorldModel world_model(const OpenedScene& opened) {
   return model;
 }
 
+void RigBorders::follow(const std::vector<PreviewOutput>& rig) {
+  borders_.resize(rig.size());
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    if (rig[i].scene == borders_[i].scene) continue;
+    borders_[i] = {rig[i].scene, rig[i].scene ? image_border(rig[i].scene->draft.scene.camera) : ImageBorder()};
+  }
+}
+
+namespace {
+
+// All sit on the aircraft, which is where the active one says.
+std::vector<WorldCamera> rig_cameras(const ViewContext& context, const CameraPose& world_from_active) {
+  std::vector<WorldCamera> cameras;
+  const std::vector<RigCamera>& rig = context.document.cameras();
+  const std::size_t active = context.document.active_camera();
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    const CameraPose pose =
+        world_from_active * (inverse(body_from_camera(rig[active].mount)) * body_from_camera(rig[i].mount));
+    cameras.push_back({rig[i].name, pose, i == active});
+  }
+  return cameras;
+}
+
+}  // namespace
+
 WorldMoment world_moment(const ViewContext& context) {
   const double time_s = time_of(context, context.document.playhead());
   WorldMoment moment{.time_s = time_s, .world_from_camera = camera_pose_at(context, time_s)};
+  moment.cameras = rig_cameras(context, moment.world_from_camera);
   if (!context.shown.scene) return moment;
   const DraftScene& draft = context.shown.scene->draft;
   const std::size_t count = std::min(draft.intruder_of_project.size(), context.project().intruders.size());

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "editor/geometry/lens_projection.h"
@@ -69,6 +70,21 @@ struct WorldModel {
   double farthest_m = 0;
 };
 [[nodiscard]] WorldModel world_model(const OpenedScene& opened);
+
+// The image borders of the cameras of a rig, each found once for its scene; one without a scene yet has none.
+class RigBorders {
+ public:
+  void follow(const std::vector<PreviewOutput>& rig);
+  [[nodiscard]] const ImageBorder& of(std::size_t camera) const { return borders_[camera].border; }
+  [[nodiscard]] std::size_t size() const { return borders_.size(); }
+
+ private:
+  struct Known {
+    std::shared_ptr<const OpenedScene> scene;
+    ImageBorder border;
+  };
+  std::vector<Known> borders_;
+};
 [[nodiscard]] ImageBorder image_border(const Camera& camera);
 
 // An aircraft at the playhead's moment. Those of the scene that is open: without one there are none.
@@ -77,10 +93,17 @@ struct WorldBody {
   Pose<frame::World, frame::Body> world_from_body;
   std::shared_ptr<const Model> model;
 };
+// A camera of a rig at the playhead's moment.
+struct WorldCamera {
+  std::string name;
+  CameraPose world_from_camera;
+  bool is_active = false;
+};
 // The playhead's moment, with the camera of views/context.h.
 struct WorldMoment {
   double time_s = 0;
   CameraPose world_from_camera;
+  std::vector<WorldCamera> cameras;  // of a rig, by their index; else none
   std::vector<WorldBody> bodies;
 };
 [[nodiscard]] WorldMoment world_moment(const ViewContext& context);

@@ -85,6 +85,23 @@ void draw_field_of_view(WorldCanvas& canvas, const ImageBorder& border, double d
   canvas.polyline(edge_m, faded(kCameraColor, highlighted ? 0.5 : 0.2), 1);
 }
 
+// The other cameras of a rig, and the names of all. They are near each other: at its far end a field of view is told
+// from the others.
+void draw_rig(WorldCanvas& canvas, const WorldContext& world) {
+  const std::vector<WorldCamera>& cameras = world.moment.cameras;
+  if (world.borders == nullptr || cameras.size() < 2) return;
+  const double depth_m = view_depth_m(world.model);
+  for (std::size_t i = 0; i < std::min(cameras.size(), world.borders->size()); ++i) {
+    const WorldCamera& camera = cameras[i];
+    if (!camera.is_active) draw_field_of_view(canvas, world.borders->of(i), depth_m, camera.world_from_camera, false);
+    const std::optional<glm::dvec2> far_end = canvas.in_sight(camera.world_from_camera * glm::dvec3(depth_m, 0, 0));
+    if (!far_end) continue;
+    const ImU32 shade = camera.is_active ? color::kAccent : kCameraColor;
+    if (canvas.label(*far_end, camera.name, shade, WorldCanvas::Side::centre))
+      world.context.ui_probe.note("world/camera/" + camera.name, {*far_end - 4.0, *far_end + 4.0});
+  }
+}
+
 // A small pyramid open to where the camera looks, and a mark on its upper side.
 void draw_camera_icon(WorldCanvas& canvas, const CameraPose& pose, ImU32 color) {
   const double length_m = scaled(kCamera_px) / canvas.eye().pixels_per_metre(pose.translation_m, canvas.rect());
@@ -214,6 +231,7 @@ void draw_camera(WorldCanvas& canvas, const WorldContext& world, const Selection
   const CameraPose& pose = world.moment.world_from_camera;
   const bool highlighted = document.selection().kind == Selected::camera || hovered.kind == Selected::camera;
   draw_field_of_view(canvas, world.model.border, view_depth_m(world.model), pose, highlighted);
+  draw_rig(canvas, world);
   draw_drop_line(canvas, pose.translation_m, kCameraColor);
   draw_camera_axes(canvas, pose);
   draw_camera_icon(canvas, pose, highlighted ? color::kAccent : kCameraColor);

@@ -65,10 +65,11 @@ struct WorldContext {
   const ViewContext& context;
   const WorldModel& model;
   const WorldMoment& moment;
+  const RigBorders* borders = nullptr;  // of the cameras of a rig; null: there is one camera
 };
 
-// Camera path, camera and its field of view, trajectories with what is flagged on them, closest approaches. `hovered`
-// is highlighted as if it were selected.
+// Camera path, camera and its field of view (of a rig those of all cameras, with their names), trajectories with what
+// is flagged on them, closest approaches. `hovered` is highlighted as if it were selected.
 void draw_camera(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered);
 void draw_trajectories(WorldCanvas& canvas, const WorldContext& world);
 void draw_waypoints(WorldCanvas& canvas, const WorldContext& world, const Selection& hovered);

@@ -67,7 +67,7 @@ void WorldView::refresh_model(const ViewContext& context) {
 // trajectories are known, unless the person has looked around by then.
 void WorldView::look_at_opened_project(const WorldContext& world, const ScreenRect& rect) {
   const Document& document = world.context.document;
-  const std::uint64_t revision = document.revision().number;
+  const std::uint64_t revision = document.state().number;
   const bool is_opened = !document.can_undo() && !document.can_redo() && revision != opened_revision_;
   if (is_opened) {
     opened_revision_ = revision;
@@ -75,7 +75,7 @@ void WorldView::look_at_opened_project(const WorldContext& world, const ScreenRe
     look_ = {.snap = look_.snap, .volumes = look_.volumes};
     preset(world, rect, WorldViewPreset::orbit, look_);
   }
-  if (framed_with_scene_ || world.model.revision < opened_revision_) return;
+  if (framed_with_scene_ || state_number(world.model.revision) < opened_revision_) return;
   framed_with_scene_ = true;
   if (!look_.touched) preset(world, rect, look_.preset, look_);
 }
@@ -108,7 +108,8 @@ void WorldView::draw(const ViewContext& context) {
   if (rect.size().x < 16 || rect.size().y < 16) return;
   refresh_model(context);
   const WorldMoment moment = world_moment(context);
-  const WorldContext world{context, model_, moment};
+  if (context.rig != nullptr) borders_.follow(*context.rig);
+  const WorldContext world{context, model_, moment, context.rig != nullptr ? &borders_ : nullptr};
   look_at_opened_project(world, rect);
   if (request.preset) preset(world, rect, *request.preset, look_);
   go_with_camera(world);

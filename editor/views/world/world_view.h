@@ -186,6 +186,7 @@ class WorldView {
   WorldViewState look_;
   // Of the scene that was open last.
   WorldModel model_;
+  RigBorders borders_;
   BodyShapes shapes_;
   WorldTools tools_;
   // Number of the first revision of the project that is looked at; 0: none.

@@ -31,7 +31,7 @@ TEST_CASE("the files that an export will write are known in advance, for every c
         const std::filesystem::path folder = tiny.file("out");
         CAPTURE(static_cast<int>(codec));
         CAPTURE(static_cast<int>(masks));
-        CHECK(outputs_there(project, footage, folder).empty());
+        CHECK(those_there(outputs_of(project, footage, folder)).empty());
         const Result<ExportReport> report = export_project({.project = project, .folder = folder}, {});
         REQUIRE_MESSAGE(report, report.error().text());
         std::vector<std::filesystem::path> foretold = outputs_of(project, footage, folder);
@@ -39,7 +39,7 @@ TEST_CASE("the files that an export will write are known in advance, for every c
         std::sort(foretold.begin(), foretold.end());
         std::sort(written.begin(), written.end());
         CHECK(foretold == written);
-        CHECK(outputs_there(project, footage, folder).size() == written.size());
+        CHECK(those_there(outputs_of(project, footage, folder)).size() == written.size());
         std::filesystem::remove_all(folder);
       }
 }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "editor/geometry/image_view.h"
+#include "editor/views/context.h"
+
+namespace sigs::editor {
+
+// The tabs of a project with several cameras: one for each, which makes it the active one, and one for all of them.
+class CameraTabs {
+ public:
+  // One row high, as wide as the current ImGui window. Only for a project with several cameras.
+  void draw(const ViewContext& context);
+
+  // Whether the tab of all cameras is in front.
+  [[nodiscard]] bool shows_all() const { return shows_all_; }
+  void show_all(bool all) { shows_all_ = all; }
+
+ private:
+  bool shows_all_ = false;
+  std::size_t active_ = 0;     // camera in the update before
+  std::size_t in_front_ = 0;   // tab in the update before; the number of cameras: all of them
+  int updates_to_select_ = 2;  // until ImGui has brought the wanted tab to the front
+};
+
+// Where images lie side by side, in as many columns as leave each the most room; by index. Places that share a row are
+// equally high. Sizes are in pixels of the images; rect is on the screen.
+[[nodiscard]] std::vector<ScreenRect> mosaic_places(const std::vector<glm::dvec2>& sizes_px, const ScreenRect& rect,
+                                                    double gap_px);
+
+// The composited images of all cameras side by side, at the playhead, with the intruders' boxes and the cameras' names.
+// A click on one asks for its tab. Fills the current ImGui window.
+void draw_mosaic(const ViewContext& context, CameraTabs& tabs);
+
+// Asks for a video, and adds a camera that took it, which is active then.
+void ask_add_camera(const ViewContext& context);
+// Takes the active camera out, unless it is the first one.
+void ask_remove_camera(const ViewContext& context);
+
+// Why a camera shows another time than the playhead's: "left films from frame 11 to 189 only"; "": it does not.
+//   shown  of that camera
+[[nodiscard]] std::string not_filming_text(const PreviewOutput& shown, int playhead);
+
+}  // namespace sigs::editor
