@@ -23,6 +23,7 @@
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "camera/camera.h"
 #include "telemetry/read_track.h"
 
 namespace sigs {
@@ -285,7 +286,7 @@ Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::pa
 Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
                                   std::optional<LensModel> model) {
   const CameraKey key{name_of(calibration), footage_size_px.width, footage_size_px.height, model};
-  return caches_->cameras.take(key, stamp_of(calibration),
+  return caches_->cameras.take(key, stamp_of(calibration_name(calibration).file),
                                [&] { return read_calibration(calibration, footage_size_px, model); });
 }
 
