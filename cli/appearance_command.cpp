@@ -43,6 +43,7 @@ struct AppearanceOptions {
   fs::path out;   // empty: not written
   fs::path plot;  // likewise
   fs::path into;
+  std::string camera;    // of a rig
   std::string lit_like;  // "X,Y,W,H"; empty: the look of the footage is found
   std::optional<int> frame;
   bool json = false;
@@ -185,7 +186,7 @@ template <class Found>
 Result<void> write_into(const Found& found, std::optional<Project>& into, const AppearanceOptions& options) {
   if (!into) return {};
   apply(found, *into);
-  if (const Result<void> saved = write_project(*into, options.into, true); !saved) return saved;
+  if (const Result<void> saved = rewrite_project(*into, options.into); !saved) return saved;
   std::fprintf(stderr, "written into %s\n", options.into.c_str());
   return {};
 }
@@ -247,13 +248,13 @@ Result<void> run(const AppearanceOptions& options) {
     if (options.timing != SequenceTiming{})
       return fail(options.timing.times_file.empty() ? "--frame-rate" : "--timestamps",
                   "is stated by the project; leave it out", ErrorKind::usage);
-    Result<Project> read = project_of({.file = options.file, .settings = {}});
+    Result<Project> read = project_of({.file = options.file, .settings = {}, .camera = options.camera});
     if (!read) return fail(read.error());
     project = std::move(*read);
   }
   std::optional<Project> into;
   if (!options.into.empty()) {
-    Result<Project> read = project_of({.file = options.into, .settings = {}});
+    Result<Project> read = project_of({.file = options.into, .settings = {}, .camera = options.camera});
     if (!read) return fail(read.error());
     into = std::move(*read);
   }
@@ -275,6 +276,7 @@ Command add_appearance_command(CLI::App& program) {
   add_number(*command, "--every", options->every, "N", 0, 1000000,
              "use one of so many frames; 0: 24 frames, spread over all");
   add_timing_options(*command, options->timing);
+  add_camera_option(*command, options->camera);
   add_output(*command, "--out", options->out, "write the settings that follow, as JSON");
   add_input(*command, "--into", options->into, "put the settings into this project, which is rewritten", "PROJECT");
   command

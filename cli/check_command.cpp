@@ -14,6 +14,7 @@
 #include "cli/process.h"
 #include "ego_motion/project_motion.h"
 #include "export/export_project.h"
+#include "project/rig.h"
 #include "project/validate.h"
 #include "scene/opened_project.h"
 #include "scene/plausibility.h"
@@ -48,33 +49,43 @@ std::filesystem::path log_of(const Project& project) {
   return turns ? resolved(project, track.file) : std::filesystem::path();
 }
 
+// What only opening shows, of one camera.
+Result<void> check_opened(const Project& seen) {
+  Result<FrameSource> source = open_footage(seen);
+  if (!source) return fail(error_of(seen, {"footage.video", source.error().text(), source.error().kind}));
+  std::vector<Warning> warnings = warnings_of(source->info());
+  for (Warning& warning : codec_warnings_of(seen, source->info())) warnings.push_back(std::move(warning));
+  for (Problem& mistake : footage_mistakes(source->info().path, log_of(seen)))
+    warnings.push_back({seen.file.string() + ": " + mistake.field, std::move(mistake.what)});
+  if (const Result<void> output = check_output(seen, source->info()); !output) return fail(output.error());
+  SceneFiles files;
+  const Result<Scene> scene = open_valid_scene(seen, footage_shape(seen, source->info()), files);
+  if (!scene) return fail(scene.error());
+  const std::vector<Visibility> visibilities = estimated_visibilities(*scene, std::numeric_limits<int>::max());
+  for (Warning& warning : warnings_of(seen, *scene, visibilities)) warnings.push_back(std::move(warning));
+  if (const auto level = level_contradiction(seen_horizons(*source, *scene, &interrupt_flag()), seen, *scene))
+    warnings.insert(warnings.begin(), {seen.file.string() + ": " + level->field, level->what});
+  for (const Warning& warning : warnings) print_warning(warning);
+  print_intruders(seen, *scene, visibilities);
+  std::printf("%s: %s; frames %d to %d, %s\n", seen.file.c_str(),
+              warnings.empty() ? "nothing is wrong" : ("no errors, " + count_text(warnings.size(), "warning")).c_str(),
+              scene->first_frame, scene->last_frame, count_text(scene->intruders.size(), "intruder").c_str());
+  return {};
+}
+
 // What can be seen without opening anything; then what only opening shows.
 Result<void> check(const ProjectOptions& options) {
-  const Result<Project> project = project_of(options);
+  const Result<Project> project = whole_project_of(options);
   if (!project) return fail(project.error());
   const std::vector<Problem> problems = validate(*project);
   for (const Problem& problem : problems) print(error_of(*project, problem));
   if (!problems.empty())
     return fail(project->file.string(), count_text(problems.size(), "problem"), problems.front().kind);
-  Result<FrameSource> source = open_footage(*project);
-  if (!source) return fail(project->file.string() + ": footage.video", source.error().text(), source.error().kind);
-  std::vector<Warning> warnings = warnings_of(source->info());
-  for (Warning& warning : codec_warnings_of(*project, source->info())) warnings.push_back(std::move(warning));
-  for (Problem& mistake : footage_mistakes(source->info().path, log_of(*project)))
-    warnings.push_back({project->file.string() + ": " + mistake.field, std::move(mistake.what)});
-  if (const Result<void> output = check_output(*project, source->info()); !output) return fail(output.error());
-  SceneFiles files;
-  const Result<Scene> scene = open_valid_scene(*project, shape_of(source->info()), files);
-  if (!scene) return fail(scene.error());
-  const std::vector<Visibility> visibilities = estimated_visibilities(*scene, std::numeric_limits<int>::max());
-  for (Warning& warning : warnings_of(*project, *scene, visibilities)) warnings.push_back(std::move(warning));
-  if (const auto level = level_contradiction(seen_horizons(*source, *scene, &interrupt_flag()), *project, *scene))
-    warnings.insert(warnings.begin(), {project->file.string() + ": " + level->field, level->what});
-  for (const Warning& warning : warnings) print_warning(warning);
-  print_intruders(*project, *scene, visibilities);
-  std::printf("%s: %s; frames %d to %d, %s\n", project->file.c_str(),
-              warnings.empty() ? "nothing is wrong" : ("no errors, " + count_text(warnings.size(), "warning")).c_str(),
-              scene->first_frame, scene->last_frame, count_text(scene->intruders.size(), "intruder").c_str());
+  for (const Project& seen : seen_by_each(*project)) {
+    if (!options.camera.empty() && seen.rig_view->name != options.camera) continue;
+    if (seen.rig_view) std::printf("camera \"%s\":\n", seen.rig_view->name.c_str());
+    if (const Result<void> opened = check_opened(seen); !opened) return opened;
+  }
   return {};
 }
 

@@ -209,7 +209,7 @@ Result<void> estimate_and_write(const EgoMotionOptions& options) {
   if (!found) return fail(found.error());
   if (const Result<void> written = write(outputs, *csv, plot, *found); !written) return written;
   if (project)
-    if (const Result<void> saved = write_project(*project, options.into, true); !saved) return saved;
+    if (const Result<void> saved = rewrite_project(*project, options.into); !saved) return saved;
   for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
   if (project) std::printf("%s\n", options.into.c_str());
   print_summary(found->motion);

@@ -18,8 +18,10 @@
 #include "cli/options.h"
 #include "cli/process.h"
 #include "export/export_project.h"
+#include "export/export_rig.h"
 #include "labels/labels.h"
 #include "project/fields.h"
+#include "project/rig.h"
 #include "project/validate.h"
 
 namespace sigs::cli {
@@ -136,7 +138,7 @@ Result<void> prepare_for_stream(Project& project, const ExportOptions& options) 
 }
 
 Result<ExportRequest> request_of(const ExportOptions& options) {
-  Result<Project> project = project_of(options.project);
+  Result<Project> project = whole_project_of(options.project);
   if (!project) return fail(project.error());
   // Another codec gets its own default container, not the one that the project has for its codec.
   const bool codec_alone =
@@ -146,6 +148,14 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
   if (given(options, "export.video.container") == "y4m" && given(options, "export.video.codec").empty())
     project->output.codec = VideoCodec::raw;
   if (const Result<void> set = set_options(*project, options); !set) return fail(set.error());
+  if (!options.project.camera.empty()) {
+    const Result<std::size_t> camera = camera_of_option(*project, options.project.camera);
+    if (!camera) return fail(camera.error());
+    *project = seen_by(*project, *camera);
+  }
+  if (!project->cameras.empty() && (is_stream(options) || options.labels_descriptor >= 0))
+    return fail("--out " + options.folder.string(),
+                "is one stream, the project has several cameras; choose one with --camera", ErrorKind::usage);
   if (is_stream(options))
     if (const Result<void> stream = prepare_for_stream(*project, options); !stream) return fail(stream.error());
   ExportRequest request{.project = std::move(*project),
@@ -195,6 +205,21 @@ void print_visibilities(const Project& project, const std::vector<Visibility>& v
                static_cast<std::ptrdiff_t>(visibilities.size() - named) - visible);
 }
 
+// All cameras of a rig.
+Result<void> run_rig(const ExportRequest& request, const ExportOptions& options, const ExportControl& control,
+                     Progress& progress) {
+  const Result<RigReport> report = export_rig(request, control);
+  progress.end();
+  if (!report) return fail(report.error());
+  for (const std::filesystem::path& path : report->written) std::printf("%s\n", path.c_str());
+  for (std::size_t i = 0; i < report->cameras.size(); ++i) {
+    if (options.progress != "none") std::fprintf(stderr, "camera \"%s\":\n", request.project.cameras[i].name.c_str());
+    if (options.times) print_times(report->cameras[i]);
+    if (options.progress != "none") print_visibilities(request.project, report->cameras[i].visibilities);
+  }
+  return {};
+}
+
 Result<void> run(const ExportOptions& options) {
   Result<ExportRequest> request = request_of(options);
   if (!request) return fail(request.error());
@@ -213,6 +238,7 @@ Result<void> run(const ExportOptions& options) {
                                     print_warning(warning);
                                   },
                               .cancel = &interrupt_flag()};
+  if (!request->project.cameras.empty()) return run_rig(*request, options, control, progress);
   const Result<ExportReport> report = export_project(*request, control);
   progress.end();
   if (!report) return fail(report.error());

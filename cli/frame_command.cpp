@@ -51,12 +51,12 @@ Result<Frame> background_of(FrameSource& source, const Scene& scene, int frame, 
 
 Result<ComposedFrame> composed(const Project& project, const FrameOptions& options) {
   Result<FrameSource> source = open_footage(project, nullptr, quantisers_for(project));
-  if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
+  if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
   const int count = source->info().frame_count();
   if (options.frame < 0 || options.frame >= count)
     return fail(fmt::format("--frame {}", options.frame), fmt::format("the footage has frames 0 to {}", count - 1),
                 ErrorKind::usage);
-  const Result<Scene> scene = open_scene(project, shape_of(source->info()));
+  const Result<Scene> scene = open_scene(project, footage_shape(project, source->info()));
   if (!scene) return fail(scene.error());
   const std::vector<Visibility> visibilities = estimated_visibilities(*scene, kVisibilitySampleFrames);
   for (const Warning& warning : warnings_of(project, *scene, visibilities)) print_warning(warning);

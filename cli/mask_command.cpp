@@ -247,7 +247,7 @@ Result<Project> project_of(const MaskOptions& options) {
 Result<FrameSource> footage_of(const Project& project) {
   Result<FrameSource> source = open_footage(project);
   if (!source && !project.file.empty())
-    return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
+    return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
   if (source)
     for (const Warning& warning : warnings_of(source->info())) print_warning(warning);
   return source;
@@ -348,6 +348,7 @@ Command add_mask_command(CLI::App& program) {
   const auto options = std::make_shared<MaskOptions>();
   add_subject(*command, "FILE", options->project.file, "a video, or a project (json): its footage, range and settings");
   add_set_option(*command, options->project);
+  add_camera_option(*command, options->project.camera);
   add_output(*command, "--out", options->paths.mask,
              "the mask, a PNG; without it VIDEO.own-body.png in the current folder");
   for (const SettingOption& option : {SettingOption{"--frames", "own_body.frames", "N",

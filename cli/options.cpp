@@ -18,6 +18,7 @@
 #include "base/text.h"
 #include "project/fields.h"
 #include "project/json.h"
+#include "project/rig.h"
 
 namespace sigs::cli {
 
@@ -105,7 +106,12 @@ bool is_project_file(const std::filesystem::path& file) {
 
 void add_project_options(CLI::App& command, ProjectOptions& options) {
   command.add_option("PROJECT", options.file, "the project file")->required();
+  add_camera_option(command, options.camera);
   add_set_option(command, options);
+}
+
+void add_camera_option(CLI::App& command, std::string& camera) {
+  command.add_option("--camera", camera, "of a project with several cameras: which one")->option_text("NAME");
 }
 
 void add_set_option(CLI::App& command, ProjectOptions& options) {
@@ -116,12 +122,39 @@ void add_set_option(CLI::App& command, ProjectOptions& options) {
       ->allow_extra_args(false);
 }
 
-Result<Project> project_of(const ProjectOptions& options) {
+Result<Project> whole_project_of(const ProjectOptions& options) {
   Result<ReadProject> read = read_project(options.file);
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
   if (const Result<void> set = set_all(read->project, options.settings); !set) return fail(set.error());
+  if (!options.camera.empty())
+    if (const Result<std::size_t> camera = camera_of_option(read->project, options.camera); !camera)
+      return fail(camera.error());
   return std::move(read->project);
+}
+
+Result<Project> project_of(const ProjectOptions& options) {
+  Result<Project> project = whole_project_of(options);
+  if (!project || project->cameras.empty()) return project;
+  if (options.camera.empty()) {
+    std::fprintf(stderr, "note: camera \"%s\", the first of %zu; --camera chooses\n",
+                 project->cameras.front().name.c_str(), project->cameras.size());
+    return seen_by(*project, 0);
+  }
+  const Result<std::size_t> camera = camera_of_option(*project, options.camera);
+  return camera ? seen_by(*project, *camera) : Result<Project>(fail(camera.error()));
+}
+
+Result<std::size_t> camera_of_option(const Project& project, const std::string& name) {
+  Result<std::size_t> camera = camera_named(project, name);
+  if (!camera) return fail("--" + camera.error().where, camera.error().what, camera.error().kind);
+  return camera;
+}
+
+Result<void> rewrite_project(const Project& changed, const std::filesystem::path& file) {
+  if (!changed.rig_view) return write_project(changed, file, true);
+  const Result<ReadProject> whole = read_project(file);
+  return whole ? write_project(put_back(whole->project, changed), file, true) : fail(whole.error());
 }
 
 Result<void> set_all(Project& project, const std::vector<std::string>& assignments) {

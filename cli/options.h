@@ -22,6 +22,7 @@ namespace sigs::cli {
 struct ProjectOptions {
   std::filesystem::path file;
   std::vector<std::string> settings;  // --set key=value
+  std::string camera;                 // --camera NAME; empty: the first camera of a rig
 };
 
 // Whether a file given as "a video or a project" is a project, by its extension.
@@ -29,9 +30,19 @@ struct ProjectOptions {
 
 void add_project_options(CLI::App& command, ProjectOptions& options);
 void add_set_option(CLI::App& command, ProjectOptions& options);  // --set alone
+void add_camera_option(CLI::App& command, std::string& camera);
 
 // Reads the project, says its warnings on stderr, applies --set.
+[[nodiscard]] Result<Project> whole_project_of(const ProjectOptions& options);
+
+// The same as one camera sees it: of a rig the one that is asked for, else the first, of which a note tells.
 [[nodiscard]] Result<Project> project_of(const ProjectOptions& options);
+
+// The index of the camera of --camera. Error usage.
+[[nodiscard]] Result<std::size_t> camera_of_option(const Project& project, const std::string& name);
+
+// Rewrites a project file with what was changed of project_of() it.
+[[nodiscard]] Result<void> rewrite_project(const Project& changed, const std::filesystem::path& file);
 
 // Applies --set.
 [[nodiscard]] Result<void> set_all(Project& project, const std::vector<std::string>& assignments);

@@ -15,6 +15,7 @@
 #include "cli/options.h"
 #include "cli/process.h"
 #include "project/json.h"
+#include "project/rig.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 Result<Project> with_warnings_printed(Result<ReadProject> read) {
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
-  return std::move(read->project);
+  return read->project.cameras.empty() ? std::move(read->project) : seen_by(read->project, 0);
 }
 
 Result<Project> checked_project(const fs::path& file) {
@@ -55,9 +56,9 @@ bool is_meant_as_project(const std::string& text) {
 // calibration may be missing still.
 Result<Scene> scene_for_traffic(const Project& project) {
   const Result<FrameSource> source = open_footage(project, &interrupt_flag());
-  if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
+  if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
-  Scene scene = bare_scene(project, shape_of(source->info()));
+  Scene scene = bare_scene(project, footage_shape(project, source->info()));
   const Result<FrameRange, Problem> range = scene_range(project.footage, scene.footage);
   if (!range) return failed(range.error());
   scene.first_frame = range->first;
@@ -117,7 +118,7 @@ Result<void> write_into_project(const RecordedPath& path, const IntoProject& int
   const std::size_t written = waypoints->size();
   take_traffic(*project, static_cast<std::size_t>(into.intruder), *std::move(waypoints), *scene);
   defer_interrupts();
-  if (const Result<void> saved = write_project(*project, into.project, true); !saved) return saved;
+  if (const Result<void> saved = rewrite_project(*project, into.project); !saved) return saved;
   std::printf("%s: intruders[%d] flies by %s\n", into.project.c_str(), into.intruder,
               count_text(static_cast<std::ptrdiff_t>(written), "waypoint").c_str());
   return {};

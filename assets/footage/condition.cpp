@@ -42,7 +42,7 @@ const std::array kConditions{
         .name = "table1_vibration", .frames = 190, .country_m = {31000, 4200}, .cirrus = 0.25F, .shake = kVibration}};
 
 // A whole number of periods over the clip, so that the mean is zero.
-double turn_rad(const Condition& condition, std::span<const Wave> waves, int frame) {
+double turn_rad(const Condition& condition, std::span<const Wave> waves, double frame) {
   const auto periods = [&](double rate_hz) { return std::round(rate_hz * condition.frames / kFrameRate_hz); };
   double sum_rad = 0;
   for (const Wave& wave : waves)
@@ -60,7 +60,7 @@ std::span<const Condition> conditions() {
   return kConditions;
 }
 
-Attitude attitude_at(const Condition& condition, int frame) {
+Attitude attitude_at(const Condition& condition, double frame) {
   const Shake& shake = condition.shake;
   return {.roll_rad = turn_rad(condition, shake.roll, frame),
           .pitch_rad = turn_rad(condition, shake.pitch, frame),

@@ -46,7 +46,7 @@ struct Condition {
 // sample, table1_clouds, table1_clear, table1_vibration.
 [[nodiscard]] std::span<const Condition> conditions();
 
-// How the airframe is turned at a frame: small turns whose mean over the clip is zero.
-[[nodiscard]] Attitude attitude_at(const Condition& condition, int frame);
+// How the airframe is turned at a frame, also between two: small turns whose mean over the clip is zero.
+[[nodiscard]] Attitude attitude_at(const Condition& condition, double frame);
 
 }  // namespace sigs::footage

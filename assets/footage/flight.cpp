@@ -34,13 +34,18 @@ glm::dvec2 on_ground(double x_m, const glm::dvec3& ray) {
 
 }  // namespace
 
-Flight::Flight(const Camera& camera, const Condition& condition)
+Flight::Flight(const Camera& camera, const Condition& condition, const MountedCamera& mounted)
     : condition_(condition),
+      mounted_(mounted),
       body_(own_body(camera)),
       rays_(rays_of(camera)),
       clouds_(condition.clouds),
       sky_(clouds_, {condition.country_m, condition.cirrus, flight_m(condition), kHeight_m}),
-      ground_(clouds_, condition.country_m, flight_m(condition)) {}
+      ground_(clouds_, condition.country_m, flight_m(condition)) {
+  if (mounted.shows_body) return;
+  body_.cover.setTo(0);
+  body_.color.setTo(cv::Scalar::all(0));
+}
 
 glm::vec3 Flight::scenery(int x, int y, double x_m, const glm::dmat3& world_from_camera) const {
   const auto ray_at = [&](int i, int j) {
@@ -62,8 +67,10 @@ glm::vec3 Flight::scenery(int x, int y, double x_m, const glm::dmat3& world_from
 }
 
 cv::Mat_<cv::Vec3f> Flight::light(int frame) {
-  const glm::dmat3 world_from_camera = glm::mat3_cast(rotation_of(attitude_at(condition_, frame)));
-  const double x_m = kSpeed_mps * frame / kFrameRate_hz;
+  const double at = (frame / mounted_.rate_hz + mounted_.start_s) * kFrameRate_hz;  // in frames of the clip
+  const glm::dmat3 world_from_camera =
+      glm::mat3_cast(rotation_of(attitude_at(condition_, at)) * rotation_of(mounted_.mount));
+  const double x_m = kSpeed_mps * at / kFrameRate_hz;
   ground_.prepare(x_m);
   cv::Mat_<cv::Vec3f> image(body_.cover.size());
   parallel_rows(image.rows, [&](int y) {

@@ -2,10 +2,12 @@
 // generate_sample CALIBRATION MASK.png [FIRST LAST] writes the own body's mask and, to stdout, the frames as raw 8-bit
 // Y'CbCr 4:2:0 planes for an encoder. SOURCE.md has the whole commands.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/pose.h"
 #include "flight.h"
@@ -23,6 +25,9 @@ struct GeneratorOptions {
   std::string clip = "sample";
   int length = 0;  // frames of the clip; 0: as many as the condition has
   std::string attitudes;
+  std::vector<double> mount_deg;  // roll, pitch, yaw; empty: the camera on the aircraft's back, which looks ahead
+  double rate_hz = kFrameRate_hz;
+  double start_s = 0;
 };
 
 void describe(CLI::App& app, GeneratorOptions& options) {
@@ -33,6 +38,12 @@ void describe(CLI::App& app, GeneratorOptions& options) {
   first->needs(last);
   app.add_option("--clip", options.clip, "sample, table1_clouds, table1_clear or table1_vibration");
   app.add_option("--length", options.length, "frames of the whole clip")->check(CLI::Range(1, 10000));
+  app.add_option("--mount", options.mount_deg, "of another camera: its roll, pitch and yaw on the aircraft, degrees")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_option("--rate", options.rate_hz, "its frames a second")->check(CLI::Range(1.0, 1000.0));
+  app.add_option("--start", options.start_s, "time of its first frame in the clip, seconds")
+      ->check(CLI::Range(0.0, 1000.0));
   app.add_option("--attitudes", options.attitudes, "CSV to write: the attitude at each frame of the whole clip");
 }
 
@@ -81,17 +92,28 @@ int write_frames(Flight& flight, const Condition& condition, int first, int last
   return std::fflush(stdout) == 0 ? 0 : 74;
 }
 
+MountedCamera mounted_by(const GeneratorOptions& options) {
+  MountedCamera mounted{.rate_hz = options.rate_hz, .start_s = options.start_s};
+  const std::vector<double>& deg = options.mount_deg;
+  if (deg.empty()) return mounted;
+  mounted.mount = {sigs::rad_of_deg(deg[0]), sigs::rad_of_deg(deg[1]), sigs::rad_of_deg(deg[2])};
+  mounted.shows_body = false;
+  return mounted;
+}
+
 int generate(const GeneratorOptions& options) {
   const std::optional<Condition> condition = condition_of(options);
   if (!condition) return failed(options.clip + ": there is no such clip", 64);
-  const int last = options.last < 0 ? condition->frames - 1 : options.last;
-  if (last >= condition->frames || options.first > last)
-    return failed("the clip has the frames 0 to " + std::to_string(condition->frames - 1), 64);
+  const int frames =
+      static_cast<int>(std::floor((condition->frames / kFrameRate_hz - options.start_s) * options.rate_hz + 1e-9));
+  const int last = options.last < 0 ? frames - 1 : options.last;
+  if (last >= frames || options.first > last)
+    return failed("the clip has the frames 0 to " + std::to_string(frames - 1), 64);
   const auto camera = sigs::read_calibration(options.calibration);
   if (!camera) return failed(camera.error().text(), 66);
   if (!options.attitudes.empty() && !write_attitudes(options.attitudes, *condition))
     return failed(options.attitudes + ": cannot be written", 73);
-  Flight flight(*camera, *condition);
+  Flight flight(*camera, *condition, mounted_by(options));
   if (!write_mask(options.mask, flight.body().cover)) return failed(options.mask + ": cannot be written", 73);
   return write_frames(flight, *condition, options.first, last);
 }

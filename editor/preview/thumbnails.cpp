@@ -183,7 +183,7 @@ Result<cv::Mat> project_thumbnail(const fs::path& project_file, cv::Size size_px
   const Project& project = read->project;
   Result<FrameSource> source = open_footage(project);
   if (!source) return fail(source.error());
-  if (const Result<Scene> scene = open_scene(project, shape_of(source->info())))
+  if (const Result<Scene> scene = open_scene(project, footage_shape(project, source->info())))
     if (Result<cv::Mat> image = composed_image(*scene, *source, size_px)) return image;
   return untouched_image(*source, size_px);
 }

@@ -18,16 +18,18 @@ const CameraMotion* motion_of(const ViewContext& context) {
 }  // namespace
 
 CameraPose camera_pose_at(const Project& project, double time_s) {
-  return camera_at(steady_motion(project.camera), time_s);
+  return camera_at(steady_motion(project), time_s);
 }
 
 CameraPose camera_pose_at(const ViewContext& context, double time_s) {
-  CameraPose pose = camera_pose_at(context.project(), time_s);
   const CameraMotion* const motion = motion_of(context);
-  if (motion == nullptr) return pose;
+  if (motion == nullptr) return camera_pose_at(context.project(), time_s);
+  CameraMotion stated = steady_motion(context.project());
+  const auto mount = std::exchange(stated.mount, std::nullopt);
+  CameraPose pose = camera_at(stated, time_s);
   pose.rotation = world_from_platform_at(motion->attitudes, time_s) * pose.rotation;
-  if (motion->path) pose.translation_m = camera_at(*motion, time_s).translation_m + path_shift_m(context);
-  return pose;
+  if (motion->path) pose.translation_m = motion->path->motion_at(time_s).position_m + path_shift_m(context);
+  return mount ? Pose<frame::World, frame::Body>{pose.rotation, pose.translation_m} * *mount : pose;
 }
 
 double time_of(const ViewContext& context, double frame) {

@@ -272,7 +272,7 @@ Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footag
                                  const std::function<void(const Warning&)>& warn) {
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   const auto known = std::make_shared<KnownCamera>(
-      KnownCamera{.scene = bare_scene(project, shape_of(footage)), .has_height = !height_is_guess});
+      KnownCamera{.scene = bare_scene(project, footage_shape(project, footage)), .has_height = !height_is_guess});
   Scene& scene = known->scene;
   const Result<FrameRange, Problem> range = scene_range(project.footage, scene.footage);
   if (!range) return failed(range.error());

@@ -310,7 +310,8 @@ Result<RigCalibration> chain_rig(const std::vector<Fields::Group>& cameras, cons
     if (!camera && reading.size_px && field_in(cameras[i].fields, "image_size") == nullptr)
       camera = calibration::camera_of(cameras[i].fields, file_name, reading.size_px, {});
     if (!camera) return fail(camera.error());
-    RigCamera one{.name = cameras[i].name, .camera = *std::move(camera), .first_from_camera = pose_of((*poses)[i])};
+    CalibratedCamera one{
+        .name = cameras[i].name, .camera = *std::move(camera), .first_from_camera = pose_of((*poses)[i])};
     // t_imu = t_cam + shift, of both cameras.
     if (first_shift_s && *shift_s) one.clock_offset_s = **shift_s - *first_shift_s;
     rig.cameras.push_back(std::move(one));
@@ -370,9 +371,10 @@ Result<RigCalibration> pair_rig(const Fields& fields, const std::string& file_na
     Result<Camera> camera = calibration::camera_of(one.fields, file_name, reading.size_px, {});
     if (!camera) return fail(camera.error());
     const bool is_first = rig.cameras.empty();
-    rig.cameras.push_back(RigCamera{.name = one.name,
-                                    .camera = *std::move(camera),
-                                    .first_from_camera = pose_of(is_first ? Motion{} : second_from_first->inverse())});
+    rig.cameras.push_back(
+        CalibratedCamera{.name = one.name,
+                         .camera = *std::move(camera),
+                         .first_from_camera = pose_of(is_first ? Motion{} : second_from_first->inverse())});
   }
   return rig;
 }

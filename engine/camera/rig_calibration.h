@@ -18,7 +18,7 @@ struct FirstCamera;  // of a rig; axes as those of Camera
 }  // namespace frame
 
 // A camera of a rig as its calibration file has it.
-struct RigCamera {
+struct CalibratedCamera {
   std::string name;  // as the file names it: "cam0"; of a stereo pair "left", "right"
   Camera camera;
   Pose<frame::FirstCamera, frame::Camera> first_from_camera;
@@ -30,7 +30,7 @@ struct RigCamera {
 
 struct RigCalibration {
   std::string format;  // "Kalibr chain", "OpenCV stereo pair"
-  std::vector<RigCamera> cameras;
+  std::vector<CalibratedCamera> cameras;
   std::vector<Warning> warnings = {};  // of the rig; those of a lens are in its Camera
 };
 

@@ -54,9 +54,9 @@ class Estimating {
 
   Result<ProjectMotion> run() {
     Result<FrameSource> footage = open_footage(project_, control_.cancel);
-    if (!footage) return fail(project_.file.string() + ": footage.video", footage.error().text(), footage.error().kind);
+    if (!footage) return fail(error_of(project_, {"footage.video", footage.error().text(), footage.error().kind}));
     for (const Warning& warning : footage->info().warnings) found_.warnings.push_back(warning);
-    const FootageShape shape = shape_of(footage->info());
+    const FootageShape shape = footage_shape(project_, footage->info());
     const Result<Camera, Problem> camera = scene_camera(project_, shape.size_px, files_);
     if (!camera) return fail(error_of(project_, camera.error()));
     for (const Warning& warning : camera->warnings) found_.warnings.push_back(warning);

@@ -90,6 +90,7 @@ Result<void> write_frames(FramePipeline& pipeline, const FrameRange& range, cons
     count(*frame, report);
     if (const Result<void> valid = check_substituted(report, total, opened.source.info(), request); !valid)
       return valid;
+    if (request.see_truth) request.see_truth(frame->truth);
     if (!first) first.emplace(Stopwatch(), frame->image.time_s);
     if (request.in_real_time)
       if (const Result<void> due = wait_for_time_of(*frame, first->second, first->first, control); !due) return due;
@@ -197,7 +198,7 @@ Result<void> finish(const ExportRequest& request, const VideoInfo& footage, Expo
 Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
   const Stopwatch watch;
   const Project& project = request.project;
-  Result<OpenedProject> opened = open_project(project, control.cancel, request.footage);
+  Result<OpenedProject> opened = open_project(project, control.cancel, request.footage, request.files);
   if (!opened) return fail(opened.error());
   const VideoInfo& video = opened->source.info();
   const Scene& scene = opened->scene;

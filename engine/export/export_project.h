@@ -12,7 +12,9 @@
 #include "base/result.h"
 #include "export/frame_renderer.h"
 #include "project/project.h"
+#include "scene/scene_files.h"
 #include "scene/visibility.h"
+#include "truth/annotation.h"
 #include "video/frame_source.h"
 #include "video/video_writer.h"
 
@@ -32,6 +34,8 @@ struct ExportRequest {
   int labels_descriptor = -1;      // JSON lines, each before its frame's image
   bool in_real_time = false;       // no frame goes out before its time has passed since the first one
   FrameSource* footage = nullptr;  // the project's, as open_project() takes it; null: is opened
+  SceneFiles* files = nullptr;     // likewise; null: all are read anew
+  std::function<void(const FrameTruth&)> see_truth = {};  // called with the truth of each frame, in order; empty: not
 };
 
 // Seconds spent in each stage, added up over frames (stages run in parallel).

@@ -25,7 +25,7 @@ Result<void> FrameRenderer::open_footage(const Project& project, const std::atom
     return {};
   Result<FrameSource> source = sigs::open_footage(project, cancel, quantisers);
   if (const Result<void> on = check_interrupt(cancel); !on) return on;
-  if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
+  if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
   project_.reset();  // the scene, if any, is that of other footage
   footage_.emplace(OpenedFootage{path, timing, quantisers, std::move(*source)});
   return {};
@@ -37,7 +37,7 @@ Result<FrameRenderer::Opened> FrameRenderer::open(const Project& project, const 
     if (const Result<void> valid = check_valid(project); !valid) return fail(valid.error());
     if (const Result<void> footage = open_footage(project, cancel); !footage) return fail(footage.error());
     const VideoInfo& info = footage_->source.info();
-    Result<Scene> scene = open_valid_scene(project, shape_of(info), files_);
+    Result<Scene> scene = open_valid_scene(project, footage_shape(project, info), files_);
     if (!scene) return fail(scene.error());
     // Meshes that the new scene lacks may be destroyed with the old one.
     if (scene_)

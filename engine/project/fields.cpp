@@ -101,6 +101,24 @@ void add_camera(FieldList list, CameraSettings& camera) {
               "how long the shutter is open, for motion blur; null: as the log says, else 0");
 }
 
+void add_rig_camera(std::vector<Field>& fields, const std::string& prefix, RigCamera& camera) {
+  FieldList list(fields, prefix);
+  list.add("name", &camera.name, "", "what results and labels call it").required = true;
+  add_footage(FieldList(fields, prefix + "footage."), camera.footage);
+  list.number("mount.position_m", &camera.mount.position_m, "m", -1000, 1000,
+              "where it sits on the aircraft: ahead, to the right, down");
+  list.number("mount.attitude_deg.roll", &camera.mount.roll_deg, "deg", -180, 180, "right side down");
+  list.number("mount.attitude_deg.pitch", &camera.mount.pitch_deg, "deg", -90, 90, "axis up against the aircraft's");
+  list.number("mount.attitude_deg.yaw", &camera.mount.yaw_deg, "deg", -180, 180, "axis to the right of the nose");
+  list.number("clock.offset_s", &camera.clock.offset_s, "s", -1e6, 1e6,
+              "time of the first camera at this one's frame 0; 0 for the first");
+  list.number("clock.drift_ppm", &camera.clock.drift_ppm, "ppm", -1e4, 1e4,
+              "by how much its seconds are longer than the first camera's");
+  list.number("readout_s", &camera.readout_s, "s", 0, 1, "as camera.readout_s");
+  list.number("exposure_s", &camera.exposure_s, "s", 0, 1, "as camera.exposure_s");
+  if (camera.appearance) add_appearance(FieldList(fields, prefix + "appearance."), *camera.appearance);
+}
+
 void add_geo(FieldList list, GeoSettings& geo) {
   list.number("latitude_deg", &geo.latitude_deg, "deg", -90, 90,
               "of the world's origin, WGS-84; null: from the camera's log");
@@ -151,9 +169,11 @@ void add_output(FieldList list, ExportSettings& output) {
 std::vector<Field> fields_of(Project& project) {
   std::vector<Field> fields;
   FieldList(fields, "").add("name", &project.name, "", "what the results are called").required = true;
-  add_footage(FieldList(fields, "footage."), project.footage);
+  if (project.cameras.empty()) add_footage(FieldList(fields, "footage."), project.footage);
   add_own_body(FieldList(fields, "own_body."), project.own_body);
   add_camera(FieldList(fields, "camera."), project.camera);
+  for (std::size_t i = 0; i < project.cameras.size(); ++i)
+    add_rig_camera(fields, fmt::format("cameras[{}].", i), project.cameras[i]);
   add_geo(FieldList(fields, "geo."), project.geo);
   add_light(FieldList(fields, "light."), project.light);
   for (std::size_t i = 0; i < project.intruders.size(); ++i)

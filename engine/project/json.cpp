@@ -65,7 +65,25 @@ tl::unexpected<Error> too_many(std::string where, std::size_t count, std::size_t
               ErrorKind::bad_project);
 }
 
+// Which cameras a rig has, and which of them look in a way of their own.
+Result<void> make_room_for_cameras(const Json& json, const std::string& file, Project& project) {
+  const Result<std::size_t> cameras = list_size(json, "/cameras", file + ": cameras");
+  if (!cameras) return fail(cameras.error());
+  if (*cameras > kMaxCameras) return too_many(file + ": cameras", *cameras, kMaxCameras);
+  project.cameras.resize(*cameras);
+  for (std::size_t i = 0; i < *cameras; ++i) {
+    const Json& camera = json.at("cameras").at(i);
+    if (!camera.is_object()) return fail(fmt::format("{}: cameras[{}]", file, i), "expected { ... }", ErrorKind::bad_project);
+    if (camera.contains("appearance") && !camera.at("appearance").is_null()) project.cameras[i].appearance.emplace();
+  }
+  if (*cameras > 0 && json.contains("footage"))
+    return fail(file + ": footage", "stands beside cameras, each of which has its own: move it to cameras[0].footage",
+                ErrorKind::bad_project);
+  return {};
+}
+
 Result<void> make_room_for_lists(const Json& json, const std::string& file, Project& project) {
+  if (const Result<void> cameras = make_room_for_cameras(json, file, project); !cameras) return cameras;
   const Result<std::size_t> intruders = list_size(json, "/intruders", file + ": intruders");
   if (!intruders) return fail(intruders.error());
   if (*intruders > kMaxIntruders) return too_many(file + ": intruders", *intruders, kMaxIntruders);
@@ -101,10 +119,12 @@ void remove_empty_objects(Json& json) {
   json = std::move(remaining);
 }
 
-// Keys of a project with one intruder and one waypoint that begin with `prefix`, without it; of the whole project (no
+// Keys of a project with one camera, one intruder and one waypoint that begin with `prefix`, without it; of the whole project (no
 // prefix) those outside of lists.
 std::vector<std::string> known_keys(std::string_view prefix) {
   Project sample;
+  if (!prefix.empty()) sample.cameras.resize(1);
+  for (RigCamera& camera : sample.cameras) camera.appearance.emplace();
   sample.intruders.resize(1);
   sample.intruders[0].trajectory.waypoints.resize(1);
   sample.intruders[0].trajectory.waypoints[0].place.emplace();
@@ -155,10 +175,15 @@ std::string kept(Json unknown, const KeyPlace& place, std::vector<Warning>& warn
 // Removes the lists from rest, and keeps the unknown keys of each item with the item.
 void keep_unknown(Json rest, const std::string& file, Project& project, std::vector<Warning>& warnings) {
   Json intruders = rest.value("intruders", Json::array());
+  Json cameras = rest.value("cameras", Json::array());
   rest.erase("sigs");
   rest.erase("intruders");
+  rest.erase("cameras");
   std::vector<std::string> of_project = known_keys("");
   of_project.emplace_back("intruders");
+  of_project.emplace_back("cameras");
+  for (std::size_t i = 0; i < project.cameras.size(); ++i)
+    project.cameras[i].unknown_json = kept(std::move(cameras.at(i)), {fmt::format("{}: cameras[{}].", file, i), known_keys("cameras[0].")}, warnings);
   std::vector<std::string> of_intruder = known_keys("intruders[0].");
   of_intruder.emplace_back("trajectory.waypoints");
   const std::vector<std::string> of_waypoint = known_keys("intruders[0].trajectory.waypoints[0].");
@@ -254,6 +279,7 @@ std::string text_of(const Project& project) {
   Json json = Json::object();
   json["sigs"] = kProjectVersion;
   append_members(json, parsed_or_empty(project.unknown_json));
+  for (const RigCamera& camera : project.cameras) json["cameras"].push_back(parsed_or_empty(camera.unknown_json));
   json["intruders"] = Json::array();
   for (const IntruderSettings& intruder : project.intruders) {
     Json item = parsed_or_empty(intruder.unknown_json);

@@ -21,9 +21,10 @@ struct ReadProject {
 };
 
 // The most that a project file may have, so that a file of 64 MiB is an error rather than a wait (docs/limits.md):
-// intruders, and waypoints of all intruders together, which are two hours at a waypoint for each of 30 frames a second.
+// intruders; waypoints of all intruders together, which are two hours at a waypoint for each of 30 frames a second; cameras of a rig.
 inline constexpr std::size_t kMaxIntruders = 10'000;
 inline constexpr std::size_t kMaxWaypoints = 250'000;
+inline constexpr std::size_t kMaxCameras = 100;
 
 // Reads a project file. Checks its form only; validate() checks the values. Errors name file and field: cannot_read
 // where there is no such file, else bad_project.

@@ -112,7 +112,18 @@ struct TrackSettings {
   [[nodiscard]] bool operator==(const TrackSettings&) const = default;
 };
 
-// Position, mounting and speed of the camera. The world's X axis is the camera's heading at frame 0.
+// Where a camera of a rig sits on the aircraft: in the axes of that (X out of the nose, Y right, Z down).
+struct MountSettings {
+  glm::dvec3 position_m{0, 0, 0};
+  double roll_deg = 0;
+  double pitch_deg = 0;
+  double yaw_deg = 0;
+
+  [[nodiscard]] bool operator==(const MountSettings&) const = default;
+};
+
+// Position, mounting and speed of the camera or, in a project with several of them, of the aircraft that carries them.
+// The world's X axis is its heading at frame 0.
 struct CameraSettings {
   glm::dvec3 position_m{0, 0, -150};  // world, at frame 0 (paper section 3.1.3)
   std::optional<double> roll_deg;     // none: not known; mount_attitude() takes it as 0
@@ -313,6 +324,44 @@ struct ExportSettings {
   [[nodiscard]] bool operator==(const ExportSettings&) const = default;
 };
 
+// The clock of a camera of a rig. The rig's time is that of its first camera.
+struct ClockSettings {
+  double offset_s = 0;   // the rig's time at the camera's frame 0
+  double drift_ppm = 0;  // by which the camera's seconds are longer than the rig's
+
+  [[nodiscard]] double rig_time_s(double camera_time_s) const {
+    return offset_s + camera_time_s * (1 + drift_ppm * 1e-6);
+  }
+  [[nodiscard]] bool operator==(const ClockSettings&) const = default;
+};
+
+// One of several cameras of an aircraft.
+struct RigCamera {
+  std::string name;
+  FootageSettings footage;
+  MountSettings mount;
+  ClockSettings clock;
+  std::optional<double> readout_s;              // as in CameraSettings
+  std::optional<double> exposure_s;             // likewise
+  std::optional<AppearanceSettings> appearance;  // none: the project's
+  std::string unknown_json;
+
+  [[nodiscard]] bool operator==(const RigCamera&) const = default;
+};
+
+// The camera of a rig through which a project is seen (project/rig.h).
+struct RigView {
+  std::size_t camera = 0;
+  std::string name;
+  MountSettings mount;
+  ClockSettings clock;
+  FootageSettings reference;        // of the first camera: waypoints count its frames
+  MountSettings reference_mount;    // of the first camera: a log of a camera's own attitude is that one's
+  bool has_own_appearance = false;
+
+  [[nodiscard]] bool operator==(const RigView&) const = default;
+};
+
 // A whole project file.
 struct Project {
   std::filesystem::path file;  // where it was read from; paths in it are relative to this file's folder
@@ -320,6 +369,8 @@ struct Project {
   FootageSettings footage;
   OwnBodySettings own_body;
   CameraSettings camera;
+  std::vector<RigCamera> cameras;   // of a rig; empty: one camera, which `footage` and `camera` describe
+  std::optional<RigView> rig_view;  // the project as one camera of a rig sees it; no part of the file
   GeoSettings geo;
   LightSettings light;
   std::vector<IntruderSettings> intruders;

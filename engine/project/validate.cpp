@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "project/fields.h"
 #include "project/places.h"
+#include "project/rig.h"
 
 namespace sigs {
 
@@ -46,12 +47,16 @@ void check_text(const Project& project, const Field& field, Problems& problems) 
   if (value == nullptr) return;
   const std::string& text = **value;
   if (text.empty()) {
-    if (field.required) problems.push_back({field.key, "is missing: " + std::string(field.help)});
+    // Intruders are put into real images, also those of a rig.
+    const bool has_no_footage = field.key.starts_with("cameras[") && field.key.ends_with("].footage.video");
+    if (has_no_footage)
+      problems.push_back({field.key, "is missing: a camera without footage of its own has nothing to put intruders into"});
+    else if (field.required) problems.push_back({field.key, "is missing: " + std::string(field.help)});
     return;
   }
   std::error_code code;
   const std::filesystem::path path = resolved(project, text);
-  const bool is_sequence = field.key == "footage.video" && is_number_pattern(path);  // opening it shows what is there
+  const bool is_sequence = field.key.ends_with("footage.video") && is_number_pattern(path);  // opening it shows what is there
   if (field.is_path && !is_sequence && !std::filesystem::exists(path, code))
     problems.push_back({field.key, "no such file: " + path.lexically_normal().string(), ErrorKind::cannot_read});
 }
@@ -119,9 +124,27 @@ void check_track(const CameraSettings& camera, Problems& problems) {
                         "is named beside camera.track.file; leave one out, or set camera.track.attitude to none"});
 }
 
-void check_frames(const FootageSettings& footage, Problems& problems) {
+//   prefix  of the footage's keys: "", or that of a camera of a rig
+void check_frames(const FootageSettings& footage, const std::string& prefix, Problems& problems) {
   if (footage.last_frame && *footage.last_frame < footage.first_frame)
-    problems.push_back({"footage.last_frame", "lies before footage.first_frame"});
+    problems.push_back({prefix + "footage.last_frame", "lies before footage.first_frame"});
+}
+
+// Names that tell the cameras apart, also in file names; one clock for all.
+void check_cameras(const std::vector<RigCamera>& cameras, Problems& problems) {
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const std::string prefix = fmt::format("cameras[{}].", i);
+    const std::string& name = cameras[i].name;
+    if (const std::string wrong = name.empty() ? "" : file_name_error(name); !wrong.empty())
+      problems.push_back({prefix + "name", wrong});
+    const auto has_name = [&](const RigCamera& other) { return other.name == name; };
+    if (!name.empty() && std::find_if(cameras.begin(), cameras.end(), has_name) != cameras.begin() + static_cast<std::ptrdiff_t>(i))
+      problems.push_back({prefix + "name", "is that of a camera before; each has a name of its own"});
+    check_frames(cameras[i].footage, prefix, problems);
+  }
+  if (!cameras.empty() && !(cameras.front().clock == ClockSettings()))
+    problems.push_back({"cameras[0].clock.offset_s",
+                        "is the clock of the first camera, which is that of the rig: offset and drift must be 0"});
 }
 
 void check_output(const ExportSettings& output, Problems& problems) {
@@ -186,7 +209,8 @@ std::vector<Problem> validate(const Project& project) {
     check_text(project, field, problems);
   }
   check_name(project, problems);
-  check_frames(project.footage, problems);
+  check_frames(project.footage, "", problems);
+  check_cameras(project.cameras, problems);
   check_output(project.output, problems);
   check_names(project.output.labels, kLabelNames, "export.labels", "format", problems);
   check_names(project.output.encounter, kWellClearNames, "export.encounter", "volume", problems);
@@ -202,7 +226,7 @@ std::vector<Problem> validate(const Project& project) {
 }
 
 Error error_of(const Project& project, const Problem& problem) {
-  return {project.file.string() + ": " + problem.field, problem.what, problem.kind};
+  return {project.file.string() + ": " + field_in_file(project, problem.field), problem.what, problem.kind};
 }
 
 }  // namespace sigs

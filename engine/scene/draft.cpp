@@ -129,9 +129,12 @@ void sanitize(const Field& field, const Field& plain) {
     for (int i = 0; i < 3; ++i) sanitize(field, (**vector)[i], (*std::get<glm::dvec3*>(plain.value))[i]);
 }
 
-// A project of defaults with as many intruders and waypoints.
+// A project of defaults with as many cameras, intruders and waypoints.
 Project plain_like(const Project& project) {
   Project plain;
+  plain.cameras.resize(project.cameras.size());
+  for (std::size_t i = 0; i < plain.cameras.size(); ++i)
+    if (project.cameras[i].appearance) plain.cameras[i].appearance.emplace();
   for (const IntruderSettings& intruder : project.intruders)
     plain.intruders.emplace_back().trajectory.waypoints.resize(intruder.trajectory.waypoints.size());
   return plain;
@@ -160,10 +163,11 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
   const Project clean = sanitized(project);
   DraftScene draft{.scene = bare_scene(clean, footage), .problems = validated(project)};
   Scene& scene = draft.scene;
-  const FrameRange range =
-      part_or_placeholder(scene_range(clean.footage, footage), clamped_range(clean.footage, footage), draft.problems);
-  scene.first_frame = range.first;
-  scene.last_frame = range.last;
+  const FrameRange clamped = clamped_range(clean.footage, footage);
+  scene.first_frame = clamped.first;
+  scene.last_frame = clamped.last;
+  if (const Result<void, Problem> timed = set_range(scene, clean, files); !timed) note(draft.problems, timed.error());
+  const FrameRange range{scene.first_frame, scene.last_frame};
   scene.camera = part_or_placeholder(scene_camera(clean, footage.size_px, files), placeholder_camera(footage.size_px),
                                      draft.problems);
   set_camera_motion(

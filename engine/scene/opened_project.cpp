@@ -26,20 +26,20 @@ namespace fs = std::filesystem;
 
 Result<void> check_valid(const Project& project) {
   const std::vector<Problem> problems = validate(project);
+  if (problems.empty() && !project.cameras.empty())
+    return fail(project.file.string() + ": cameras", "has several cameras, of which one is to be chosen here",
+                ErrorKind::bad_project);
   return problems.empty() ? Result<void>() : fail(error_of(project, problems.front()));
 }
 
 Result<Scene> open_valid_scene(const Project& project, const FootageShape& footage, SceneFiles& files) {
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   Scene scene = bare_scene(project, footage);
-  const Result<FrameRange, Problem> range = scene_range(project.footage, footage);
-  if (!range) return failed(range.error());
-  scene.first_frame = range->first;
-  scene.last_frame = range->last;
+  if (const Result<void, Problem> timed = set_range(scene, project, files); !timed) return failed(timed.error());
   Result<Camera, Problem> camera = scene_camera(project, footage.size_px, files);
   if (!camera) return failed(camera.error());
   scene.camera = *std::move(camera);
-  Result<CameraFlight, Problem> flight = camera_flight(project, footage, *range, files);
+  Result<CameraFlight, Problem> flight = camera_flight(project, footage, {scene.first_frame, scene.last_frame}, files);
   if (!flight) return failed(flight.error());
   set_camera_motion(scene, *std::move(flight));
   const Result<SceneLight, Problem> light = scene_light(project, scene);
@@ -78,14 +78,16 @@ Result<Scene> open_scene(const Project& project, const FootageShape& footage) {
   return open_scene(project, footage, files);
 }
 
-Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel, FrameSource* footage) {
+Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel, FrameSource* footage,
+                                   SceneFiles* files) {
   if (const Result<void> valid = check_valid(project); !valid) return fail(valid.error());
   Result<FrameSource> source =
       footage != nullptr ? std::move(*footage) : open_footage(project, cancel, quantisers_for(project));
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-  if (!source) return fail(project.file.string() + ": footage.video", source.error().text(), source.error().kind);
-  SceneFiles files;
-  Result<Scene> scene = open_valid_scene(project, shape_of(source->info()), files);
+  if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
+  SceneFiles own_files;
+  Result<Scene> scene =
+      open_valid_scene(project, footage_shape(project, source->info()), files != nullptr ? *files : own_files);
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
   if (!scene) return fail(scene.error());
   std::vector<Warning> warnings = warnings_of(source->info());
@@ -112,10 +114,16 @@ Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>
   return FrameSource::open(resolved(project, project.footage.video), cancel, quantisers, timing_of(project));
 }
 
-FootageShape shape_of(const VideoInfo& video) {
-  return {.size_px = video.size_px,
-          .times_s = video.times_s,
-          .frame_interval_s = double(video.frame_rate_den) / video.frame_rate_num};
+FootageShape in_rig_time(FootageShape shape, const Project& project) {
+  if (!project.rig_view) return shape;
+  const ClockSettings& clock = project.rig_view->clock;
+  for (double& time_s : shape.times_s) time_s = clock.rig_time_s(time_s);
+  shape.frame_interval_s *= 1 + clock.drift_ppm * 1e-6;
+  return shape;
+}
+
+FootageShape footage_shape(const Project& project, const VideoInfo& video) {
+  return in_rig_time(shape_of(video), project);
 }
 
 std::vector<Warning> warnings_of(const VideoInfo& video) {
@@ -194,6 +202,7 @@ std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
     warnings.push_back({project.file.string() + ": " + issue.field, issue.what});
   };
   for (const Problem& issue : scene.issues) add(issue);
+  if (project.rig_view) return warnings;  // what one camera of several never shows is no mistake
   for (std::size_t i = 0; i < visibilities.size(); ++i)
     if (std::optional<Problem> never = never_visible(visibilities[i], scene.intruders[i].name, i)) {
       if (const std::string where = where_out_of_view(scene, i); !where.empty()) never->what += "; " + where;
@@ -218,7 +227,7 @@ std::vector<fs::path> files_read_by(const Project& project) {
     const fs::path file = resolved(project, *std::get<std::string*>(field.value));
     if (file.empty()) continue;
     files.push_back(file);
-    if (field.key == "footage.video" && is_image_sequence(file))
+    if (field.key.ends_with("footage.video") && is_image_sequence(file))
       if (const Result<std::vector<fs::path>> images = files_of_sequence(file))
         files.insert(files.end(), images->begin(), images->end());
     if (!field.key.ends_with("model.file")) continue;

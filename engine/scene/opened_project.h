@@ -20,6 +20,7 @@
 namespace sigs {
 
 // The project's first problem (project/validate.h) as an error "x.json: intruders[0].model.file: no such file".
+// A project with several cameras is one too: each of them has a scene of its own (project/rig.h).
 // Every way from a project to a scene validates it once: open_project and open_scene by this function, `sigs check` and
 // draft_scene by validate(), as they list all problems.
 [[nodiscard]] Result<void> check_valid(const Project& project);
@@ -42,8 +43,9 @@ struct OpenedProject {
 // Validates the project and opens all that it names. Errors name the project file and the field.
 //   cancel   set to true: ends soon with the error `interrupted`. May be null; must outlive the opened project.
 //   footage  the project's, opened with quantisers_for() it, and moved from; null: is opened
+//   files    as open_valid_scene() takes them; null: all are read anew
 [[nodiscard]] Result<OpenedProject> open_project(const Project& project, const std::atomic<bool>* cancel,
-                                                 FrameSource* footage = nullptr);
+                                                 FrameSource* footage = nullptr, SceneFiles* files = nullptr);
 
 // Whether the frames of a project's footage need their quantisers: where the codec match is to be by the footage's own,
 // and where groups of its pictures are encoded as the others are (codec source).
@@ -57,14 +59,15 @@ struct OpenedProject {
 // The times that settings state of footage in images; the file of times is the project's.
 [[nodiscard]] SequenceTiming timing_of(const Project& project);
 
-// What a scene has to know of a video.
-[[nodiscard]] FootageShape shape_of(const VideoInfo& video);
+// What the scene of a project has to know of its footage: shape_of() with the times of the rig's clock, if it has one.
+[[nodiscard]] FootageShape in_rig_time(FootageShape shape, const Project& project);
+[[nodiscard]] FootageShape footage_shape(const Project& project, const VideoInfo& video);
 
 // Warnings to be given before a video is used: its own, and that its samples are converted to 8 bits.
 [[nodiscard]] std::vector<Warning> warnings_of(const VideoInfo& video);
 
 // Warnings to be given before the frames of a scene are composed: those of the files that were read, implausible
-// settings (Scene::issues), and intruders that are never visible.
+// settings (Scene::issues), and intruders that are never visible; not the latter where other cameras may show them.
 //   visibilities  of each intruder of the scene; empty: not looked at
 [[nodiscard]] std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
                                                const std::vector<Visibility>& visibilities);

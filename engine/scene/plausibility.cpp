@@ -128,7 +128,7 @@ void check_flight(const Scene& scene, const SceneIntruder& intruder, const std::
 // The waypoints of a path whose shape depends on their times; none of an approximating spline.
 std::vector<TimedWaypoint> shaping_waypoints(const TrajectoryPlan& plan, const Scene& scene) {
   if (plan.spline != SplineKind::interpolating) return {};
-  return timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame);
+  return timed_waypoints(plan.waypoints, scene);
 }
 
 // The first of equal ones.
@@ -157,7 +157,7 @@ std::optional<Problem> overshoot_issue(const Project& project, std::size_t intru
   const std::vector<Overshoot> overshoots = overshoots_of(waypoints);
   if (overshoots.empty()) return std::nullopt;
   const std::vector<double> frames =
-      waypoint_frames(settings.trajectory.waypoints, scene.first_frame, scene.last_frame);
+      waypoint_frames(settings.trajectory.waypoints, scene);
   return Problem{key_of_intruder(intruder) + ".trajectory",
                  overshoot_text(farthest(overshoots), overshoots.size() - 1, settings.name, frames)};
 }

@@ -7,6 +7,12 @@
 
 namespace sigs {
 
+FootageShape shape_of(const VideoInfo& video) {
+  return {.size_px = video.size_px,
+          .times_s = video.times_s,
+          .frame_interval_s = double(video.frame_rate_den) / video.frame_rate_num};
+}
+
 double time_of_frame_s(const FootageShape& footage, double frame) {
   const std::vector<double>& times_s = footage.times_s;
   const double last = static_cast<double>(times_s.size()) - 1;

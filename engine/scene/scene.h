@@ -18,15 +18,20 @@
 #include "scene/model.h"
 #include "spline/piecewise_cubic.h"
 #include "spline/trajectory.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 
 // The size and the frame times of the footage: all that a scene needs to know of it.
 struct FootageShape {
   cv::Size size_px;
-  std::vector<double> times_s;     // presentation time of each frame; the first is 0
+  std::vector<double> times_s;     // presentation time of each frame; the first is 0 but of the further cameras of a
+                                   // rig, whose times are those of the rig's clock
   double frame_interval_s = 0.04;  // nominal; extrapolates the times before the first and after the last frame
 };
+
+// What a scene has to know of a video.
+[[nodiscard]] FootageShape shape_of(const VideoInfo& video);
 
 // Time of a frame in seconds. The frame may be fractional (linear between its neighbours) and may lie beyond the
 // footage's ends (extrapolated with frame_interval_s). Without any times: frame * frame_interval_s.
@@ -34,6 +39,13 @@ struct FootageShape {
 
 // The reverse: the frame, with fractions, at a time. Of frames with the same time the first.
 [[nodiscard]] double frame_at_time(const FootageShape& footage, double time_s);
+
+// The frames that waypoints, and the attitudes of a table, count.
+struct Timeline {
+  FootageShape footage;
+  int first_frame = 0;
+  int last_frame = 0;  // included
+};
 
 // A point light and ambient light, or the sun, sky and ground. Colours are linear; 1: a white surface that is lit
 // squarely becomes white.
@@ -95,6 +107,7 @@ struct CameraMotion {
   double readout_s = 0;                             // of the rolling shutter, first to last row; 0: all rows at once
   std::vector<ExposureTime> exposures = {};         // by rising time; empty: not known, taken as 0
   PoseSource source = {};
+  std::optional<Pose<frame::Body, frame::Camera>> mount = {};  // on what all of this describes; none: it is the camera
   glm::bvec3 moves_with_start{true, true, true};  // whether camera.position_m moves the path along world X, Y, Z: not
                                                   // where the project states the world's origin on the Earth
 };
@@ -141,6 +154,7 @@ struct Scene {
   FootageShape footage;
   int first_frame = 0;                          // of the footage, from 0
   int last_frame = 0;                           // included
+  std::optional<Timeline> timeline = {};        // of the first camera of a rig; none: that of the footage itself
   bool is_thermal = false;                      // Spectrum::thermal: models and light are as heat.h has them
   bool horizon_is_known = false;                // the project, or the camera's log, states the camera's attitude
   std::optional<LocalFrame> earth = {};         // where the world lies on the Earth, if that is known

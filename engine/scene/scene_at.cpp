@@ -59,7 +59,8 @@ Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double t
   else
     pose.translation_m.x += motion.speed_mps * time_s;
   if (!motion.attitudes.empty()) pose.rotation = world_from_platform_at(motion.attitudes, time_s) * pose.rotation;
-  return pose;
+  if (!motion.mount) return pose;
+  return Pose<frame::World, frame::Body>{pose.rotation, pose.translation_m} * *motion.mount;
 }
 
 namespace {

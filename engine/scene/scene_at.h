@@ -48,7 +48,8 @@ struct SceneMoment {
 [[nodiscard]] double exposure_at(const std::vector<ExposureTime>& exposures, double time_s);
 
 // Pose of the camera: on its path or, without one, straight on along world X. Its attitude is
-// world_from_platform_at(time_s) * attitude at the start.
+// world_from_platform_at(time_s) * attitude at the start. Of a camera of a rig all that is the aircraft's, and the
+// camera's mount stands on its right.
 [[nodiscard]] Pose<frame::World, frame::Camera> camera_at(const CameraMotion& motion, double time_s);
 
 // Pose of an intruder against the camera at any time of the footage.

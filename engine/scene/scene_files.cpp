@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
@@ -264,9 +265,11 @@ Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size f
 }
 
 struct SceneFiles::Caches {
+  std::mutex mutex;  // of all of them
   FileCache<ModelKey, std::shared_ptr<const Model>> models;
   FileCache<CameraKey, Camera> cameras;
   FileCache<ImageKey, cv::Mat> masks;
+  FileCache<std::tuple<std::string, double, std::string>, FootageShape> footage;
   FileCache<std::string, std::vector<AttitudeAtFrame>> attitudes;
   FileCache<std::string, BoxesByFrame> boxes;
   FileCache<std::string, std::shared_ptr<const Track>> tracks;
@@ -280,21 +283,36 @@ SceneFiles::~SceneFiles() = default;
 
 Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::path& file, const ModelAxes& axes,
                                                        const std::optional<HeatLevels>& heat) {
+  const std::lock_guard lock(caches_->mutex);
   return caches_->models.take(key_of(file, axes, heat), stamp_of(file), [&] { return read_model(file, axes, heat); });
 }
 
 Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
                                   std::optional<LensModel> model) {
   const CameraKey key{name_of(calibration), footage_size_px.width, footage_size_px.height, model};
+  const std::lock_guard lock(caches_->mutex);
   return caches_->cameras.take(key, stamp_of(calibration_name(calibration).file),
                                [&] { return read_calibration(calibration, footage_size_px, model); });
 }
 
+Result<FootageShape> SceneFiles::footage_shape(const std::filesystem::path& video, const SequenceTiming& timing) {
+  const auto read = [&]() -> Result<FootageShape> {
+    const Result<FrameSource> source = FrameSource::open(video, nullptr, Quantisers::leave_out, timing);
+    if (!source) return fail(source.error());
+    return shape_of(source->info());
+  };
+  const std::lock_guard lock(caches_->mutex);
+  return caches_->footage.take({name_of(video), timing.frame_rate_hz, name_of(timing.times_file)}, stamp_of(video),
+                               read);
+}
+
 Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {
+  const std::lock_guard lock(caches_->mutex);
   return caches_->attitudes.take(name_of(file), stamp_of(file), [&] { return read_attitude_file(file); });
 }
 
 Result<BoxesByFrame> SceneFiles::boxes(const std::filesystem::path& csv) {
+  const std::lock_guard lock(caches_->mutex);
   return caches_->boxes.take(name_of(csv), stamp_of(csv), [&] { return read_boxes_by_frame(csv); });
 }
 
@@ -304,10 +322,12 @@ Result<std::shared_ptr<const Track>> SceneFiles::track(const std::filesystem::pa
     if (!track) return fail(track.error());
     return std::make_shared<const Track>(*std::move(track));
   };
+  const std::lock_guard lock(caches_->mutex);
   return caches_->tracks.take(name_of(file), stamp_of(file), read);
 }
 
 Result<cv::Mat> SceneFiles::own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px) {
+  const std::lock_guard lock(caches_->mutex);
   return caches_->masks.take(key_of(file, footage_size_px), stamp_of(file),
                              [&] { return read_own_body_mask(file, footage_size_px); });
 }
@@ -316,6 +336,7 @@ std::shared_ptr<const Model> SceneFiles::cross(double length_m) {
   const auto make = [&]() -> Result<std::shared_ptr<const Model>> {
     return std::make_shared<const Model>(model_of(cross_mesh(length_m)));
   };
+  const std::lock_guard lock(caches_->mutex);
   return *caches_->crosses.take(std::bit_cast<std::uint64_t>(length_m), FileStamp{}, make);
 }
 

@@ -14,7 +14,9 @@
 #include "mesh/mesh.h"
 #include "scene/heat.h"
 #include "scene/model.h"
+#include "scene/scene.h"
 #include "telemetry/track.h"
+#include "video/frame_source.h"
 
 namespace sigs {
 
@@ -44,8 +46,8 @@ struct AttitudeAtFrame {
 // A cache of the files that scenes are made from: a scene that is opened again after an edit reads only what has
 // changed. A file is read again when its size or its time of change differs; an OBJ file is read with its materials and
 // textures. Errors are those of the functions that read; they are cached too, except cannot_read, as permissions can
-// change without a trace. The cache keeps what scenes use, and of each kind the 8 last used of the rest. For one thread
-// at a time.
+// change without a trace. The cache keeps what scenes use, and of each kind the 8 last used of the rest. It may
+// be used from any thread; one waits while another reads.
 class SceneFiles {
  public:
   SceneFiles();
@@ -61,6 +63,9 @@ class SceneFiles {
   // read_calibration (camera/camera.h). model: none: taken from the file.
   [[nodiscard]] Result<Camera> camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
                                       std::optional<LensModel> model = std::nullopt);
+
+  // Size and times of other footage than that of the scene (FrameSource::open, shape_of).
+  [[nodiscard]] Result<FootageShape> footage_shape(const std::filesystem::path& video, const SequenceTiming& timing);
 
   // read_attitude_file
   [[nodiscard]] Result<std::vector<AttitudeAtFrame>> attitudes(const std::filesystem::path& file);

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "base/pose.h"
+#include "project/rig.h"
 #include "scene/heat.h"
+#include "scene/opened_project.h"
 #include "scene/scene_at.h"
 
 namespace sigs {
@@ -41,6 +44,18 @@ std::vector<TimedWaypoint> timed_waypoints(const std::vector<WaypointSettings>& 
   for (std::size_t i = 0; i < frames.size(); ++i)
     timed.push_back({time_of_frame_s(footage, frames[i]), waypoints[i].position_m});
   return timed;
+}
+
+std::vector<double> waypoint_frames(const std::vector<WaypointSettings>& waypoints, const Scene& scene) {
+  const std::optional<Timeline>& other = scene.timeline;
+  return waypoint_frames(waypoints, other ? other->first_frame : scene.first_frame,
+                         other ? other->last_frame : scene.last_frame);
+}
+
+std::vector<TimedWaypoint> timed_waypoints(const std::vector<WaypointSettings>& waypoints, const Scene& scene) {
+  const std::optional<Timeline>& other = scene.timeline;
+  return other ? timed_waypoints(waypoints, other->footage, other->first_frame, other->last_frame)
+               : timed_waypoints(waypoints, scene.footage, scene.first_frame, scene.last_frame);
 }
 
 namespace {
@@ -86,12 +101,14 @@ std::optional<double> rad_of_deg(const std::optional<double>& angle_deg) {
 
 }  // namespace
 
-CameraMotion steady_motion(const CameraSettings& camera) {
+CameraMotion steady_motion(const Project& project) {
+  const CameraSettings& camera = project.camera;
   return {.world_from_camera_at_start = {rotation_of(mount_attitude(camera)), camera.position_m},
           .speed_mps = camera.speed_mps,
           .readout_s = camera.readout_s.value_or(0),
           .exposures =
-              camera.exposure_s ? std::vector<ExposureTime>{{0, *camera.exposure_s}} : std::vector<ExposureTime>{}};
+              camera.exposure_s ? std::vector<ExposureTime>{{0, *camera.exposure_s}} : std::vector<ExposureTime>{},
+          .mount = project.rig_view ? std::optional(body_from_camera(project.rig_view->mount)) : std::nullopt};
 }
 
 namespace {
@@ -122,7 +139,7 @@ void see_heat(Scene& scene) {
 
 Scene bare_scene(const Project& project, const FootageShape& footage) {
   Scene scene{.camera = {.lens = *Lens::make({}), .size_px = footage.size_px},
-              .motion = steady_motion(project.camera),
+              .motion = steady_motion(project),
               .light = light_of(project.light),
               .compositing = project.compositing,
               .appearance = project.appearance,
@@ -141,6 +158,52 @@ Result<FrameRange, Problem> scene_range(const FootageSettings& settings, const F
   if (range.first < 0 || range.first >= count) return problem("footage.first_frame", available);
   if (range.last < range.first || range.last >= count) return problem("footage.last_frame", available);
   return range;
+}
+
+Result<std::optional<Timeline>, Problem> scene_timeline(const Project& project, SceneFiles& files) {
+  if (!project.rig_view || project.rig_view->camera == 0) return std::optional<Timeline>();
+  Project first = project;
+  first.footage = project.rig_view->reference;
+  first.rig_view->camera = 0;
+  Result<FootageShape> footage = files.footage_shape(resolved(first, first.footage.video), timing_of(first));
+  if (!footage) return problem("cameras[0].footage.video", footage.error().text(), footage.error().kind);
+  const Result<FrameRange, Problem> range = scene_range(first.footage, *footage);
+  if (!range) return problem("cameras[0]." + range.error().field, range.error().what);
+  return Timeline{*std::move(footage), range->first, range->last};
+}
+
+namespace {
+
+// What of a range lies within the timeline's, by the middles between its frames.
+Result<FrameRange, Problem> common_range(const FrameRange& range, const FootageShape& footage,
+                                         const Timeline& timeline) {
+  const double first_s = time_of_frame_s(timeline.footage, timeline.first_frame);
+  const double last_s = time_of_frame_s(timeline.footage, timeline.last_frame);
+  const double first = std::ceil(frame_at_time(footage, first_s) - 0.5);
+  const double last = std::floor(frame_at_time(footage, last_s) + 0.5);
+  const FrameRange common{static_cast<int>(std::clamp<double>(first, range.first, range.last + 1.0)),
+                          static_cast<int>(std::clamp<double>(last, range.first - 1.0, range.last))};
+  if (common.first <= common.last) return common;
+  return problem("clock.offset_s",
+                 fmt::format("puts its frames {} to {} at {:.3f} to {:.3f} s, when the first camera, from {:.3f} to "
+                             "{:.3f} s, is not filming",
+                             range.first, range.last, time_of_frame_s(footage, range.first),
+                             time_of_frame_s(footage, range.last), first_s, last_s));
+}
+
+}  // namespace
+
+Result<void, Problem> set_range(Scene& scene, const Project& project, SceneFiles& files) {
+  Result<FrameRange, Problem> range = scene_range(project.footage, scene.footage);
+  if (!range) return tl::unexpected<Problem>(range.error());
+  Result<std::optional<Timeline>, Problem> timeline = scene_timeline(project, files);
+  if (!timeline) return tl::unexpected<Problem>(timeline.error());
+  if (*timeline) range = common_range(*range, scene.footage, **timeline);
+  if (!range) return tl::unexpected<Problem>(range.error());
+  scene.timeline = *std::move(timeline);
+  scene.first_frame = range->first;
+  scene.last_frame = range->last;
+  return {};
 }
 
 std::optional<LensModel> lens_model_of(LensModelChoice choice) {
@@ -169,8 +232,11 @@ Result<std::vector<PlatformAttitude>, Problem> scene_platform_attitudes(const Pr
   if (project.camera.attitude_file.empty()) return turns;
   const Result<std::vector<AttitudeAtFrame>> known = files.attitudes(resolved(project, project.camera.attitude_file));
   if (!known) return in_field("camera.attitude_file", known.error());
+  const Result<std::optional<Timeline>, Problem> timeline = scene_timeline(project, files);
+  if (!timeline) return tl::unexpected<Problem>(timeline.error());
+  const FootageShape& counted = *timeline ? (*timeline)->footage : footage;
   for (const AttitudeAtFrame& one : *known)
-    turns.push_back({time_of_frame_s(footage, one.frame), rotation_of(one.attitude)});
+    turns.push_back({time_of_frame_s(counted, one.frame), rotation_of(one.attitude)});
   return turns;
 }
 
@@ -233,15 +299,14 @@ TrajectorySettings trajectory_settings(const TrajectoryPlan& plan, const std::ve
 Result<Trajectory, Problem> scene_trajectory(const Project& project, std::size_t intruder, const Scene& scene) {
   const TrajectoryPlan& plan = project.intruders[intruder].trajectory;
   const std::string key = key_of_intruder(intruder) + ".trajectory.";
-  const std::vector<double> frames = waypoint_frames(plan.waypoints, scene.first_frame, scene.last_frame);
+  const std::vector<double> frames = waypoint_frames(plan.waypoints, scene);
   for (std::size_t i = 1; i < frames.size(); ++i)
     if (frames[i] <= frames[i - 1])
       return problem(
           fmt::format("{}waypoints[{}].frame", key, i),
           fmt::format("is {}, not after waypoints[{}], which has {}", waypoint_frame_text(plan.waypoints[i], frames[i]),
                       i - 1, waypoint_frame_text(plan.waypoints[i - 1], frames[i - 1])));
-  const std::vector<TimedWaypoint> timed =
-      timed_waypoints(plan.waypoints, scene.footage, scene.first_frame, scene.last_frame);
+  const std::vector<TimedWaypoint> timed = timed_waypoints(plan.waypoints, scene);
   Result<Trajectory> trajectory = Trajectory::make(timed, trajectory_settings(plan, timed));
   if (!trajectory) return problem(key + trajectory.error().where, trajectory.error().what);
   return *std::move(trajectory);

@@ -24,7 +24,7 @@ namespace sigs {
 [[nodiscard]] std::string key_of_intruder(std::size_t intruder);
 
 // The camera's motion without any file: straight on along world X with the platform level.
-[[nodiscard]] CameraMotion steady_motion(const CameraSettings& camera);
+[[nodiscard]] CameraMotion steady_motion(const Project& project);
 
 // What needs no file and cannot fail: camera motion with the platform level, light, compositing, footage. The lens is a
 // default one, there are no intruders, and the range is not set.
@@ -32,6 +32,14 @@ namespace sigs {
 
 // First and last frame; a problem where they are not frames of the footage or not in order.
 [[nodiscard]] Result<FrameRange, Problem> scene_range(const FootageSettings& settings, const FootageShape& footage);
+
+// Scene::timeline; none where the footage is the first camera's.
+[[nodiscard]] Result<std::optional<Timeline>, Problem> scene_timeline(const Project& project, SceneFiles& files);
+
+// Sets first and last frame of a scene and its timeline: scene_range() and, of a further camera of a rig, of that what
+// lies between the first and the last frame of the first camera, less than a frame beyond them; a problem where nothing
+// does.
+[[nodiscard]] Result<void, Problem> set_range(Scene& scene, const Project& project, SceneFiles& files);
 
 // The calibrated camera, scaled to the footage's size.
 [[nodiscard]] Result<Camera, Problem> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
@@ -72,10 +80,13 @@ namespace sigs {
 // The first and the last waypoint without a frame get the first and the last frame of the range.
 [[nodiscard]] std::vector<double> waypoint_frames(const std::vector<WaypointSettings>& waypoints, int first_frame,
                                                   int last_frame);
+[[nodiscard]] std::vector<double> waypoint_frames(const std::vector<WaypointSettings>& waypoints, const Scene& scene);
 
 // The waypoints with their times (waypoint_frames, time_of_frame_s), ready for Trajectory::make.
 [[nodiscard]] std::vector<TimedWaypoint> timed_waypoints(const std::vector<WaypointSettings>& waypoints,
                                                          const FootageShape& footage, int first_frame, int last_frame);
+[[nodiscard]] std::vector<TimedWaypoint> timed_waypoints(const std::vector<WaypointSettings>& waypoints,
+                                                         const Scene& scene);
 
 // Appends an intruder to the scene. A model that the scene does not have yet is added, with its mesh's warnings.
 void add_intruder(Scene& scene, const std::string& name, const std::shared_ptr<const Model>& model,

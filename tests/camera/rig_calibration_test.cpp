@@ -79,7 +79,7 @@ std::string replaced(std::string text, const std::string& part, const std::strin
 }
 
 // Where a point of one camera, in OpenCV's axes, lies in the first one by our pose, in OpenCV's axes too.
-cv::Vec4d in_first(const RigCamera& camera, const cv::Vec4d& p) {
+cv::Vec4d in_first(const CalibratedCamera& camera, const cv::Vec4d& p) {
   const glm::dvec3 q = optical_of(camera.first_from_camera * camera_of(glm::dvec3(p[0], p[1], p[2])));
   return {q.x, q.y, q.z, 1};
 }
@@ -406,7 +406,7 @@ TEST_CASE("a rig's file that is cut off at any byte, or has a byte changed, is r
       return;
     }
     CHECK(rig->cameras.size() >= 2);
-    for (const RigCamera& camera : rig->cameras) {
+    for (const CalibratedCamera& camera : rig->cameras) {
       const double length = glm::length(camera.first_from_camera.rotation);
       CHECK(std::abs(length - 1) < 1e-9);
       CHECK(glm::length(camera.first_from_camera.translation_m) < 3000);

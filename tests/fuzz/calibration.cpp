@@ -45,7 +45,7 @@ void try_calibration(const FuzzInput& input) {
   const Result<RigCalibration> rig = read_rig_calibration(path, {.size_px = cv::Size(640, 480)});
   if (!rig) return check_message(rig.error());
   check_messages(rig->warnings);
-  for (const RigCamera& one : rig->cameras) {
+  for (const CalibratedCamera& one : rig->cameras) {
     ENSURE(std::abs(glm::length(one.first_from_camera.rotation) - 1) < 1e-9);
     check_camera(one.camera);
   }

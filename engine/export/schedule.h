@@ -12,8 +12,8 @@
 
 namespace sigs {
 
-// Which videos of a dataset are made at the same time, and how they share the decoder of their footage. None of it
-// changes their bytes.
+// Which videos of a dataset, or of the cameras of a rig, are made at the same time, and how they share the decoder of
+// their footage. None of it changes their bytes.
 
 // A video to be made.
 struct PendingVideo {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/schedule.h"
+#include "export/schedule.h"
 
 #include <algorithm>
 #include <exception>

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "export/export_rig.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "base/staged_outputs.h"
+#include "base/threads.h"
+#include "export/schedule.h"
+#include "labels/label_files.h"
+#include "project/rig.h"
+#include "project/validate.h"
+#include "rig/rig_truth.h"
+#include "scene/opened_project.h"
+#include "scene/scene_parts.h"
+
+namespace sigs {
+
+namespace {
+
+// A camera before its export.
+struct PlannedCamera {
+  Project project;
+  FrameRange frames;
+  Camera camera;
+  cv::Size size_px;
+};
+
+// The frames of a camera, of those of its scene, that were taken at the time of others of the first camera.
+FrameRange frames_at(const Scene& scene, const Scene& first, const FrameRange& of_first) {
+  const auto frame_of = [&](int frame) { return frame_at_time(scene.footage, time_of_frame_s(first.footage, frame)); };
+  return {std::max(scene.first_frame, static_cast<int>(std::ceil(frame_of(of_first.first) - 0.5))),
+          std::min(scene.last_frame, static_cast<int>(std::floor(frame_of(of_first.last) + 0.5)))};
+}
+
+Result<PlannedCamera> planned(Project project, std::optional<Scene>& first, const std::optional<FrameRange>& asked_for,
+                              SceneFiles& files) {
+  const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
+  Result<FootageShape> shape = files.footage_shape(resolved(project, project.footage.video), timing_of(project));
+  if (!shape) return failed({"footage.video", shape.error().text(), shape.error().kind});
+  Scene scene = bare_scene(project, in_rig_time(*std::move(shape), project));
+  if (const Result<void, Problem> timed = set_range(scene, project, files); !timed) return failed(timed.error());
+  const Result<Camera, Problem> camera = scene_camera(project, scene.footage.size_px, files);
+  if (!camera) return failed(camera.error());
+  FrameRange frames{scene.first_frame, scene.last_frame};
+  if (asked_for && !first) {
+    const Result<FrameRange> range = range_in(scene, asked_for);
+    if (!range) return fail(range.error());
+    frames = *range;
+  } else if (asked_for) {
+    frames = frames_at(scene, *first, *asked_for);
+    if (frames.first > frames.last)
+      return fail(fmt::format("frames {}-{}", asked_for->first, asked_for->last),
+                  fmt::format("camera \"{}\" has no frame at that time", project.rig_view->name), ErrorKind::usage);
+  }
+  const cv::Size size_px = scene.footage.size_px;
+  if (!first) first = std::move(scene);
+  return PlannedCamera{std::move(project), frames, *camera, size_px};
+}
+
+Result<std::vector<PlannedCamera>> planned_cameras(const ExportRequest& request, SceneFiles& files) {
+  if (const std::vector<Problem> problems = validate(request.project); !problems.empty())
+    return fail(error_of(request.project, problems.front()));
+  std::vector<PlannedCamera> cameras;
+  std::optional<Scene> first;
+  for (Project& project : seen_by_each(request.project)) {
+    Result<PlannedCamera> camera = planned(std::move(project), first, request.frames, files);
+    if (!camera) return fail(camera.error());
+    cameras.push_back(*std::move(camera));
+  }
+  return cameras;
+}
+
+RigTruth truth_of(const std::vector<PlannedCamera>& cameras) {
+  std::vector<RigCameraGeometry> geometry;
+  for (const PlannedCamera& one : cameras) {
+    const RigView& view = *one.project.rig_view;
+    geometry.push_back({view.name, one.camera, view.mount, view.clock,
+                        std::filesystem::path(one.project.footage.video).filename().string(), one.frames});
+  }
+  std::vector<std::string> intruders;
+  for (const IntruderSettings& intruder : cameras.front().project.intruders) intruders.push_back(intruder.name);
+  return {std::move(geometry), std::move(intruders)};
+}
+
+// Exports all cameras, several at a time where they share their footage.
+class RigExport {
+ public:
+  RigExport(const ExportRequest& request, const ExportControl& control, const std::vector<PlannedCamera>& cameras,
+            SceneFiles& files, RigTruth& truth)
+      : request_(request),
+        control_(control),
+        cameras_(cameras),
+        files_(files),
+        truth_(truth),
+        done_(cameras.size()),
+        reports_(cameras.size()) {
+    for (const PlannedCamera& camera : cameras) total_ += camera.frames.last - camera.frames.first + 1;
+  }
+
+  Result<std::vector<ExportReport>> run() {
+    std::vector<PendingVideo> videos;
+    for (const PlannedCamera& camera : cameras_) videos.push_back({&camera.project, camera.frames, camera.size_px});
+    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const Schedule schedule = schedule_of(videos, 0, cores);
+    for (const Batch& batch : schedule.batches) {
+      if (batch.kind == Batch::Kind::shared) {
+        const int jobs = schedule.jobs_of_each(batch, cores);
+        make_sharing(batch, videos, control_.cancel,
+                     [&](std::size_t camera, FrameSource* footage) { export_one(camera, footage, jobs); });
+      } else {
+        for (const std::size_t camera : batch.videos)
+          if (!error_) export_one(camera, nullptr, request_.jobs);
+      }
+      if (error_) return fail(*error_);
+    }
+    return std::move(reports_);
+  }
+
+ private:
+  void export_one(std::size_t camera, FrameSource* footage, int jobs) {
+    ExportRequest request = request_;
+    request.project = cameras_[camera].project;
+    request.frames = cameras_[camera].frames;
+    request.jobs = jobs;
+    request.footage = footage;
+    request.files = &files_;
+    request.see_truth = [&, camera](const FrameTruth& truth) { truth_.add(camera, truth); };
+    ExportControl control{.cancel = control_.cancel};
+    control.progress = [&, camera](int done, int) {
+      const std::lock_guard lock(mutex_);
+      done_[camera] = done;
+      if (control_.progress) control_.progress(std::accumulate(done_.begin(), done_.end(), 0), total_);
+    };
+    control.warn = [&](const Warning& warning) {
+      const std::lock_guard lock(mutex_);
+      if (control_.warn) control_.warn(warning);
+    };
+    Result<ExportReport> report = export_project(request, control);
+    const std::lock_guard lock(mutex_);
+    if (!report && !error_) error_ = report.error();
+    if (report) reports_[camera] = *std::move(report);
+  }
+
+  const ExportRequest& request_;
+  const ExportControl& control_;
+  const std::vector<PlannedCamera>& cameras_;
+  SceneFiles& files_;
+  RigTruth& truth_;
+  int total_ = 0;
+  std::mutex mutex_;  // of what follows
+  std::vector<int> done_;
+  std::vector<ExportReport> reports_;
+  std::optional<Error> error_;
+};
+
+Result<RigReport> exported_rig(const ExportRequest& request, const ExportControl& control) {
+  SceneFiles files;
+  const Result<std::vector<PlannedCamera>> cameras = planned_cameras(request, files);
+  if (!cameras) return fail(cameras.error());
+  if (const Result<void> folder = make_inner_folder(request.folder); !folder) return fail(folder.error());
+  StagedOutputs outputs(request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  const std::string base = (request.folder / request.project.name).string();
+  const Result<std::filesystem::path> json = outputs.add_file(base + std::string(kRigSuffix));
+  if (!json) return fail(json.error());
+  const Result<std::filesystem::path> table = outputs.add_file(base + std::string(kRigTableSuffix));
+  if (!table) return fail(table.error());
+
+  RigTruth truth = truth_of(*cameras);
+  Result<std::vector<ExportReport>> reports = RigExport(request, control, *cameras, files, truth).run();
+  if (!reports) return fail(reports.error());
+  for (const auto& [path, text] :
+       {std::pair(*json, truth.json(request.project.name)), std::pair(*table, truth.csv())}) {
+    Result<TextFile> file = TextFile::create(path);
+    if (!file) return fail(outputs.with_final_names(file.error()));
+    if (const Result<void> step = file->put(text); !step) return fail(outputs.with_final_names(step.error()));
+    if (const Result<void> step = file->close(); !step) return fail(outputs.with_final_names(step.error()));
+  }
+  if (const Result<void> step = outputs.commit(); !step) return fail(step.error());
+  RigReport report{.cameras = *std::move(reports)};
+  for (const ExportReport& camera : report.cameras)
+    report.written.insert(report.written.end(), camera.written.begin(), camera.written.end());
+  for (const std::filesystem::path& path : outputs.final_paths()) report.written.push_back(path);
+  return report;
+}
+
+}  // namespace
+
+Result<RigReport> export_rig(const ExportRequest& request, const ExportControl& control) {
+  return guarded([&] { return exported_rig(request, control); });
+}
+
+}  // namespace sigs

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "rig/rig_truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/csv.h"
+#include "base/json.h"
+#include "project/rig.h"
+
+namespace sigs {
+
+namespace {
+
+double bearing_of(const glm::dvec3& p_in_body) {
+  return std::atan2(p_in_body.y, p_in_body.x);
+}
+
+double elevation_of(const glm::dvec3& p_in_body) {
+  return std::atan2(-p_in_body.z, std::hypot(p_in_body.x, p_in_body.y));
+}
+
+}  // namespace
+
+std::optional<double> range_error_m_per_px(const RigCameraGeometry& first, const RigCameraGeometry& second,
+                                           const glm::dvec3& p_in_body) {
+  constexpr double kStep = 1e-3;  // of the distance
+  const glm::dvec3 ray_m = p_in_body - first.mount.position_m;
+  const double distance_m = glm::length(ray_m);
+  const Pose<frame::Camera, frame::Body> camera_from_body = inverse(body_from_camera(second.mount));
+  const auto pixel_at = [&](double share) {
+    return second.camera.lens.pixel(camera_from_body * (first.mount.position_m + ray_m * share));
+  };
+  const std::optional<glm::dvec2> nearer = pixel_at(1 - kStep);
+  const std::optional<glm::dvec2> farther = pixel_at(1 + kStep);
+  if (!nearer || !farther) return std::nullopt;
+  const double px_per_m = glm::length(*farther - *nearer) / (2 * kStep * distance_m);
+  const double error_m = 1 / px_per_m;
+  return std::isfinite(error_m) ? std::optional(error_m) : std::nullopt;
+}
+
+RigTruth::RigTruth(std::vector<RigCameraGeometry> cameras, std::vector<std::string> intruders)
+    : cameras_(std::move(cameras)),
+      intruders_(std::move(intruders)),
+      seen_(cameras_.size(), std::vector<std::vector<Seen>>(intruders_.size())) {}
+
+void RigTruth::add(std::size_t camera, const FrameTruth& truth) {
+  const Pose<frame::Body, frame::Camera> body_from = body_from_camera(cameras_.at(camera).mount);
+  const std::lock_guard lock(mutex_);
+  for (const IntruderTruth& intruder : truth.intruders)
+    seen_[camera]
+        .at(static_cast<std::size_t>(intruder.id))
+        .push_back({.frame = truth.index,
+                    .time_s = truth.time_s,
+                    .is_visible = intruder.visible_box.has_value(),
+                    .visible_fraction = intruder.visible_fraction,
+                    .position_m = body_from * intruder.position_m});
+}
+
+// None farther away than half of the usual interval between frames, or a little more.
+const RigTruth::Seen* RigTruth::nearest(std::size_t camera, std::size_t intruder, double time_s) const {
+  const std::vector<Seen>& frames = seen_[camera][intruder];
+  if (frames.empty()) return nullptr;
+  const auto after = std::lower_bound(frames.begin(), frames.end(), time_s,
+                                      [](const Seen& one, double wanted_s) { return one.time_s < wanted_s; });
+  auto best = after == frames.end() ? std::prev(after) : after;
+  if (after != frames.begin() && time_s - std::prev(after)->time_s < std::abs(best->time_s - time_s))
+    best = std::prev(after);
+  const double interval_s =
+      frames.size() < 2 ? 0 : (frames.back().time_s - frames.front().time_s) / static_cast<double>(frames.size() - 1);
+  return std::abs(best->time_s - time_s) <= 0.75 * interval_s + 1e-9 ? &*best : nullptr;
+}
+
+std::vector<RigRow> RigTruth::rows() const {
+  std::vector<RigRow> rows;
+  const std::size_t frames = intruders_.empty() || cameras_.empty() ? 0 : seen_[0][0].size();
+  for (std::size_t n = 0; n < frames; ++n) {
+    for (std::size_t i = 0; i < intruders_.size(); ++i) {
+      const Seen& first = seen_[0][i].at(n);
+      RigRow row{.frame = first.frame,
+                 .time_s = first.time_s,
+                 .intruder = static_cast<int>(i),
+                 .range_m = glm::length(first.position_m),
+                 .bearing_rad = bearing_of(first.position_m),
+                 .elevation_rad = elevation_of(first.position_m)};
+      for (std::size_t k = 0; k < cameras_.size(); ++k) {
+        const Seen* const seen = nearest(k, i, first.time_s);
+        row.visible_fraction.push_back(seen != nullptr ? std::optional(seen->visible_fraction) : std::nullopt);
+        row.is_visible.push_back(seen != nullptr && seen->is_visible);
+      }
+      for (std::size_t a = 0; a < cameras_.size(); ++a)
+        for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
+          if (!row.is_visible[a] || !row.is_visible[b]) continue;
+          const auto by_b = range_error_m_per_px(cameras_[a], cameras_[b], first.position_m);
+          const auto by_a = range_error_m_per_px(cameras_[b], cameras_[a], first.position_m);
+          if (!by_a || !by_b) continue;
+          const double error_m = std::max(*by_a, *by_b);
+          if (!row.stereo || error_m < row.stereo->error_m_per_px) row.stereo = StereoRange{a, b, error_m};
+        }
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+std::vector<CameraView> RigTruth::views(int intruder) const {
+  std::vector<CameraView> views;
+  for (std::size_t k = 0; k < cameras_.size(); ++k) {
+    const std::vector<Seen>& frames = seen_[k].at(static_cast<std::size_t>(intruder));
+    bool goes_on = false;
+    for (std::size_t n = 0; n < frames.size(); ++n) {
+      if (frames[n].is_visible && !goes_on) views.push_back({k, frames[n].time_s, frames[n].time_s});
+      if (frames[n].is_visible) views.back().last_s = frames[n].time_s;
+      goes_on = frames[n].is_visible;
+    }
+  }
+  std::stable_sort(views.begin(), views.end(),
+                   [](const CameraView& a, const CameraView& b) { return a.first_s < b.first_s; });
+  return views;
+}
+
+std::vector<Handover> RigTruth::handovers(int intruder) const {
+  const std::vector<CameraView> views = this->views(intruder);
+  std::vector<Handover> handovers;
+  if (views.empty()) return handovers;
+  const CameraView* holder = &views.front();
+  while (true) {
+    // Of the views that go on when the holder's ends the one that lasts longest; else the first that begins afterwards.
+    const CameraView* next = nullptr;
+    for (const CameraView& view : views)
+      if (view.first_s <= holder->last_s && view.last_s > holder->last_s &&
+          (next == nullptr || view.last_s > next->last_s))
+        next = &view;
+    for (const CameraView& view : views)
+      if (next == nullptr && view.first_s > holder->last_s) next = &view;
+    if (next == nullptr) return handovers;
+    handovers.push_back({holder->camera, next->camera, holder->last_s, next->first_s - holder->last_s});
+    holder = next;
+  }
+}
+
+namespace {
+
+Json numbers_of(const glm::dvec3& vector) {
+  return Json::array({vector.x, vector.y, vector.z});
+}
+
+Json json_of(const RigCameraGeometry& camera) {
+  const LensParameters& lens = camera.camera.lens.parameters();
+  const glm::dquat turn = body_from_camera(camera.mount).rotation;
+  return {{"name", camera.name},
+          {"video", camera.video},
+          {"width", camera.camera.size_px.width},
+          {"height", camera.camera.size_px.height},
+          {"first_frame", camera.frames.first},
+          {"last_frame", camera.frames.last},
+          {"lens",
+           {{"model", name_of(lens.model)},
+            {"fx", lens.fx},
+            {"fy", lens.fy},
+            {"cx", lens.cx},
+            {"cy", lens.cy},
+            {"coefficients", lens.coefficients}}},
+          {"mount",
+           {{"position_m", numbers_of(camera.mount.position_m)},
+            {"attitude_deg",
+             {{"roll", camera.mount.roll_deg}, {"pitch", camera.mount.pitch_deg}, {"yaw", camera.mount.yaw_deg}}},
+            {"body_from_camera_wxyz", Json::array({turn.w, turn.x, turn.y, turn.z})}}},
+          {"clock", {{"offset_s", camera.clock.offset_s}, {"drift_ppm", camera.clock.drift_ppm}}}};
+}
+
+}  // namespace
+
+std::string RigTruth::json(const std::string& name) const {
+  Json json{{"sigs_rig", 1}, {"name", name}, {"cameras", Json::array()}, {"intruders", Json::array()}};
+  for (const RigCameraGeometry& camera : cameras_) json["cameras"].push_back(json_of(camera));
+  for (std::size_t i = 0; i < intruders_.size(); ++i) {
+    Json views = Json::array();
+    for (const CameraView& view : this->views(static_cast<int>(i)))
+      views.push_back({{"camera", cameras_[view.camera].name}, {"first_s", view.first_s}, {"last_s", view.last_s}});
+    Json changes = Json::array();
+    for (const Handover& one : handovers(static_cast<int>(i)))
+      changes.push_back({{"time_s", one.time_s},
+                         {"from", cameras_[one.from].name},
+                         {"to", cameras_[one.to].name},
+                         {"gap_s", one.gap_s}});
+    json["intruders"].push_back(
+        {{"id", i}, {"name", intruders_[i]}, {"views", std::move(views)}, {"handovers", std::move(changes)}});
+  }
+  return json_text(json);
+}
+
+std::string RigTruth::csv() const {
+  constexpr double kDegree_rad = std::numbers::pi / 180;
+  std::string text =
+      "frame,time_s,intruder,name,range_m,bearing_deg,elevation_deg,seen_by,stereo_pair,stereo_error_m_per_px";
+  for (const RigCameraGeometry& camera : cameras_) text += "," + csv_field(camera.name + "_visible_fraction");
+  text += "\n";
+  for (const RigRow& row : rows()) {
+    std::string seen_by;
+    for (std::size_t k = 0; k < cameras_.size(); ++k)
+      if (row.is_visible[k]) seen_by += (seen_by.empty() ? "" : "+") + cameras_[k].name;
+    text += fmt::format("{},{:.6f},{},{},{:.6f},{:.6f},{:.6f},{}", row.frame, row.time_s, row.intruder,
+                        csv_field(intruders_[static_cast<std::size_t>(row.intruder)]), row.range_m,
+                        row.bearing_rad / kDegree_rad, row.elevation_rad / kDegree_rad, csv_field(seen_by));
+    text += row.stereo
+                ? fmt::format(",{},{:.6g}",
+                              csv_field(cameras_[row.stereo->first].name + "+" + cameras_[row.stereo->second].name),
+                              row.stereo->error_m_per_px)
+                : ",,";
+    for (const std::optional<double>& fraction : row.visible_fraction)
+      text += fraction ? fmt::format(",{:.6f}", *fraction) : ",";
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace sigs
