@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "ego_motion/ego_motion.h"
 #include "ego_motion/settings.h"
 #include "ego_motion/time_offset.h"
+#include "telemetry/track.h"
+#include "video/recording.h"
 
 namespace sigs {
 
@@ -60,5 +65,50 @@ struct TurnSync {
 // fit as well; cancelled.
 [[nodiscard]] Result<TurnSync> clock_by_turns(std::span<const SeenTurn> first, std::span<const SeenTurn> second,
                                               const TurnSyncSettings& settings = {}, const StepControl& control = {});
+
+// The offset by the sound of both files, by the generalised cross correlation with phase transform (Knapp and Carter
+// 1976) between 80 and 3500 Hz: parts of up to 20 s of the first one are looked for in all of the second one, and those
+// that are found clearly have to agree. The deviation is that of the parts, and 10 ms by which cameras record image and
+// sound apart.
+// Errors (bad_data), without a place: shorter than a second, silent, no offset that stands out, parts that disagree.
+[[nodiscard]] Result<ClockOffset> clock_by_sound(const Sound& first, const Sound& second, double max_offset_s = 3600,
+                                                 const std::atomic<bool>* cancel = nullptr);
+
+// The offset by the time codes of both frames 0, to 12 hours. Deviation: one frame of each, evenly distributed; where
+// one of the codes counts 29.97 or 59.94 frames without dropping numbers and the other is of another kind, what the
+// hours of the day add besides. Clocks that were never set alike show no deviation of their own.
+[[nodiscard]] ClockOffset clock_by_time_codes(const TimeCode& first, const TimeCode& second);
+
+// What offsets can be found by, the most exact first.
+enum class ClockSource { turns, sound, log, time_code, creation_time };
+
+// "turns", "sound", "log", "time code", "creation time".
+[[nodiscard]] const char* name_of(ClockSource source);
+
+// What is known of a camera.
+struct CameraRecording {
+  std::filesystem::path video;
+  const EgoMotion* motion = nullptr;  // null: not estimated
+  const Track* log = nullptr;         // null: none
+};
+
+struct ClockFinding {
+  ClockSource source = ClockSource::turns;
+  std::optional<ClockOffset> clock;  // none: `text` says why
+  std::string text;                  // one line: what it rests on
+  std::optional<TurnSync> turns;     // of source turns, where it was found
+};
+
+// What each source shows of the second camera's clock, in the order of ClockSource.
+//   sources  those to look at; empty: all
+// Errors: interrupted. What cannot be read is said in the finding.
+[[nodiscard]] Result<std::vector<ClockFinding>> found_clocks(const CameraRecording& first,
+                                                             const CameraRecording& second,
+                                                             std::span<const ClockSource> sources = {},
+                                                             const TurnSyncSettings& settings = {},
+                                                             const StepControl& control = {});
+
+// The finding with the least deviation, whose place in the list it is. None: nothing was found.
+[[nodiscard]] std::optional<std::size_t> best_of(std::span<const ClockFinding> findings);
 
 }  // namespace sigs
