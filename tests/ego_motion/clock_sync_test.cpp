@@ -37,15 +37,16 @@ EgoMotion motion_in(const std::filesystem::path& path, const Camera& camera) {
 Sound heard(double from_s, double length_s, double own_noise, unsigned seed) {
   std::mt19937 common(7);
   std::mt19937 own(seed);
-  std::normal_distribution<float> normal;
+  std::normal_distribution<float> of_all;  // one each: a distribution keeps every other value for its next call
+  std::normal_distribution<float> of_one;
   Sound sound{.rate_hz = 8000, .first_s = 0, .samples = {}};
   const auto skipped = static_cast<std::size_t>(from_s * 8000);
   float last = 0;
   for (std::size_t i = 0; i < skipped + static_cast<std::size_t>(length_s * 8000); ++i) {
-    last = 0.6f * last + normal(common);
+    last = 0.6f * last + of_all(common);
     const double t = static_cast<double>(i) / 8000;
     const double swelling = 0.05 * (1 + 0.5 * std::sin(0.7 * t)) * last;
-    if (i >= skipped) sound.samples.push_back(static_cast<float>(swelling + 0.05 * own_noise * normal(own)));
+    if (i >= skipped) sound.samples.push_back(static_cast<float>(swelling + 0.05 * own_noise * of_one(own)));
   }
   return sound;
 }
@@ -109,7 +110,7 @@ TEST_CASE("a real clip cut twice, the second of every other frame from 2.4 s on,
 }
 
 TEST_CASE("sound of two microphones is found in one another, with noise of its own in each, and drift") {
-  for (const double start_s : {0.0, 3.21075, -0.0}) {
+  for (const double start_s : {0.0, 3.21075}) {
     Sound first = heard(0, 40, 0.5, 1);
     Sound second = heard(start_s, 30, 0.5, 2);
     first.first_s = 0.25;
