@@ -60,8 +60,9 @@ Result<Project> rig_project_of(const fs::path& file) {
 
 std::string attitude_text(const glm::dquat& rotation) {
   const Attitude attitude = attitude_of(rotation);
-  return fmt::format("{:8.3f} {:8.3f} {:8.3f}", deg_of_rad(attitude.roll_rad), deg_of_rad(attitude.pitch_rad),
-                     deg_of_rad(attitude.yaw_rad));
+  const auto rounded_deg = [](double angle_rad) { return std::round(1000 * deg_of_rad(angle_rad)) / 1000 + 0.0; };
+  return fmt::format("{:8.3f} {:8.3f} {:8.3f}", rounded_deg(attitude.roll_rad), rounded_deg(attitude.pitch_rad),
+                     rounded_deg(attitude.yaw_rad));
 }
 
 void print_rig(const RigCalibration& rig) {

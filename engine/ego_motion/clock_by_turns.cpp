@@ -44,14 +44,18 @@ class FineFit {
     const double from_s = std::max(second.first_s(), first.first_s() - start.offset_s);
     const double to_s = std::min(second.last_s(), first.last_s() - start.offset_s);
     middle_s_ = (from_s + to_s) / 2;
+    span_s_ = to_s - from_s;
   }
 
   // With drift first, which is kept where it is significant.
   [[nodiscard]] Result<TurnSync> run() {
-    if (!converged(true)) return failed();
-    const double drift_sd = deviations_.size() > 1 ? deviations_[1] : std::numeric_limits<double>::infinity();
+    constexpr double kLongEnough_s = 60;  // in less, a drift of clocks is shorter than errors of attitudes that last
+    const bool may_drift = span_s_ >= kLongEnough_s;
+    if (!may_drift) drift_ = 0;
+    if (!converged(may_drift)) return failed();
+    const double drift_sd = may_drift ? deviations_[1] : std::numeric_limits<double>::infinity();
     constexpr double kSignificant = 3;
-    if (!(std::abs(drift_) > kSignificant * drift_sd)) {
+    if (may_drift && !(std::abs(drift_) > kSignificant * drift_sd)) {
       drift_ = 0;
       if (!converged(false)) return failed();
     }
@@ -235,6 +239,7 @@ class FineFit {
   double shift_s_;  // at the middle
   double drift_;
   double middle_s_ = 0;
+  double span_s_ = 0;
   std::vector<double> deviations_;  // offset, drift where it is fitted, three of the rotation where that is
   double correlation_ = 0;
   double seen_s_ = 0;

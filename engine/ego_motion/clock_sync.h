@@ -57,7 +57,7 @@ struct TurnSync {
 //      it. Which offset is the most significant counts, by the number of independent samples (Bartlett 1946), so that a
 //      short overlap does not win by chance.
 //   2. Angles, less their mean over two seconds, are fitted by offset, rotation and drift (Gauss and Newton; weights of
-//      Geman and McClure).
+//      Geman and McClure); drift where both have seen a minute or more.
 // Standard deviations are by the scatter among parts of half a second ("sandwich", White 1980), so that errors which
 // are not independent from frame to frame count, and at least 0.3 ms. Turns are in order of time. A rolling shutter
 // shifts what is found by what the middles of exposure are off the frames' times (EgoMotionSettings::readout_s). Errors
