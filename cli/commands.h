@@ -31,6 +31,7 @@ using Command = std::function<Result<void>()>;
 [[nodiscard]] Command add_model_command(CLI::App& program);            // sigs model, with its two subcommands
 [[nodiscard]] Command add_occluder_command(CLI::App& program);         // sigs occluder
 [[nodiscard]] Command add_path_command(CLI::App& program);             // sigs path
+[[nodiscard]] Command add_rig_command(CLI::App& program);              // sigs rig, with its two subcommands
 [[nodiscard]] Command add_risk_command(CLI::App& program);             // sigs risk
 [[nodiscard]] Command add_telemetry_command(CLI::App& program);        // sigs telemetry
 

@@ -153,10 +153,11 @@ struct InfoOptions {
 
 Result<void> info(const InfoOptions& options) {
   const std::filesystem::path& path = options.path;
+  const std::filesystem::path file = calibration_name(path).file;
   std::error_code code;
-  if (!std::filesystem::exists(path, code) && !is_number_pattern(path))
+  if (!std::filesystem::exists(file, code) && !is_number_pattern(path))
     return fail(path.string(), "no such file", ErrorKind::cannot_read);
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_extension(file);
   if (extension == ".obj") {
     const Result<Mesh> mesh = read_obj(path);
     if (!mesh) return fail(mesh.error());

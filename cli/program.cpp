@@ -53,11 +53,26 @@ Program make_program() {
   program.app->set_version_flag("--version", std::string("sigs ") + SIGS_VERSION);
   program.app->require_subcommand(1);
   program.app->footer(kProgramFooter);
-  for (const auto add :
-       {add_init_command, add_export_command, add_frame_command, add_mask_command, add_occluder_command,
-        add_dataset_command, add_evaluate_command, add_check_command, add_info_command, add_telemetry_command,
-        add_ego_motion_command, add_appearance_command, add_path_command, add_calibrate_command, add_compare_command,
-        add_encounter_command, add_encounter_model_command, add_risk_command, add_model_command}) {
+  for (const auto add : {add_init_command,
+                         add_export_command,
+                         add_frame_command,
+                         add_mask_command,
+                         add_occluder_command,
+                         add_dataset_command,
+                         add_evaluate_command,
+                         add_check_command,
+                         add_info_command,
+                         add_telemetry_command,
+                         add_ego_motion_command,
+                         add_appearance_command,
+                         add_path_command,
+                         add_calibrate_command,
+                         add_compare_command,
+                         add_encounter_command,
+                         add_encounter_model_command,
+                         add_risk_command,
+                         add_model_command,
+                         add_rig_command}) {
     Command run = add(*program.app);
     CLI::App* const command = program.app->get_subcommands({}).back();
     if (command->get_footer() == kProgramFooter) command->footer(footer_of(command->get_name()));

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "camera/camera.h"
 #include "project/json.h"
 
 namespace sigs::editor {
@@ -157,7 +158,10 @@ ContentId content_id_of(const Project& project) {
 
 ContentId input_files_id_of(const Project& project) {
   Digest digest;
-  for_each_input(project, [&](const std::string& path) { add(digest, stamp_of(whole_path(project, path))); });
+  // Of one camera of a rig (rig.yaml#cam1) the file.
+  for_each_input(project, [&](const std::string& path) {
+    add(digest, stamp_of(calibration_name(whole_path(project, path)).file));
+  });
   return digest.id();
 }
 

@@ -134,6 +134,17 @@ class NestingGuard : public YAML::EventHandler {
   int depth_ = 0;
 };
 
+Fields fields_of(const YAML::Node& map) {
+  Fields fields;
+  for (const auto& entry : map) {
+    if (!entry.first.IsScalar()) continue;
+    const std::string& name = entry.first.Scalar();
+    fields.emplace(name, field_of(name, entry.second));
+    if (entry.second.IsMap() && !entry.second["data"]) fields.groups.push_back({name, fields_of(entry.second)});
+  }
+  return fields;
+}
+
 Result<Fields> plain_yaml_fields(const std::string& text, const std::string& file_name) {
   try {
     NestingGuard guard(file_name);
@@ -141,13 +152,7 @@ Result<Fields> plain_yaml_fields(const std::string& text, const std::string& fil
     YAML::Parser(stream).HandleNextDocument(guard);
     const YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) return fail(file_name, "not a calibration: expected XML, or YAML or JSON with keys");
-    Fields fields;
-    for (const auto& entry : root) {
-      if (!entry.first.IsScalar()) continue;
-      Field field = field_of(entry.first.Scalar(), entry.second);
-      fields.emplace(entry.first.Scalar(), std::move(field));
-    }
-    return fields;
+    return fields_of(root);
   } catch (const YAML::Exception& error) {
     return fail(file_name, fmt::format("line {}: {}", error.mark.line + 1, error.msg));
   } catch (const std::exception& error) {

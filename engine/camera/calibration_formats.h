@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <opencv2/core.hpp>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "camera/camera.h"
 #include "camera/lens.h"
 
 namespace sigs::calibration {
@@ -27,10 +29,17 @@ struct Field {
 
 // The fields of a file by key. Formats with keys of their own (Gyroflow) are translated to OpenCV's keys.
 struct Fields : std::map<std::string, Field, std::less<>> {
+  struct Group;
+  std::vector<Group> groups;  // maps of YAML and JSON that are no matrix, in the file's order: cam0, cam1 of Kalibr
   // Only Gyroflow's profiles state these:
   double kept_share = 1;      // share of each side of the image that the camera's stabilisation has kept
   cv::Point2d stretch{1, 1};  // how much wider and higher than the footage the calibration's images are
   std::vector<Warning> warnings{};
+};
+
+struct Fields::Group {
+  std::string name;
+  Fields fields;
 };
 
 // The fields of a calibration text, whose format is recognised by how it begins:
@@ -43,6 +52,21 @@ struct Fields : std::map<std::string, Field, std::less<>> {
 // Errors (bad_data) name file_name and, where known, the line or the key. Texts nested deeper than kMaxNesting
 // (base/nesting.h) and aliases in YAML are errors.
 [[nodiscard]] Result<Fields> fields_in(const std::string& text, const std::string& file_name);
+
+// The cameras of a file by name, each in the keys of a file of one camera, with what ties it to the others (T_cn_cnm1,
+// T_cam_imu) left among its fields. Which files: rig_calibration.h. A file of one camera alone gives it without a name.
+// Errors (bad_data) name file and field: a camera model other than a pinhole, intrinsics that are not 4 numbers.
+[[nodiscard]] Result<std::vector<Fields::Group>> cameras_in(const Fields& fields, const std::string& file_name);
+
+// The camera that the fields of one describe. Parameters and errors as those of read_calibration().
+[[nodiscard]] Result<Camera> camera_of(const Fields& fields, const std::string& file_name,
+                                       std::optional<cv::Size> footage_size_px, std::optional<LensModel> wanted_model);
+
+// The fields of a file. Errors as those of fields_in(), and cannot_read.
+[[nodiscard]] Result<Fields> fields_of_file(const std::filesystem::path& path);
+
+// Error where a field has an element that is no finite number, or not as many as its rows and cols say.
+[[nodiscard]] Result<void> check_numbers(const Field& field, const std::string& file_name);
 
 // Shortest text that reads back as the number; "nan" whatever the sign.
 [[nodiscard]] std::string text_of(double number);

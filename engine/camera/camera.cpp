@@ -67,7 +67,6 @@ struct Reader {
   const std::string& file;
 
   [[nodiscard]] std::string where(const Field& field) const { return file + ": " + field.name; }
-  [[nodiscard]] Result<void> check_numbers(const Field& field) const;
   [[nodiscard]] Result<std::optional<LensModel>> stated_model() const;
   [[nodiscard]] Result<void> read_matrix(LensParameters& lens) const;
   [[nodiscard]] Result<void> read_coefficients(LensParameters& lens) const;
@@ -77,23 +76,13 @@ struct Reader {
   [[nodiscard]] Result<std::optional<cv::Size>> size() const;
 };
 
-Result<void> Reader::check_numbers(const Field& field) const {
-  if (field.not_a_number) return fail(where(field), fmt::format("'{}' is not a number", *field.not_a_number));
-  if (field.stated_count && *field.stated_count != field.numbers.size())
-    return fail(where(field),
-                fmt::format("rows and cols say {} numbers, found {}", *field.stated_count, field.numbers.size()));
-  for (const double number : field.numbers)
-    if (!std::isfinite(number)) return fail(where(field), text_of(number) + " is not a finite number");
-  return {};
-}
-
 // The model that the file states: by OpenCV's flag, or by a name as ROS and Kalibr write it. Where they disagree the
 // flag is taken, except that a flag of 0 yields to a name. Nothing where the file states neither.
 Result<std::optional<LensModel>> Reader::stated_model() const {
-  constexpr std::array<std::string_view, 6> kBrown{"plumb_bob", "rational_polynomial", "thin_prism",
-                                                   "radtan",    "brown_conrady",       "none"};
-  constexpr std::array<std::string_view, 5> kFisheye{"equidistant", "fisheye", "kannala_brandt", "kannala_brandt4",
-                                                     "opencv_fisheye"};
+  constexpr std::array<std::string_view, 7> kBrown{"plumb_bob",         "rational_polynomial", "thin_prism", "radtan",
+                                                   "radial-tangential", "brown_conrady",       "none"};
+  constexpr std::array<std::string_view, 6> kFisheye{"equidistant",     "equi",          "fisheye", "kannala_brandt",
+                                                     "kannala_brandt4", "opencv_fisheye"};
   const Field* flag = found(fields, kFisheyeNames);
   if (flag != nullptr) {
     if (flag->text == "true" || flag->text == "True") return LensModel::kannala_brandt;
@@ -115,7 +104,7 @@ Result<std::optional<LensModel>> Reader::stated_model() const {
 Result<void> Reader::read_matrix(LensParameters& lens) const {
   const Field* field = found(fields, kMatrixNames);
   if (field == nullptr) return fail(file, "no camera matrix; looked for " + joined(kMatrixNames));
-  if (const auto good = check_numbers(*field); !good) return fail(good.error());
+  if (const auto good = check_numbers(*field, file); !good) return fail(good.error());
   const std::vector<double>& m = field->numbers;
   if (m.size() != 9) return fail(where(*field), fmt::format("expected 9 numbers, found {}", m.size()));
   lens.fx = m[0], lens.fy = m[4], lens.cx = m[2], lens.cy = m[5];
@@ -136,7 +125,7 @@ Result<void> Reader::read_matrix(LensParameters& lens) const {
 Result<void> Reader::read_coefficients(LensParameters& lens) const {
   const Field* field = found(fields, kCoefficientNames);
   if (field == nullptr) return fail(file, "no distortion coefficients; looked for " + joined(kCoefficientNames));
-  if (const auto good = check_numbers(*field); !good) return fail(good.error());
+  if (const auto good = check_numbers(*field, file); !good) return fail(good.error());
   lens.coefficients = field->numbers;
   return {};
 }
@@ -213,9 +202,49 @@ std::string size_names() {
                      fmt::join(kHeightNames, ", "));
 }
 
-// The camera that the fields describe. footage_size_px and wanted_model as in read_calibration.
-Result<Camera> camera_from(const Fields& fields, const std::string& file_name, std::optional<cv::Size> footage_size_px,
-                           std::optional<LensModel> wanted_model) {
+// Without a byte order mark and leading white space, which the parsers do not take.
+std::string without_beginning(std::string text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  text.erase(0, text.find_first_not_of(" \t\r\n"));
+  return text;
+}
+
+// The camera with this name; of an empty one the first.
+Result<std::size_t> chosen(const std::vector<Fields::Group>& cameras, const CalibrationName& name) {
+  if (name.camera.empty()) return 0;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (cameras[i].name == name.camera) return i;
+    if (!cameras[i].name.empty()) names.push_back(cameras[i].name);
+  }
+  return fail(name.file.filename().string(),
+              fmt::format("has no camera '{}'; {}", name.camera,
+                          names.empty() ? "it describes one alone: leave out what follows the #"
+                                        : fmt::format("it has {}", fmt::join(names, ", "))));
+}
+
+}  // namespace
+
+Result<void> check_numbers(const Field& field, const std::string& file_name) {
+  const std::string where = file_name + ": " + field.name;
+  if (field.not_a_number) return fail(where, fmt::format("'{}' is not a number", *field.not_a_number));
+  if (field.stated_count && *field.stated_count != field.numbers.size())
+    return fail(where,
+                fmt::format("rows and cols say {} numbers, found {}", *field.stated_count, field.numbers.size()));
+  for (const double number : field.numbers)
+    if (!std::isfinite(number)) return fail(where, text_of(number) + " is not a finite number");
+  return {};
+}
+
+Result<Fields> fields_of_file(const std::filesystem::path& path) {
+  Result<std::string> text = read_text(path, kCalibrationLimit_bytes);
+  if (!text) return fail(text.error());
+  return fields_in(without_beginning(*std::move(text)), path.filename().string());
+}
+
+Result<Camera> camera_of(const Fields& fields, const std::string& file_name, std::optional<cv::Size> footage_size_px,
+                         std::optional<LensModel> wanted_model) {
   constexpr std::array<std::string_view, 2> kMirrorNames{"xi", "Xi"};
   const Reader reader{fields, file_name};
   if (const Field* mirror = found(fields, kMirrorNames))
@@ -249,27 +278,36 @@ Result<Camera> camera_from(const Fields& fields, const std::string& file_name, s
   return Camera{.lens = *std::move(made), .size_px = to_px, .warnings = std::move(warnings)};
 }
 
-// Without a byte order mark and leading white space, which the parsers do not take.
-std::string without_beginning(std::string text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-  text.erase(0, text.find_first_not_of(" \t\r\n"));
-  return text;
-}
-
-}  // namespace
 }  // namespace sigs::calibration
 
 namespace sigs {
 
+CalibrationName calibration_name(const std::filesystem::path& name) {
+  const std::string text = name.string();
+  const std::size_t at = text.rfind('#');
+  std::error_code ignored;
+  if (at == std::string::npos || text.find('/', at) != std::string::npos || std::filesystem::exists(name, ignored))
+    return {name, ""};
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
 Result<Camera> read_calibration(const std::filesystem::path& path, std::optional<cv::Size> footage_size_px,
                                 std::optional<LensModel> model) {
-  const std::string file_name = path.filename().string();
-  Result<std::string> text = read_text(path, kCalibrationLimit_bytes);
-  if (!text) return fail(text.error());
-  const auto fields = calibration::fields_in(calibration::without_beginning(*std::move(text)), file_name);
+  const CalibrationName name = calibration_name(path);
+  const std::string file_name = name.file.filename().string();
+  const Result<calibration::Fields> fields = calibration::fields_of_file(name.file);
   if (!fields) return fail(fields.error());
-  return calibration::camera_from(*fields, file_name, footage_size_px, model);
+  const auto cameras = calibration::cameras_in(*fields, file_name);
+  if (!cameras) return fail(cameras.error());
+  const Result<std::size_t> index = calibration::chosen(*cameras, name);
+  if (!index) return fail(index.error());
+  Result<Camera> camera = calibration::camera_of((*cameras)[*index].fields, file_name, footage_size_px, model);
+  // The left camera of a pair is the usual one; which of others is meant has to be said.
+  const std::string& first = cameras->front().name;
+  if (camera && cameras->size() > 1 && name.camera.empty() && first != "left")
+    camera->warnings.push_back({file_name, fmt::format("describes {} cameras; read as {}: write {}#{} for the next",
+                                                       cameras->size(), first, file_name, (*cameras)[1].name)});
+  return camera;
 }
 
 }  // namespace sigs

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -19,9 +20,21 @@ struct Camera {
   std::vector<Warning> warnings = {};  // implausible values of its calibration file (camera/calibration_formats.h)
 };
 
+// A calibration as settings and options name it: a file, or one camera of a file that describes several, by the name
+// that it has there: rig.yaml#cam1.
+struct CalibrationName {
+  std::filesystem::path file;
+  std::string camera;  // empty: not named
+};
+
+// A file whose own name has the # goes before. Looks at the file system for that alone.
+[[nodiscard]] CalibrationName calibration_name(const std::filesystem::path& name);
+
 // Reads a calibration: OpenCV FileStorage XML or YAML, ROS camera_info YAML, plain YAML with nested lists, Gyroflow
-// lens profile JSON. The format is recognised by the content, not by the name. docs/calibration-files.md lists the
-// keys.
+// lens profile JSON, one camera of a rig (rig_calibration.h). The format is recognised by the content, not by the name.
+// docs/calibration-files.md lists the keys.
+//   path             a file, or FILE#CAMERA (CalibrationName). Without a camera's name the first of several is read,
+//                    with a warning but for the left one of a pair
 //   footage_size_px  size of the images that the camera is wanted for. The calibration is scaled to it where both have
 //                    the same shape; a different shape is an error that names both sizes. A file without a size is
 //                    taken to be made for the footage. If omitted, the file's own size is kept, and a file without one

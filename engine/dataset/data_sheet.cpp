@@ -13,6 +13,7 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "camera/camera.h"
 #include "dataset/entry.h"
 #include "dataset/index.h"
 #include "dataset/made_dataset.h"
@@ -184,10 +185,11 @@ class SheetChecksums {
   std::error_code code_;
 };
 
-Json calibration_json(const fs::path& file, SheetChecksums& checksums) {
+Json calibration_json(const fs::path& name, SheetChecksums& checksums) {
+  const fs::path file = calibration_name(name).file;
   const Result<std::string> text = read_text(file);
   const std::optional<double> error_px = text ? stated_reprojection_error_px(*text) : std::nullopt;
-  return {{"file", file.filename().string()},
+  return {{"file", name.filename().string()},
           {"sha256", checksums.of(file)},
           {"reprojection_error_px", error_px ? Json(*error_px) : Json(nullptr)}};
 }

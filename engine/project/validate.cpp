@@ -57,7 +57,11 @@ void check_text(const Project& project, const Field& field, Problems& problems) 
     return;
   }
   std::error_code code;
-  const std::filesystem::path path = resolved(project, text);
+  std::filesystem::path path = resolved(project, text);
+  // Of one camera of a rig (rig.yaml#cam1; camera/camera.h) the file.
+  if (const std::size_t at = text.rfind('#');
+      at != std::string::npos && field.key.ends_with("footage.calibration") && !std::filesystem::exists(path, code))
+    path = resolved(project, text.substr(0, at));
   const bool is_sequence =
       field.key.ends_with("footage.video") && is_number_pattern(path);  // opening it shows what is there
   if (field.is_path && !is_sequence && !std::filesystem::exists(path, code))

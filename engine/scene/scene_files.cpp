@@ -24,6 +24,7 @@
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "camera/camera.h"
 #include "telemetry/read_track.h"
 
 namespace sigs {
@@ -290,7 +291,7 @@ Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::
                                   std::optional<LensModel> model) {
   const CameraKey key{name_of(calibration), footage_size_px.width, footage_size_px.height, model};
   const std::lock_guard lock(caches_->mutex);
-  return caches_->cameras.take(key, stamp_of(calibration),
+  return caches_->cameras.take(key, stamp_of(calibration_name(calibration).file),
                                [&] { return read_calibration(calibration, footage_size_px, model); });
 }
 

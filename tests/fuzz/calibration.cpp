@@ -5,6 +5,7 @@
 
 #include "base/ensure.h"
 #include "camera/camera.h"
+#include "camera/rig_calibration.h"
 #include "fuzz/fuzz_input.h"
 
 namespace sigs::fuzz {
@@ -41,6 +42,13 @@ void try_calibration(const FuzzInput& input) {
       check_messages(camera->warnings);
       check_camera(*camera);
     }
+  const Result<RigCalibration> rig = read_rig_calibration(path, {.size_px = cv::Size(640, 480)});
+  if (!rig) return check_message(rig.error());
+  check_messages(rig->warnings);
+  for (const CalibratedCamera& one : rig->cameras) {
+    ENSURE(std::abs(glm::length(one.first_from_camera.rotation) - 1) < 1e-9);
+    check_camera(one.camera);
+  }
 }
 
 }  // namespace sigs::fuzz

@@ -29,6 +29,8 @@ namespace {
 
 // A truncated file gives an error for each packet that its index still lists.
 constexpr int kMaxReadErrorsInARow = 64;
+// More than any codec reorders. Frame 0 is among the first packets.
+constexpr int kPacketsForFrame0 = 64;
 
 Result<void> check_is_file(const fs::path& path) {
   if (const Result<void> file = check_input_file(path, "video"); !file) return file;
@@ -216,6 +218,48 @@ Result<InputPtr> open_input(const fs::path& path, const std::atomic<bool>* cance
 int video_stream_of(AVFormatContext& input) {
   const int stream = av_find_best_stream(&input, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   return stream >= 0 && is_video(*input.streams[stream]) ? stream : -1;
+}
+
+void keep_only(AVFormatContext& input, int index) {
+  for (unsigned i = 0; i < input.nb_streams; ++i)
+    input.streams[i]->discard = static_cast<int>(i) == index ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
+}
+
+Step next_packet(AVFormatContext& input, int index, AVPacket& packet) {
+  for (int errors = 0; errors < kMaxReadErrorsInARow;) {
+    av_packet_unref(&packet);
+    const int result = av_read_frame(&input, &packet);
+    check_memory(result);
+    if (result == AVERROR_EOF) return errors > 0 ? Step::broke_off : Step::end;
+    if (result == AVERROR_EXIT) return Step::broke_off;
+    if (result < 0)
+      ++errors;
+    else if (packet.stream_index == index)
+      return Step::packet;
+  }
+  return Step::broke_off;
+}
+
+std::int64_t stamp_of(const AVPacket& packet) {
+  return packet.pts != AV_NOPTS_VALUE ? packet.pts : packet.dts;
+}
+
+std::optional<double> time_of_frame_0(AVFormatContext& input) {
+  const int video = video_stream_of(input);
+  if (video < 0) return {};
+  keep_only(input, video);
+  const PacketPtr packet = new_packet();
+  const bool all_are_shown = has_true_time_stamps(input);
+  std::optional<std::int64_t> first;
+  for (int read = 0; read < kPacketsForFrame0 && next_packet(input, video, *packet) == Step::packet;) {
+    const bool is_shown = (packet->flags & AV_PKT_FLAG_DISCARD) == 0 && packet->size > 0;
+    const bool can_begin = first || all_are_shown || (packet->flags & AV_PKT_FLAG_KEY) != 0;
+    if (!is_shown || !can_begin || stamp_of(*packet) == AV_NOPTS_VALUE) continue;
+    first = first ? std::min(*first, stamp_of(*packet)) : stamp_of(*packet);
+    ++read;
+  }
+  if (!first) return {};
+  return static_cast<double>(*first) * av_q2d(input.streams[video]->time_base);
 }
 
 bool has_true_time_stamps(const AVFormatContext& format) {

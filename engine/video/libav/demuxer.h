@@ -29,6 +29,21 @@ namespace sigs::libav {
 // Whether the container's time stamps and key flags are those of the file rather than guesses: MP4 and Matroska.
 [[nodiscard]] bool has_true_time_stamps(const AVFormatContext& format);
 
+// Leaves the packets of all other streams out of reading.
+void keep_only(AVFormatContext& input, int index);
+
+// Reads the next packet of a stream; a few that cannot be read are passed over.
+enum class Step { packet, end, broke_off };
+[[nodiscard]] Step next_packet(AVFormatContext& input, int index, AVPacket& packet);
+
+// The presentation time of a packet, else its time of decoding; AV_NOPTS_VALUE: it has none.
+[[nodiscard]] std::int64_t stamp_of(const AVPacket& packet);
+
+// The presentation time of frame 0 on the container's clock, in seconds: the least among the first packets that are
+// shown. Where the file may begin in the middle of a group of images, decoders give none before the first keyframe.
+// Reads packets from where the input stands, those of the video alone from then on. None: there is no video.
+[[nodiscard]] std::optional<double> time_of_frame_0(AVFormatContext& input);
+
 // Reads the packets of a file's video stream, in the order in which they are stored (order of decoding).
 class Demuxer {
  public:

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "project/json.h"
+#include "support/process.h"
+#include "support/test_data.h"
+
+namespace sigs::test {
+
+namespace {
+
+Run rig(const std::string& arguments) {
+  return run_together("'" + (build_dir() / "sigs").string() + "' rig " + arguments);
+}
+
+// Two cameras of 64x48, the second 90 degrees to the right and 0.5 m to the right of the first.
+const std::string kChain =
+    "cam0:\n  camera_model: pinhole\n  intrinsics: [60, 60, 31.5, 23.5]\n  distortion_model: radtan\n"
+    "  distortion_coeffs: [0, 0, 0, 0]\n  resolution: [64, 48]\n  timeshift_cam_imu: 0.001\n"
+    "  T_cam_imu: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n"
+    "cam1:\n  camera_model: pinhole\n  intrinsics: [60, 60, 31.5, 23.5]\n  distortion_model: radtan\n"
+    "  distortion_coeffs: [0, 0, 0, 0]\n  resolution: [64, 48]\n  timeshift_cam_imu: 0.251\n"
+    "  T_cn_cnm1: [[0, 0, -1, 0], [0, 1, 0, 0], [1, 0, 0, -0.5], [0, 0, 0, 1]]\n";
+
+const std::string kProject =
+    R"({"sigs": 1, "name": "rig", "cameras": [
+      {"name": "nose", "footage": {"video": "a.mkv", "calibration": "chain.yaml#cam0"}, "mount": {"position_m": [1, 0, 0], "attitude_deg": {"roll": 0, "pitch": 0, "yaw": 30}}},
+      {"name": "side", "footage": {"video": "b.mkv"}}], "intruders": []})";
+
+bool has_part(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a rig's calibration goes into a project with the mount of its first camera, and says what it is") {
+  const TemporaryFolder folder;
+  write_file(folder / "chain.yaml", kChain);
+  write_file(folder / "rig.json", kProject);
+  const Run said = rig("calibration '" + (folder / "chain.yaml").string() + "'");
+  CHECK(said.status == 0);
+  CHECK(has_part(said.out, "Kalibr chain, 2 cameras"));
+  CHECK(has_part(said.out, "0.250000"));
+  const Run done =
+      rig("calibration '" + (folder / "chain.yaml").string() + "' --into '" + (folder / "rig.json").string() + "'");
+  CAPTURE(done.out);
+  REQUIRE(done.status == 0);
+  const auto read = read_project(folder / "rig.json");
+  REQUIRE(read);
+  REQUIRE(read->project.cameras.size() == 2);
+  const RigCamera& side = read->project.cameras[1];
+  CHECK(side.footage.calibration == "chain.yaml#cam1");
+  CHECK(side.clock.offset_s == doctest::Approx(0.25));
+  CHECK(side.mount.yaw_deg == doctest::Approx(120));
+  // 0.5 m to the right of a camera that looks 30 degrees to the right.
+  CHECK(side.mount.position_m.x == doctest::Approx(1 - 0.5 * 0.5));
+  CHECK(side.mount.position_m.y == doctest::Approx(0.5 * std::sqrt(0.75)));
+  CHECK(read->project.cameras[0].mount.yaw_deg == 30);
+}
+
+TEST_CASE(
+    "clocks by sound and time code go into a project; without any source the status is 65 and nothing is written") {
+  const TemporaryFolder folder;
+  write_file(folder / "chain.yaml", kChain);
+  write_file(folder / "rig.json", kProject);
+  const std::string noise = "-f lavfi -i anoisesrc=d=12:c=pink:r=16000:seed=5 ";
+  const auto made = [&](const std::string& arguments) {
+    return std::system(("ffmpeg -v error -y " + arguments + " </dev/null >/dev/null 2>&1").c_str()) == 0;
+  };
+  if (!made("-f lavfi -i testsrc=size=64x48:rate=25:duration=12 " + noise +
+            "-c:v mpeg4 -c:a pcm_s16le -timecode 10:00:00:00 '" + (folder / "a.mkv").string() + "'") ||
+      !made("-f lavfi -i testsrc=size=64x48:rate=25:duration=8 -ss 2.5 " + noise +
+            "-shortest -c:v mpeg4 -c:a pcm_s16le -timecode 10:00:02:12 '" + (folder / "b.mkv").string() + "'"))
+    return say_skipped("ffmpeg is not installed");
+  const std::string project = "'" + (folder / "rig.json").string() + "'";
+  const Run none = rig("sync " + project + " --by log --into");
+  CHECK(none.status == 65);
+  CHECK(has_part(none.out, "has no log"));
+  CHECK(read_project(folder / "rig.json")->project.cameras[1].clock.offset_s == 0);
+  const Run done = rig("sync " + project + " --by sound,timecode --into");
+  CAPTURE(done.out);
+  REQUIRE(done.status == 0);
+  CHECK(has_part(done.out, "time code"));
+  CHECK(read_project(folder / "rig.json")->project.cameras[1].clock.offset_s == doctest::Approx(2.5).epsilon(0.001));
+  CHECK(rig("sync " + project + " --by stars").status == 64);
+}
+
+}  // namespace sigs::test
