@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <span>
 #include <string_view>
 #include <utility>
 
-#include "base/text.h"
 #include "camera/calibration_formats.h"
 
 namespace sigs::calibration {
@@ -26,7 +24,7 @@ const Field* first_of(const Fields& fields, Names names) {
   return nullptr;
 }
 
-// Keys of one camera, as a file of one camera has them.
+// Keys of a file of one camera.
 constexpr std::array<std::string_view, 5> kOneMatrix{"camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "k"};
 constexpr std::array<std::string_view, 2> kKalibrKeys{"intrinsics", "camera_model"};
 // Those of a stereo pair.
@@ -80,14 +78,10 @@ Result<Fields> from_kalibr(Fields fields, const std::string& prefix, const std::
   return fields;
 }
 
-bool is_kalibr_camera(const Fields& fields) {
-  return first_of(fields, kKalibrKeys) != nullptr;
-}
-
 // Maps that are cameras, in the file's order, the outermost ones.
 void collect(const Fields& fields, std::vector<Fields::Group>& cameras) {
   for (const Fields::Group& group : fields.groups)
-    if (is_kalibr_camera(group.fields))
+    if (first_of(group.fields, kKalibrKeys) != nullptr)
       cameras.push_back(group);
     else
       collect(group.fields, cameras);
@@ -115,7 +109,7 @@ Result<std::vector<Fields::Group>> cameras_in(const Fields& fields, const std::s
     return std::vector<Fields::Group>{{"left", one_of_pair(fields, kFirstMatrix, kFirstCoefficients)},
                                       {"right", one_of_pair(fields, kSecondMatrix, kSecondCoefficients)}};
   std::vector<Fields::Group> cameras;
-  if (first_of(fields, kOneMatrix) == nullptr && !is_kalibr_camera(fields)) collect(fields, cameras);
+  if (first_of(fields, kOneMatrix) == nullptr && first_of(fields, kKalibrKeys) == nullptr) collect(fields, cameras);
   if (cameras.empty()) {
     Result<Fields> one = from_kalibr(fields, "", file_name);
     if (!one) return fail(one.error());
@@ -164,8 +158,7 @@ Result<glm::dmat3> rotation_in(std::span<const double> rows, std::size_t stride,
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
       given(row, column) = rows[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)];
-  // Files with three decimals are off by that much.
-  constexpr double kRounding = 2e-3;
+  constexpr double kRounding = 2e-3;  // of files with three decimals
   const double off = cv::norm(given * given.t() - cv::Matx33d::eye(), cv::NORM_INF);
   if (!(off <= kRounding))
     return fail(where,
@@ -286,7 +279,7 @@ class Chain {
   const std::string& file_name_;
 };
 
-// timeshift_cam_imu; none where it is not there.
+// timeshift_cam_imu, t_imu = t_cam + shift; none where it is not there.
 Result<std::optional<double>> time_shift_s(const Fields& fields, const std::string& file_name) {
   const Field* field = field_in(fields, "timeshift_cam_imu");
   if (field == nullptr) return std::nullopt;
@@ -312,7 +305,6 @@ Result<RigCalibration> chain_rig(const std::vector<Fields::Group>& cameras, cons
     if (!camera) return fail(camera.error());
     CalibratedCamera one{
         .name = cameras[i].name, .camera = *std::move(camera), .first_from_camera = pose_of((*poses)[i])};
-    // t_imu = t_cam + shift, of both cameras.
     if (first_shift_s && *shift_s) one.clock_offset_s = **shift_s - *first_shift_s;
     rig.cameras.push_back(std::move(one));
   }
@@ -385,14 +377,13 @@ Result<RigCalibration> read_rig_calibration(const fs::path& path, const RigReadi
   const std::string file_name = path.filename().string();
   Result<Fields> fields = calibration::fields_of_file(path);
   if (!fields) return fail(fields.error());
-  const auto is_whole_pair = [](const Fields& f) { return calibration::is_pair(f) && has_motion(f); };
   if (calibration::is_pair(*fields) != has_motion(*fields))
     if (const fs::path other = other_of_pair(path); !other.empty()) {
       Result<Fields> rest = calibration::fields_of_file(other);
       if (!rest) return fail(rest.error());
       fields->merge(*rest);
     }
-  if (is_whole_pair(*fields)) return pair_rig(*fields, file_name, reading);
+  if (calibration::is_pair(*fields) && has_motion(*fields)) return pair_rig(*fields, file_name, reading);
   if (calibration::is_pair(*fields))
     return fail(file_name,
                 "has two lenses, but no R and T that say how the cameras lie; they are looked for in it, and in "

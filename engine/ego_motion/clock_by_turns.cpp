@@ -191,6 +191,26 @@ class FineFit {
     run.clear();
   }
 
+  // The sum of squares of residuals after noise of single frames is taken from them: means over a fifth of a second.
+  static double lasting_squares(const std::vector<Node>& nodes, double scale) {
+    constexpr double kMean_s = 0.2;
+    glm::dvec3 sum(0);
+    double weights = 0;
+    double squares = 0;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const double weight = weight_of(nodes[n], scale);
+      sum += weight * nodes[n].residual;
+      weights += weight;
+      const bool ends =
+          n + 1 == nodes.size() || std::floor(nodes[n + 1].time_s / kMean_s) != std::floor(nodes[n].time_s / kMean_s);
+      if (!ends) continue;
+      if (weights > 0) squares += squared_length(sum) / weights;
+      sum = glm::dvec3(0);
+      weights = 0;
+    }
+    return squares;
+  }
+
   // Standard deviations and the correlation.
   void measure(const std::vector<Node>& nodes, double scale, const NormalEquations& equations) {
     const cv::Mat_<double> inverse = equations.inverse();
@@ -203,6 +223,7 @@ class FineFit {
     double mixed = 0;
     double of_first = 0;
     double of_second = 0;
+    double rates = 0;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const Node& node = nodes[n];
       const double weight = weight_of(node, scale);
@@ -214,6 +235,7 @@ class FineFit {
       mixed += glm::dot(node.of_first, node.of_second);
       of_first += squared_length(node.of_first);
       of_second += squared_length(node.of_second);
+      rates += weight * squared_length(node.slopes[0]);
       const bool ends =
           n + 1 == nodes.size() || std::floor(nodes[n + 1].time_s / kBlock_s) != std::floor(node.time_s / kBlock_s);
       if (!ends) continue;
@@ -230,6 +252,11 @@ class FineFit {
       deviations_.push_back(std::sqrt(std::max(by_blocks * sandwich.at<double>(k, k), variance * inverse(k, k))));
     correlation_ = of_first > 0 && of_second > 0 ? mixed / std::sqrt(of_first * of_second) : 0;
     seen_s_ = nodes.back().time_s - nodes.front().time_s;
+    // Attitudes of real footage, whose lens is never quite that of its calibration, have errors that follow the motion.
+    // They scatter little from part to part: one value in a second is taken to be independent.
+    const double lasting_s = rates > 0 ? std::sqrt(lasting_squares(nodes, scale) / rates / std::max(1.0, seen_s_)) : 0;
+    const double factor = std::max(1.0, lasting_s / deviations_[0]);
+    for (double& deviation : deviations_) deviation *= factor;
   }
 
   const AnglePath& first_;

@@ -59,10 +59,12 @@ struct TurnSync {
 //   2. Angles, less their mean over two seconds, are fitted by offset, rotation and drift (Gauss and Newton; weights of
 //      Geman and McClure); drift where both have seen a minute or more.
 // Standard deviations are by the scatter among parts of half a second ("sandwich", White 1980), so that errors which
-// are not independent from frame to frame count, and at least 0.3 ms. Turns are in order of time. A rolling shutter
-// shifts what is found by what the middles of exposure are off the frames' times (EgoMotionSettings::readout_s). Errors
-// (bad_data), without a place: fewer than 20 turns, no overlap; the cameras hardly turn, or not alike; several offsets
-// fit as well; cancelled.
+// are not independent from frame to frame count; at least what residuals that last make of the time if one
+// in a second is independent, since attitudes of real footage have errors that follow the motion; and at least 0.3 ms.
+// Turns are in order of time. A rolling shutter shifts what is found by what the middles of exposure are off the
+// frames' times (EgoMotionSettings::readout_s).
+// Errors (bad_data), without a place: fewer than 20 turns, no overlap; the cameras hardly turn, or not alike; several
+// offsets fit as well; cancelled.
 [[nodiscard]] Result<TurnSync> clock_by_turns(std::span<const SeenTurn> first, std::span<const SeenTurn> second,
                                               const TurnSyncSettings& settings = {}, const StepControl& control = {});
 

@@ -13,12 +13,12 @@ namespace sigs::test {
 
 namespace {
 
-Run rig(const std::string& arguments) {
+Run run_rig(const std::string& arguments) {
   return run_together("'" + (build_dir() / "sigs").string() + "' rig " + arguments);
 }
 
 // Two cameras of 64x48, the second 90 degrees to the right and 0.5 m to the right of the first.
-const std::string kChain =
+const std::string kRigChain =
     "cam0:\n  camera_model: pinhole\n  intrinsics: [60, 60, 31.5, 23.5]\n  distortion_model: radtan\n"
     "  distortion_coeffs: [0, 0, 0, 0]\n  resolution: [64, 48]\n  timeshift_cam_imu: 0.001\n"
     "  T_cam_imu: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n"
@@ -26,12 +26,12 @@ const std::string kChain =
     "  distortion_coeffs: [0, 0, 0, 0]\n  resolution: [64, 48]\n  timeshift_cam_imu: 0.251\n"
     "  T_cn_cnm1: [[0, 0, -1, 0], [0, 1, 0, 0], [1, 0, 0, -0.5], [0, 0, 0, 1]]\n";
 
-const std::string kProject =
+const std::string kRigProject =
     R"({"sigs": 1, "name": "rig", "cameras": [
       {"name": "nose", "footage": {"video": "a.mkv", "calibration": "chain.yaml#cam0"}, "mount": {"position_m": [1, 0, 0], "attitude_deg": {"roll": 0, "pitch": 0, "yaw": 30}}},
       {"name": "side", "footage": {"video": "b.mkv"}}], "intruders": []})";
 
-bool has_part(const std::string& text, const std::string& part) {
+bool rig_says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
@@ -39,14 +39,14 @@ bool has_part(const std::string& text, const std::string& part) {
 
 TEST_CASE("a rig's calibration goes into a project with the mount of its first camera, and says what it is") {
   const TemporaryFolder folder;
-  write_file(folder / "chain.yaml", kChain);
-  write_file(folder / "rig.json", kProject);
-  const Run said = rig("calibration '" + (folder / "chain.yaml").string() + "'");
+  write_file(folder / "chain.yaml", kRigChain);
+  write_file(folder / "rig.json", kRigProject);
+  const Run said = run_rig("calibration '" + (folder / "chain.yaml").string() + "'");
   CHECK(said.status == 0);
-  CHECK(has_part(said.out, "Kalibr chain, 2 cameras"));
-  CHECK(has_part(said.out, "0.250000"));
+  CHECK(rig_says(said.out, "Kalibr chain, 2 cameras"));
+  CHECK(rig_says(said.out, "0.250000"));
   const Run done =
-      rig("calibration '" + (folder / "chain.yaml").string() + "' --into '" + (folder / "rig.json").string() + "'");
+      run_rig("calibration '" + (folder / "chain.yaml").string() + "' --into '" + (folder / "rig.json").string() + "'");
   CAPTURE(done.out);
   REQUIRE(done.status == 0);
   const auto read = read_project(folder / "rig.json");
@@ -65,8 +65,8 @@ TEST_CASE("a rig's calibration goes into a project with the mount of its first c
 TEST_CASE(
     "clocks by sound and time code go into a project; without any source the status is 65 and nothing is written") {
   const TemporaryFolder folder;
-  write_file(folder / "chain.yaml", kChain);
-  write_file(folder / "rig.json", kProject);
+  write_file(folder / "chain.yaml", kRigChain);
+  write_file(folder / "rig.json", kRigProject);
   const std::string noise = "-f lavfi -i anoisesrc=d=12:c=pink:r=16000:seed=5 ";
   const auto made = [&](const std::string& arguments) {
     return std::system(("ffmpeg -v error -y " + arguments + " </dev/null >/dev/null 2>&1").c_str()) == 0;
@@ -77,16 +77,16 @@ TEST_CASE(
             "-shortest -c:v mpeg4 -c:a pcm_s16le -timecode 10:00:02:12 '" + (folder / "b.mkv").string() + "'"))
     return say_skipped("ffmpeg is not installed");
   const std::string project = "'" + (folder / "rig.json").string() + "'";
-  const Run none = rig("sync " + project + " --by log --into");
+  const Run none = run_rig("sync " + project + " --by log --into");
   CHECK(none.status == 65);
-  CHECK(has_part(none.out, "has no log"));
+  CHECK(rig_says(none.out, "has no log"));
   CHECK(read_project(folder / "rig.json")->project.cameras[1].clock.offset_s == 0);
-  const Run done = rig("sync " + project + " --by sound,timecode --into");
+  const Run done = run_rig("sync " + project + " --by sound,timecode --into");
   CAPTURE(done.out);
   REQUIRE(done.status == 0);
-  CHECK(has_part(done.out, "time code"));
+  CHECK(rig_says(done.out, "time code"));
   CHECK(read_project(folder / "rig.json")->project.cameras[1].clock.offset_s == doctest::Approx(2.5).epsilon(0.001));
-  CHECK(rig("sync " + project + " --by stars").status == 64);
+  CHECK(run_rig("sync " + project + " --by stars").status == 64);
 }
 
 }  // namespace sigs::test

@@ -88,7 +88,8 @@ TEST_CASE("a real clip cut twice, the second of every other frame from 2.4 s on,
   const auto path = real_data() / "video/air_karma_gopro_coast.mp4";
   const Result<FrameSource> whole = FrameSource::open(path);
   REQUIRE(whole);
-  LensParameters lens{.fx = 445, .fy = 445, .cx = 426.5, .cy = 239.5};
+  // What its gyroscope says beside the images' motion: 562.8 px a radian.
+  const LensParameters lens{.fx = 562.8, .fy = 562.8, .cx = 426.5, .cy = 239.5};
   const Camera camera{.lens = *Lens::make(lens), .size_px = whole->info().size_px};
   // Encoded again, so that its noise is another.
   const TemporaryFolder folder;
@@ -100,13 +101,19 @@ TEST_CASE("a real clip cut twice, the second of every other frame from 2.4 s on,
                       .c_str()) != 0)
     return say_skipped("ffmpeg is not installed");
   const double start_s = whole->info().times_s[73];
-  const auto sync = clock_by_turns(frame_turns(motion_in(path, camera)), frame_turns(motion_in(half, camera)));
-  CAPTURE(sync ? "" : sync.error().what);
-  REQUIRE(sync);
-  const double error_s = sync->clock.first_time_s(sync->clock.middle_s) - start_s - sync->clock.middle_s;
-  MESSAGE("real: error " << 1000 * error_s << " ms, stated " << 1000 * sync->clock.sd_s << " ms");
-  CHECK(std::abs(error_s) < 0.005);
-  CHECK(std::abs(error_s) < 4 * sync->clock.sd_s);
+  const std::vector<SeenTurn> of_whole = frame_turns(motion_in(path, camera));
+  const std::vector<SeenTurn> of_half = frame_turns(motion_in(half, camera));
+  for (const bool is_known : {true, false}) {
+    const auto sync = clock_by_turns(
+        of_whole, of_half, {.first_from_second = is_known ? std::optional(glm::dquat(1, 0, 0, 0)) : std::nullopt});
+    CAPTURE(sync ? "" : sync.error().what);
+    REQUIRE(sync);
+    const double error_s = sync->clock.first_time_s(sync->clock.middle_s) - start_s - sync->clock.middle_s;
+    MESSAGE("real: error " << 1000 * error_s << " ms, stated " << 1000 * sync->clock.sd_s << " ms");
+    CHECK(std::abs(error_s) < (is_known ? 0.005 : 0.01));  // a gimbal holds roll and pitch: little tells of the mount
+    CHECK(std::abs(error_s) < 3 * sync->clock.sd_s);
+    CHECK(glm::length(vector_of(sync->first_from_second)) < 3 * std::sqrt(3.0) * sync->rotation_sd_rad + 1e-9);
+  }
 }
 
 TEST_CASE("sound of two microphones is found in one another, with noise of its own in each, and drift") {
