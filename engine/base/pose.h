@@ -88,6 +88,17 @@ struct Attitude {
   return along * (2 * sign * std::atan2(sine, std::abs(turn.w)) / sine);
 }
 
+// Standard deviations about the axes to which a rotation takes those of independent ones.
+[[nodiscard]] inline glm::dvec3 turned_sd(const glm::dquat& turn, const glm::dvec3& sd) {
+  if (turn == glm::dquat(1, 0, 0, 0)) return sd;
+  const glm::dmat3 rotation = glm::mat3_cast(turn);
+  glm::dvec3 variance(0);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (rotation[j][i] != 0) variance[i] += rotation[j][i] * rotation[j][i] * sd[j] * sd[j];  // not 0 times infinity
+  return glm::sqrt(variance);
+}
+
 // The matrix of the cross product: cross_matrix(a) * b = a x b.
 [[nodiscard]] inline glm::dmat3 cross_matrix(const glm::dvec3& a) {
   return {0, a.z, -a.y, -a.z, 0, a.x, a.y, -a.x, 0};

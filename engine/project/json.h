@@ -21,7 +21,8 @@ struct ReadProject {
 };
 
 // The most that a project file may have, so that a file of 64 MiB is an error rather than a wait (docs/limits.md):
-// intruders; waypoints of all intruders together, which are two hours at a waypoint for each of 30 frames a second; cameras of a rig.
+// intruders; waypoints of all intruders together, which are two hours at a waypoint for each of 30 frames a second;
+// cameras of a rig.
 inline constexpr std::size_t kMaxIntruders = 10'000;
 inline constexpr std::size_t kMaxWaypoints = 250'000;
 inline constexpr std::size_t kMaxCameras = 100;

@@ -248,16 +248,6 @@ bool is_whole(const Track& track, const UsedParts& parts, TrackMountChoice mount
   return track.attitude_is_whole && parts.attitude == &track.ned_from_camera;
 }
 
-// Standard deviations about axes that are turned against those of the ones given, which are independent.
-glm::dvec3 turned_sd(const glm::dquat& turn, const glm::dvec3& sd_rad) {
-  const glm::dmat3 rotation = glm::mat3_cast(turn);
-  glm::dvec3 variance(0);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (rotation[j][i] != 0) variance[i] += std::pow(rotation[j][i] * sd_rad[j], 2);  // not 0 times infinity
-  return glm::sqrt(variance);
-}
-
 void turn_by_log(const Project& project, const Track& track, const UsedParts& parts, const LogTimes& times,
                  double heading_rad, CameraFlight& flight) {
   flight.motion.attitudes = on_footage_time(*parts.attitude, times);
@@ -268,11 +258,10 @@ void turn_by_log(const Project& project, const Track& track, const UsedParts& pa
   const bool is_own = is_whole(track, parts, project.camera.track.mount);
   // camera.attitude_deg stands on the right where it is the mount's. Where it is the camera's own at the start, the
   // part of it that the log does not know stands on the left: all of it, the heading, or nothing. What stands on the
-  // right of all turns (camera_at) is taken off again.
-  // A camera's own attitude is that of the first camera of a rig, whose mount is taken off it.
-  const bool is_of_rig = is_own && project.rig_view.has_value();
+  // right of all turns (camera_at) is taken off again, and so is the mount of a rig's first camera, whose own it is.
   const glm::dquat none(1, 0, 0, 0);
-  const glm::dquat mount = is_of_rig ? body_from_camera(project.rig_view->reference_mount).rotation : none;
+  const glm::dquat mount =
+      is_own && project.rig_view ? body_from_camera(project.rig_view->reference_mount).rotation : none;
   const glm::dquat given = flight.motion.world_from_camera_at_start.rotation;
   const glm::dquat heading = rotation_of({0, 0, rad_of_deg(project.camera.yaw_deg)});
   const glm::dquat left = !is_level_known ? given * mount : is_own && !track.heading_is_north ? heading : none;
@@ -282,8 +271,7 @@ void turn_by_log(const Project& project, const Track& track, const UsedParts& pa
   const Channel<glm::dvec3>& sd = track.camera_attitude_sd_rad;
   if (parts.attitude == &track.ned_from_camera)
     for (std::size_t i = 0; i < sd.values.size(); ++i)
-      flight.motion.deviations.push_back(
-          {times.footage_s(sd.times_s[i]), is_of_rig ? turned_sd(mount, sd.values[i]) : sd.values[i]});
+      flight.motion.deviations.push_back({times.footage_s(sd.times_s[i]), turned_sd(mount, sd.values[i])});
   flight.motion.source.attitude = fmt::format("{}: {}", track.format, parts.attitude->source);
   flight.horizon_is_known = flight.horizon_is_known || is_level_known;
   if (!flight.horizon_is_known)
