@@ -56,6 +56,7 @@ std::string problem_of(const ViewContext& context, bool only_active) {
 // Of the whole dialog, before an export and from its start on. What there is to say is scrolled where it needs more
 // room than is left.
 constexpr double kSetupHeight = 660;
+constexpr double kCamerasHeight = 60;  // more, of a rig
 constexpr double kReportHeight = 340;
 constexpr int kCommandLines = 3;
 
@@ -103,7 +104,8 @@ ExportRequest ExportView::request_of(const ViewContext& context) const {
 void ExportView::draw(const ViewContext& context, ExportJob& job) {
   closed_ = false;
   const ExportState state = job.state();
-  if (!begin_dialog("Export###export", 620, state.phase == JobPhase::none ? kSetupHeight : kReportHeight, closed_)) {
+  const double setup = kSetupHeight + (context.document.cameras().size() > 1 ? kCamerasHeight : 0);
+  if (!begin_dialog("Export###export", 620, state.phase == JobPhase::none ? setup : kReportHeight, closed_)) {
     open_ = open_ && !closed_;
     return;
   }

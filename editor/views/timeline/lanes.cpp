@@ -291,6 +291,7 @@ void LaneRows::draw_group(const ViewContext& context, const TimelineStrip& strip
       ImGui::PopID();
       y += height;
     }
+    ImGui::PopID();
   }
 }
 

@@ -94,11 +94,16 @@ void draw_rig(WorldCanvas& canvas, const WorldContext& world) {
   for (std::size_t i = 0; i < std::min(cameras.size(), world.borders->size()); ++i) {
     const WorldCamera& camera = cameras[i];
     if (!camera.is_active) draw_field_of_view(canvas, world.borders->of(i), depth_m, camera.world_from_camera, false);
-    const std::optional<glm::dvec2> far_end = canvas.in_sight(camera.world_from_camera * glm::dvec3(depth_m, 0, 0));
-    if (!far_end) continue;
     const ImU32 shade = camera.is_active ? color::kAccent : kCameraColor;
-    if (canvas.label(*far_end, camera.name, shade, WorldCanvas::Side::centre))
-      world.context.ui_probe.note("world/camera/" + camera.name, {*far_end - 4.0, *far_end + 4.0});
+    std::vector<glm::dvec3> places{{1, 0, 0}};  // the middle, else at the edge
+    const std::vector<glm::dvec3>& rays = world.borders->of(i).rays;
+    places.insert(places.end(), rays.begin(), rays.end());
+    for (const glm::dvec3& ray : places) {
+      const std::optional<glm::dvec2> at = canvas.in_sight(camera.world_from_camera * (ray * depth_m));
+      if (!at || !canvas.label(*at, camera.name, shade, WorldCanvas::Side::centre)) continue;
+      world.context.ui_probe.note("world/camera/" + camera.name, {*at - 4.0, *at + 4.0});
+      break;
+    }
   }
 }
 

@@ -11,6 +11,7 @@
 #include "editor/preview/surveys.h"
 #include "preview_client.h"
 #include "project/rig.h"
+#include "scene/scene_parts.h"
 
 using namespace sigs;
 using namespace sigs::editor;
@@ -36,8 +37,7 @@ int nearest_by_search(const std::vector<double>& times_s, double time_s) {
 
 // 25 frames a second from 1.213 s on, beside a first camera of 30 from 0 on; it films until that has ended.
 Scene second_of_rig() {
-  Scene scene;
-  scene.footage = shape_at(25, 1.213, 60);
+  Scene scene = bare_scene(Project(), shape_at(25, 1.213, 60));
   scene.first_frame = 0;
   scene.last_frame = 43;
   scene.timeline = Timeline{shape_at(30, 0, 90), 0, 89};
@@ -128,8 +128,8 @@ TEST_CASE("each camera of a rig is shown as a preview of its own would, by one p
     return false;
   };
   document.apply(Edit(GoToFrame{50}));
-  const auto has_surveys = [](const PreviewOutput& camera) {
-    return camera.scene && !camera.surveys.empty() && camera.surveys[0] && !camera.surveys[0]->estimates.empty();
+  const auto has_surveys = [](const PreviewOutput& one) {
+    return one.scene && !one.surveys.empty() && one.surveys[0] && !one.surveys[0]->estimates.empty();
   };
   REQUIRE(wait(false, [&](const auto& shown) {
     return shown[0].image_is_current && has_surveys(shown[0]) && has_surveys(shown[1]);

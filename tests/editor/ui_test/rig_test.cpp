@@ -41,12 +41,12 @@ TEST_CASE("cameras are tabs, one playhead is for all of them, and a waypoint dra
   for (const char* place : {"camera/front", "camera/side", "camera/All", "timeline/lane/front", "timeline/lane/side"})
     CHECK_MESSAGE(editor.has_place(place), place);
   CHECK_FALSE(editor.has_place("timeline/lane/Visibility"));
-  ui_test.scrub_to(100);
+  ui_test.scrub_to(150);
   ui_test.image("front");
   const ScreenPlace in_front = editor.place("viewport/waypoint/0/1");
 
   ui_test.edit([&] { editor.click("camera/side"); });
-  CHECK(editor.state()["frame"].get<int>() == 100);
+  CHECK(editor.state()["frame"].get<int>() == 150);
   CHECK_FALSE(is_unsaved(editor.state()));
   ui_test.wait_for_place("inspector/camera name");
   ui_test.image("side");
