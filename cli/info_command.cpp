@@ -86,6 +86,7 @@ void print_video(const VideoInfo& video) {
               name_of(video.layout), video.pixel_format.c_str(), video.container.c_str());
   if (video.bit_depth > 8) std::printf("bits a sample: %d\n", video.bit_depth);
   if (!video.conversion.empty()) std::printf("conversion: %s\n", video.conversion.c_str());
+  if (!video.projection.empty()) std::printf("360 degree footage: %s\n", video.projection.c_str());
   std::printf("frames: %d, %d/%d a second%s, %.3f s\n", video.frame_count(), video.frame_rate_num, video.frame_rate_den,
               video.variable_frame_rate ? " (variable)" : "", length_s(video));
   std::printf("color: %s range%s, matrix %s%s\n", video.color.range == ColorRange::full ? "full" : "limited",

@@ -55,7 +55,13 @@ class Tracer {
     return {t, pixel};
   }
 
+  // Whether a piece leaves a 360 degree image on one side and comes in on the other.
+  bool goes_round(const Sample& a, const Sample& b) const {
+    return lens_.period_px() > 0 && a.pixel && b.pixel && std::abs(a.pixel->x - b.pixel->x) > lens_.period_px() / 2;
+  }
+
   void add(const Sample& next) {
+    if (drawing_ && next.pixel && goes_round({0, lines_.back().back()}, next)) drawing_ = false;
     if (next.pixel && !drawing_) lines_.emplace_back();
     drawing_ = next.pixel.has_value();
     if (next.pixel) lines_.back().push_back(*next.pixel);
@@ -76,6 +82,7 @@ class Tracer {
     if (depth < kMinDepth) return false;
     if (!a.pixel && !b.pixel && !middle.pixel) return true;
     if (!a.pixel || !b.pixel || !middle.pixel) return depth >= kBreakDepth;
+    if (goes_round(a, middle) || goes_round(middle, b)) return depth >= kBreakDepth;
     if (depth >= kMaxDepth) return true;
     const Sample early = sample((a.t + middle.t) / 2);
     const Sample late = sample((middle.t + b.t) / 2);

@@ -39,6 +39,19 @@ cv::Rect pixels_touched(const Box& box, int margin_px, const cv::Rect& bounds) {
   return {x.first, y.first, x.past - x.first, y.past - y.first};
 }
 
+cv::Mat part_round(const cv::Mat& image, const cv::Rect& rect) {
+  if ((rect & cv::Rect({0, 0}, image.size())) == rect) return image(rect);
+  ENSURE(rect.y >= 0 && rect.y + rect.height <= image.rows);
+  cv::Mat part(rect.size(), image.type());
+  for (int x = 0; x < rect.width;) {
+    const int from = column_round(rect.x + x, image.cols);
+    const int count = std::min(rect.width - x, image.cols - from);
+    image(cv::Rect(from, rect.y, count, rect.height)).copyTo(part(cv::Rect(x, 0, count, rect.height)));
+    x += count;
+  }
+  return part;
+}
+
 namespace {
 
 using namespace std::string_view_literals;

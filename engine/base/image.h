@@ -37,6 +37,16 @@ inline const cv::Rect kUnboundedRect{-1'000'000, -1'000'000, 2'000'000, 2'000'00
   return {rect.x - by_px, rect.y - by_px, rect.width + 2 * by_px, rect.height + 2 * by_px};
 }
 
+// The samples of a rectangle of an image. Columns beyond the image are those that follow on its other side, as those of
+// a 360 degree image do; rows lie within it. Shares the image's samples where all columns lie within it.
+[[nodiscard]] cv::Mat part_round(const cv::Mat& image, const cv::Rect& rect);
+
+// The column modulo the width: 0 .. width - 1, for any column.
+[[nodiscard]] inline int column_round(int column, int width) {
+  const int rest = column % width;
+  return rest < 0 ? rest + width : rest;
+}
+
 // What one intruder adds to an image, in linear light, over a small rectangle of that image.
 //   rect      position of the layer in the image; empty: nothing is rendered
 //   color     CV_32FC4: red, green, blue, opacity; premultiplied (red <= opacity for a surface no brighter than white)

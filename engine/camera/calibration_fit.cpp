@@ -55,6 +55,7 @@ double field_rad(const LensParameters& lens, double focal_px, int side_px) {
     case LensModel::brown_conrady:
       return 2 * std::atan(side_px / (2 * focal_px));
     case LensModel::kannala_brandt:
+    case LensModel::equirectangular:
       return side_px / focal_px;
   }
   return 0;

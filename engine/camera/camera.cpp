@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,7 @@ constexpr std::array<std::string_view, 4> kWidthNames{"image_width", "image_Widt
 constexpr std::array<std::string_view, 4> kHeightNames{"image_height", "image_Height", "imageHeight", "height"};
 constexpr std::array<std::string_view, 3> kFisheyeNames{"fisheye_model", "fisheye", "fisheyeModel"};
 constexpr std::array<std::string_view, 1> kModelNames{"distortion_model"};
+constexpr std::array<std::string_view, 2> kEquirectangular{"equirectangular", "spherical"};
 
 std::string joined(Names names) {
   return fmt::format("{}", fmt::join(names, ", "));
@@ -56,6 +58,8 @@ const char* word_for(LensModel model) {
       return name_of(model);
     case LensModel::kannala_brandt:
       return "fisheye";
+    case LensModel::equirectangular:
+      return name_of(model);
   }
   return "";
 }
@@ -67,6 +71,7 @@ struct Reader {
   const std::string& file;
 
   [[nodiscard]] std::string where(const Field& field) const { return file + ": " + field.name; }
+  [[nodiscard]] bool states_equirectangular() const;
   [[nodiscard]] Result<std::optional<LensModel>> stated_model() const;
   [[nodiscard]] Result<void> read_matrix(LensParameters& lens) const;
   [[nodiscard]] Result<void> read_coefficients(LensParameters& lens) const;
@@ -75,6 +80,11 @@ struct Reader {
   [[nodiscard]] Result<int> whole_pixels(const Field& field, double number) const;
   [[nodiscard]] Result<std::optional<cv::Size>> size() const;
 };
+
+bool Reader::states_equirectangular() const {
+  const Field* model = found(fields, kModelNames);
+  return model != nullptr && std::ranges::find(kEquirectangular, model->text) != kEquirectangular.end();
+}
 
 // The model that the file states: by OpenCV's flag, or by a name as ROS and Kalibr write it. Where they disagree the
 // flag is taken, except that a flag of 0 yields to a name. Nothing where the file states neither.
@@ -95,9 +105,11 @@ Result<std::optional<LensModel>> Reader::stated_model() const {
     return flag == nullptr ? std::nullopt : std::optional(LensModel::brown_conrady);
   if (std::ranges::find(kFisheye, model->text) != kFisheye.end()) return LensModel::kannala_brandt;
   if (std::ranges::find(kBrown, model->text) != kBrown.end()) return LensModel::brown_conrady;
+  if (states_equirectangular()) return LensModel::equirectangular;
   return fail(
       where(*model),
-      fmt::format("distortion model '{}' is not supported; plumb_bob, rational_polynomial, equidistant and fisheye are",
+      fmt::format("distortion model '{}' is not supported; plumb_bob, rational_polynomial, equidistant, fisheye and "
+                  "equirectangular are",
                   model->text));
 }
 
@@ -224,6 +236,27 @@ Result<std::size_t> chosen(const std::vector<Fields::Group>& cameras, const Cali
                                         : fmt::format("it has {}", fmt::join(names, ", "))));
 }
 
+// Of 360 degree footage the size says everything.
+Result<Camera> equirectangular_camera_from(const Reader& reader, std::optional<cv::Size> footage_size_px) {
+  const Result<std::optional<cv::Size>> own_size_px = reader.size();
+  if (!own_size_px) return fail(own_size_px.error());
+  if (!*own_size_px && !footage_size_px)
+    return fail(reader.file, "no image size, and no footage to take it from; looked for " + size_names());
+  const cv::Size from_px = own_size_px->value_or(footage_size_px.value_or(cv::Size()));
+  const cv::Size to_px = footage_size_px.value_or(from_px);
+  std::vector<Warning> warnings = reader.fields.warnings;
+  const Result<LensParameters> scaled = scaled_calibration(equirectangular_camera(from_px).lens.parameters(), from_px,
+                                                           to_px, {1, 1}, reader.file, warnings);
+  if (!scaled) return fail(scaled.error());
+  Camera camera = equirectangular_camera(to_px);
+  const Field* matrix = found(reader.fields, kMatrixNames);
+  const auto is_zero = [](double number) { return number == 0; };
+  if (matrix != nullptr && !std::ranges::all_of(matrix->numbers, is_zero))
+    warnings.push_back({reader.where(*matrix), "is not used: an equirectangular image covers 360 by 180 degrees"});
+  camera.warnings.insert(camera.warnings.begin(), warnings.begin(), warnings.end());
+  return camera;
+}
+
 }  // namespace
 
 Result<void> check_numbers(const Field& field, const std::string& file_name) {
@@ -249,6 +282,8 @@ Result<Camera> camera_of(const Fields& fields, const std::string& file_name, std
   const Reader reader{fields, file_name};
   if (const Field* mirror = found(fields, kMirrorNames))
     return fail(reader.where(*mirror), "the omnidirectional model (xi) is not supported; calibrate as fisheye");
+  if (wanted_model ? *wanted_model == LensModel::equirectangular : reader.states_equirectangular())
+    return equirectangular_camera_from(reader, footage_size_px);
   LensParameters lens;
   if (const auto good = reader.read_matrix(lens); !good) return fail(good.error());
   if (const auto good = reader.read_coefficients(lens); !good) return fail(good.error());
@@ -289,6 +324,21 @@ CalibrationName calibration_name(const std::filesystem::path& name) {
   if (at == std::string::npos || text.find('/', at) != std::string::npos || std::filesystem::exists(name, ignored))
     return {name, ""};
   return {text.substr(0, at), text.substr(at + 1)};
+}
+
+Camera equirectangular_camera(cv::Size size_px) {
+  const LensParameters lens{.model = LensModel::equirectangular,
+                            .fx = size_px.width / (2 * std::numbers::pi),
+                            .fy = size_px.height / std::numbers::pi,
+                            .cx = (size_px.width - 1) / 2.0,
+                            .cy = (size_px.height - 1) / 2.0};
+  Camera camera{.lens = *Lens::make(lens), .size_px = size_px};
+  if (size_px.width != 2 * size_px.height)
+    camera.warnings.push_back(
+        {"equirectangular", fmt::format("the image of {} is taken to cover 360 by 180 degrees, though it is not twice "
+                                        "as wide as high",
+                                        image_size_text(size_px))});
+  return camera;
 }
 
 Result<Camera> read_calibration(const std::filesystem::path& path, std::optional<cv::Size> footage_size_px,

@@ -30,6 +30,12 @@ struct CalibrationName {
 // A file whose own name has the # goes before. Looks at the file system for that alone.
 [[nodiscard]] CalibrationName calibration_name(const std::filesystem::path& name);
 
+// The camera of 360 degree footage: an equirectangular image that covers 360 by 180 degrees, azimuth 0 in its middle.
+// The size alone determines it:
+//   azimuth = (u + 0.5) / width * 2 pi - pi, to the right;  elevation = pi / 2 - (v + 0.5) / height * pi
+// Warned of where the width is not twice the height.
+[[nodiscard]] Camera equirectangular_camera(cv::Size size_px);
+
 // Reads a calibration: OpenCV FileStorage XML or YAML, ROS camera_info YAML, plain YAML with nested lists, Gyroflow
 // lens profile JSON, one camera of a rig (rig_calibration.h). The format is recognised by the content, not by the name.
 // docs/calibration-files.md lists the keys.

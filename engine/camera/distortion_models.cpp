@@ -242,4 +242,18 @@ glm::dmat2 KannalaBrandt::jacobian(const glm::dvec2& p) const {
   return factor * glm::dmat2{1} + 2 * slope * glm::outerProduct(p, p);
 }
 
+std::optional<glm::dvec2> Equirectangular::plane_of(const glm::dvec3& p_optical) {
+  if (p_optical == glm::dvec3(0)) return std::nullopt;
+  return glm::dvec2{std::atan2(p_optical.x, p_optical.z),
+                    std::atan2(p_optical.y, std::hypot(p_optical.x, p_optical.z))};
+}
+
+glm::dvec3 Equirectangular::ray_of(const glm::dvec2& p) {
+  return {std::cos(p.y) * std::sin(p.x), std::sin(p.y), std::cos(p.y) * std::cos(p.x)};
+}
+
+glm::dvec2 Equirectangular::stretch(const glm::dvec2& p) {
+  return {1 / std::max(std::cos(p.y), std::numeric_limits<double>::min()), 1};
+}
+
 }  // namespace sigs::distortion

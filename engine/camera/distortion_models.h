@@ -157,6 +157,25 @@ struct KannalaBrandt : EquidistantPlane {
   [[nodiscard]] glm::dmat2 jacobian(const glm::dvec2& p) const;
 };
 
+// The projection of 360 degree footage, the plate carree of maps: p is the azimuth to the right of the axis, -pi to pi,
+// and the angle below the horizontal plane through it, -pi/2 to pi/2. There is no distortion.
+struct Equirectangular {
+  // The model has no coefficients.
+  [[nodiscard]] static Equirectangular of(std::span<const double> /*coefficients*/) { return {}; }
+
+  [[nodiscard]] static glm::dvec2 distorted(const glm::dvec2& p) { return p; }
+  [[nodiscard]] static glm::dmat2 jacobian(const glm::dvec2& /*p*/) { return glm::dmat2{1}; }
+
+  // The plane's point of a direction (any length), the azimuth of the poles being 0. Nothing for the zero vector.
+  [[nodiscard]] static std::optional<glm::dvec2> plane_of(const glm::dvec3& p_optical);
+
+  // The unit direction of a point of the plane. Beyond a pole it is the direction over the pole.
+  [[nodiscard]] static glm::dvec3 ray_of(const glm::dvec2& p);
+
+  // How fast p moves when the direction turns, per radian: horizontally (x) and vertically (y), not along the radius.
+  [[nodiscard]] static glm::dvec2 stretch(const glm::dvec2& p);
+};
+
 // The disk of a model's undistorted plane on which the model is one to one.
 struct Field {
   // |p| < radius: a tangent (Brown-Conrady) or an angle in radians (on the equidistant plane), as in the model's plane.
@@ -176,5 +195,10 @@ struct Field {
 
 // Kannala-Brandt: up to the first angle at which the distorted radius stops increasing, at most pi.
 [[nodiscard]] Field valid_field(const KannalaBrandt& model);
+
+// Equirectangular: all of its plane.
+[[nodiscard]] inline Field valid_field(const Equirectangular& /*model*/) {
+  return {};
+}
 
 }  // namespace sigs::distortion

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "base/pose.h"
@@ -122,6 +123,13 @@ std::optional<glm::dvec2> undistorted(const KannalaBrandt& model, const Field& f
   return radially_undistorted(model, field, distorted_point);
 }
 
+// Over a pole as far as to the other one.
+std::optional<glm::dvec2> undistorted(const Equirectangular& /*model*/, const Field& /*field*/,
+                                      const glm::dvec2& distorted_point) {
+  if (!(std::abs(distorted_point.y) <= 1.5 * std::numbers::pi)) return std::nullopt;
+  return distorted_point;
+}
+
 }  // namespace
 }  // namespace sigs::distortion
 
@@ -142,6 +150,8 @@ bool has_count(LensModel model, std::size_t count) {
       return std::ranges::find(kBrownConrady, count) != kBrownConrady.end();
     case LensModel::kannala_brandt:
       return count == 4;
+    case LensModel::equirectangular:
+      return count == 0;
   }
   return false;
 }
@@ -153,6 +163,8 @@ const char* counts_text(LensModel model) {
       return "0, 4, 5, 8, 12 or 14 distortion";
     case LensModel::kannala_brandt:
       return "4 fisheye";
+    case LensModel::equirectangular:
+      return "0 equirectangular";
   }
   return "";
 }
@@ -179,6 +191,8 @@ const char* name_of(LensModel model) {
       return "Brown-Conrady";
     case LensModel::kannala_brandt:
       return "Kannala-Brandt";
+    case LensModel::equirectangular:
+      return "equirectangular";
   }
   return "";
 }
@@ -186,6 +200,7 @@ const char* name_of(LensModel model) {
 bool is_fisheye(LensModel model) {
   switch (model) {
     case LensModel::brown_conrady:
+    case LensModel::equirectangular:
       return false;
     case LensModel::kannala_brandt:
       return true;
@@ -196,7 +211,8 @@ bool is_fisheye(LensModel model) {
 Lens::Lens(LensParameters parameters, Model model)
     : parameters_(std::move(parameters)),
       model_(std::move(model)),
-      field_(std::visit([](const auto& m) { return distortion::valid_field(m); }, model_)) {}
+      field_(std::visit([](const auto& m) { return distortion::valid_field(m); }, model_)),
+      middle_px_(parameters_.cx) {}
 
 Result<Lens> Lens::make(LensParameters parameters) {
   if (std::string wrong = fault(parameters); !wrong.empty()) return fail("", std::move(wrong));
@@ -210,6 +226,8 @@ Lens::Model Lens::model_of(const LensParameters& parameters) {
       return distortion::BrownConrady::of(parameters.coefficients);
     case LensModel::kannala_brandt:
       return distortion::KannalaBrandt::of(parameters.coefficients);
+    case LensModel::equirectangular:
+      return distortion::Equirectangular::of(parameters.coefficients);
   }
   return {};
 }
@@ -227,8 +245,10 @@ std::optional<glm::dvec2> Lens::pixel(const glm::dvec3& p_in_camera) const {
   const std::optional<glm::dvec2> point = plane_point(p_in_camera);
   if (!point) return std::nullopt;
   const glm::dvec2 distorted = std::visit([&](const auto& model) { return model.distorted(*point); }, model_);
-  const glm::dvec2 result = distorted * focal() + center();
+  glm::dvec2 result = distorted * focal() + center();
   if (!is_finite(result)) return std::nullopt;
+  if (const double period = period_px(); period > 0)
+    result.x -= period * std::floor((result.x - middle_px_) / period + 0.5);
   return result;
 }
 
@@ -258,6 +278,7 @@ std::optional<glm::dvec3> Lens::ray(const glm::dvec2& pixel_px) const {
       model_);
   if (!optical_ray) return std::nullopt;
   const glm::dvec3 result = camera_of(*optical_ray);
+  if (parameters_.model == LensModel::equirectangular) return result;  // a closed form, and columns repeat
   if (!comes_back(result, pixel_px)) return std::nullopt;
   return result;
 }
@@ -271,6 +292,8 @@ double Lens::pixels_per_radian(const glm::dvec3& direction_in_camera) const {
   return std::visit(
       [&](const auto& model) {
         const glm::dvec2 stretch = model.stretch(*point);
+        if constexpr (std::is_same_v<std::decay_t<decltype(model)>, distortion::Equirectangular>)
+          return std::max(std::min(focal().x * stretch.x, focal().x * 2 * focal().y), focal().y);
         const glm::dmat2 jacobian = model.jacobian(*point);
         return distortion::largest_singular_value(
             {focal() * (jacobian * along) * stretch.x, focal() * (jacobian * across) * stretch.y});
@@ -284,6 +307,8 @@ double Lens::valid_angle_rad() const {
       return std::atan(field_.radius);
     case LensModel::kannala_brandt:
       return field_.radius;
+    case LensModel::equirectangular:
+      return std::numbers::pi;
   }
   return 0;
 }
@@ -293,9 +318,28 @@ bool Lens::is_pinhole() const {
     case LensModel::brown_conrady:
       return std::ranges::all_of(parameters_.coefficients, [](double c) { return c == 0; });
     case LensModel::kannala_brandt:
+    case LensModel::equirectangular:
       return false;
   }
   return false;
+}
+
+double Lens::period_px() const {
+  return parameters_.model == LensModel::equirectangular ? 2 * std::numbers::pi * parameters_.fx : 0;
+}
+
+Lens Lens::around(const glm::dvec3& direction_in_camera) const {
+  Lens turned = *this;
+  turned.middle_px_ = parameters_.cx;
+  if (period_px() > 0)
+    if (const std::optional<glm::dvec2> middle = turned.pixel(direction_in_camera)) turned.middle_px_ = middle->x;
+  return turned;
+}
+
+glm::dvec2 Lens::way(const glm::dvec2& from_px, const glm::dvec2& to_px) const {
+  glm::dvec2 apart = to_px - from_px;
+  if (const double period = period_px(); period > 0) apart.x -= period * std::floor(apart.x / period + 0.5);
+  return apart;
 }
 
 }  // namespace sigs

@@ -12,20 +12,21 @@
 namespace sigs {
 
 enum class LensModel {
-  brown_conrady,   // OpenCV calib3d: 0, 4, 5, 8, 12 or 14 coefficients k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tx ty
-  kannala_brandt,  // OpenCV fisheye: 4 coefficients k1 k2 k3 k4
+  brown_conrady,    // OpenCV calib3d: 0, 4, 5, 8, 12 or 14 coefficients k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tx ty
+  kannala_brandt,   // OpenCV fisheye: 4 coefficients k1 k2 k3 k4
+  equirectangular,  // 360 degree footage: columns are azimuths, rows elevations; no coefficients
 };
 
-// The model's name for people, by its authors: "Brown-Conrady", "Kannala-Brandt".
+// The model's name for people, by its authors: "Brown-Conrady", "Kannala-Brandt"; "equirectangular".
 [[nodiscard]] const char* name_of(LensModel model);
 
-// Whether its images reach 90 degrees from the axis and beyond: those of a fisheye do, those of a pinhole do not.
+// Whether it is a fisheye's: its images reach 90 degrees from the axis and beyond, round about the axis.
 [[nodiscard]] bool is_fisheye(LensModel model);
 
 // The intrinsics of a camera. Pixels as in base/image.h: the centre of the first pixel is (0, 0).
 struct LensParameters {
   LensModel model = LensModel::brown_conrady;
-  double fx = 1, fy = 1, cx = 0, cy = 0;  // focal lengths and principal point, px
+  double fx = 1, fy = 1, cx = 0, cy = 0;  // focal lengths and principal point, px; equirectangular: px per radian
   std::vector<double> coefficients;       // in the model's order
 
   [[nodiscard]] bool operator==(const LensParameters&) const = default;
@@ -40,20 +41,35 @@ class Lens {
   [[nodiscard]] static Result<Lens> make(LensParameters parameters);
 
   // Pixel of a point given in the camera frame (X along the axis, Y right, Z down; any length). Nothing where the point
-  // lies behind the camera (pinhole models), at the camera, or beyond the valid field.
+  // lies behind the camera (pinhole models), at the camera, or beyond the valid field. Of an equirectangular lens,
+  // whose columns repeat every period_px(), the column within half a period of the middle: that of azimuth 0, or of
+  // around().
   [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& p_in_camera) const;
 
   // Unit vector in the camera frame along which a pixel looks, by Newton's method with the analytic Jacobian. pixel()
   // of it agrees to 1e-9 px or, far outside any image, to the last digits of doubles.
-  // Nothing where no ray within the valid field meets the pixel.
+  // Nothing where no ray within the valid field meets the pixel. Of an equirectangular lens every column has a ray,
+  // also beyond the image, and rows beyond a pole show what lies over it, up to the other pole: that pixel() then gives
+  // another place.
   [[nodiscard]] std::optional<glm::dvec3> ray(const glm::dvec2& pixel) const;
 
   // Local magnification: how far the pixel moves, at most, when a direction (camera frame, any length) turns by a small
-  // angle; px per radian. It is the largest singular value of d pixel / d angle. 0 where the direction has no image.
+  // angle; px per radian. It is the largest singular value of d pixel / d angle. 0 where the direction has no image. Of
+  // an equirectangular lens it grows without limit towards the poles: within half a pixel of one it is that there.
   [[nodiscard]] double pixels_per_radian(const glm::dvec3& direction_in_camera) const;
 
   // Largest angle from the optical axis that has an image, radians. The field is round in undistorted coordinates.
   [[nodiscard]] double valid_angle_rad() const;
+
+  // Columns after which the image repeats: 2 pi fx of an equirectangular lens, 0 of any other.
+  [[nodiscard]] double period_px() const;
+
+  // The same lens, whose pixel() gives columns within half a period of that of a direction (camera frame, any length),
+  // so that the image of what lies around it is in one piece. Of a lens without period the lens itself.
+  [[nodiscard]] Lens around(const glm::dvec3& direction_in_camera) const;
+
+  // From one pixel to another, px: the short way round where the image repeats.
+  [[nodiscard]] glm::dvec2 way(const glm::dvec2& from_px, const glm::dvec2& to_px) const;
 
   // True where the lens is a pinhole without distortion: images need no warp.
   [[nodiscard]] bool is_pinhole() const;
@@ -61,7 +77,7 @@ class Lens {
   [[nodiscard]] const LensParameters& parameters() const { return parameters_; }
 
  private:
-  using Model = std::variant<distortion::BrownConrady, distortion::KannalaBrandt>;
+  using Model = std::variant<distortion::BrownConrady, distortion::KannalaBrandt, distortion::Equirectangular>;
   [[nodiscard]] static Model model_of(const LensParameters& parameters);
   Lens(LensParameters parameters, Model model);
 
@@ -73,6 +89,7 @@ class Lens {
   LensParameters parameters_;
   Model model_;
   distortion::Field field_;
+  double middle_px_ = 0;  // the column around which pixel() gives columns, of a lens with a period
 };
 
 }  // namespace sigs

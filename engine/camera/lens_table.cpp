@@ -86,7 +86,7 @@ bool LensTable::is_smooth(const Tile& tile) const {
     if (i % across != 0) largest_step_rad = std::max(largest_step_rad, angle_between(ray, tile.nodes[i - 1]));
     if (i >= across) largest_step_rad = std::max(largest_step_rad, angle_between(ray, tile.nodes[i - across]));
   }
-  return widest_rad + largest_step_rad < camera_.lens.valid_angle_rad();
+  return camera_.lens.period_px() > 0 || widest_rad + largest_step_rad < camera_.lens.valid_angle_rad();
 }
 
 std::optional<glm::dvec2> LensTable::pixel(const glm::dvec3& p_in_camera) {
@@ -96,7 +96,7 @@ std::optional<glm::dvec2> LensTable::pixel(const glm::dvec3& p_in_camera) {
 
 bool LensTable::misses(const glm::dvec3& ray, int x, int y) {
   const std::optional<glm::dvec2> back = pixel(ray);
-  return !back || !(glm::distance(*back, {x - 0.5, y - 0.5}) <= tolerance_px_ / 3);
+  return !back || !(glm::length(camera_.lens.way({x - 0.5, y - 0.5}, *back)) <= tolerance_px_ / 3);
 }
 
 // Whether the tile's polynomial meets the tolerance. Its error is largest near the middles between nodes, but

@@ -41,6 +41,12 @@ class LensTable {
   // Lens::pixel, counted in evaluations().
   [[nodiscard]] std::optional<glm::dvec2> pixel(const glm::dvec3& p_in_camera);
 
+  // Lens::around: of a lens whose image repeats, pixel() and camera().lens give columns around a direction from here
+  // on.
+  void turn_to(const glm::dvec3& direction_in_camera) {
+    if (camera_.lens.period_px() > 0) camera_.lens = camera_.lens.around(direction_in_camera);
+  }
+
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] double tolerance_px() const { return tolerance_px_; }
 

@@ -33,6 +33,8 @@ constexpr int kMargin_px = 2;               // empty pixels around the body, for
 constexpr double kFineExtent_px = 192;
 constexpr double kFineSupersampling = 8;
 
+constexpr double kMostStretched = 4;  // pixels of a 360 degree image that a view follows: that often as high as wide
+
 using Corners = std::array<glm::dvec3, 8>;
 
 // The shortest rotation that takes the axis to X, so that the view is upright where the camera is.
@@ -182,7 +184,12 @@ double px_per_tangent(LensTable& lens, const glm::dquat& camera_from_view, const
   const std::optional<glm::dvec2> right = pixel(tangent.x + kStep, tangent.y);
   const std::optional<glm::dvec2> below = pixel(tangent.x, tangent.y + kStep);
   if (!right || !below) return 0;
-  return distortion::largest_singular_value({(*right - *at) / kStep, (*below - *at) / kStep});
+  const Lens& model = lens.camera().lens;
+  const glm::dmat2 slopes{model.way(*at, *right) / kStep, model.way(*at, *below) / kStep};
+  const double largest = distortion::largest_singular_value(slopes);
+  if (!(model.period_px() > 0) || largest == 0) return largest;
+  // Towards a pole columns become ever narrower in angle, without showing more.
+  return std::min(largest, kMostStretched * std::abs(glm::determinant(slopes)) / largest);
 }
 
 // The target, grown by as much as the grid of finest_focal_px could miss.

@@ -112,8 +112,7 @@ Layer clipped(const Layer& layer, const cv::Rect& bounds) {
 
 Layer occluded_by_body(const Layer& layer, const cv::Mat& own_body) {
   if (own_body.empty() || layer.empty()) return layer;
-  ENSURE((layer.rect & cv::Rect({0, 0}, own_body.size())) == layer.rect);
-  return occluded_by(layer, own_body(layer.rect));
+  return occluded_by(layer, part_round(own_body, layer.rect));
 }
 
 Layer occluded_by(const Layer& layer, const cv::Mat& mask) {

@@ -103,6 +103,23 @@ cv::Mat moved_to(const cv::Mat& image, const cv::Rect& rect, const cv::Rect& tar
   return out;
 }
 
+// A row of floats (four to a pixel) blurred by a Gaussian, at the columns of `out`; beyond the row it repeats or is 0.
+//   first  column of out's first pixel, counted in the row
+void blur_row(const cv::Mat& row, bool repeats, double sigma_px, int first, cv::Mat out) {
+  const int margin = static_cast<int>(std::min(std::ceil(3 * sigma_px), (repeats ? row.cols : 2 * out.cols) / 2.0));
+  cv::Mat wide = cv::Mat::zeros(1, out.cols + 2 * margin, CV_32FC4);
+  for (int x = 0; x < wide.cols; ++x) {
+    const int from = first - margin + x;
+    if (repeats)
+      wide.at<cv::Vec4f>(x) = row.at<cv::Vec4f>(column_round(from, row.cols));
+    else if (from >= 0 && from < row.cols)
+      wide.at<cv::Vec4f>(x) = row.at<cv::Vec4f>(from);
+  }
+  const cv::Mat kernel = sampled_gaussian(sigma_px, margin);
+  cv::filter2D(wide, wide, CV_32F, kernel.t(), {-1, -1}, 0, cv::BORDER_CONSTANT);
+  wide.colRange(margin, margin + out.cols).copyTo(out);
+}
+
 }  // namespace
 
 int blur_margin_px(double sigma_px) {
@@ -169,6 +186,41 @@ Layer blurred_within(const Layer& layer, double sigma_px, const cv::Rect& image,
   constexpr double kUnbounded_px = 1e6;
   const int margin_px = static_cast<int>(std::min(std::ceil(3 * sigma_px), kUnbounded_px));
   return widely_blurred(layer, sigma_px, grown(layer.rect, margin_px) & image);
+}
+
+double widening_at(const Lens& lens, double row) {
+  if (!(lens.period_px() > 0)) return 1;
+  const double f = lens.parameters().fy;
+  return 1 / std::max(std::cos((row - lens.parameters().cy) / f), std::sin(0.5 / f));
+}
+
+Layer blurred_through(const Lens& lens, const Layer& layer, double sigma_px, const cv::Rect& image,
+                      const glm::dvec2& spread_px2) {
+  constexpr double kWidest_px = 300;  // beyond, nothing is recognised
+  if (!(lens.period_px() > 0)) return blurred_within(layer, sigma_px, image, spread_px2);
+  if (layer.empty()) return {};
+  const glm::dvec2 sigma = remaining_sigma_px(std::min(sigma_px, kWidest_px), spread_px2);
+  const Layer down = blurred(layer, glm::dvec2(0, sigma.y));
+  const cv::Rect rows = down.rect & cv::Rect(down.rect.x, image.y, down.rect.width, image.height);
+  if (rows.empty()) return {};
+  const double widest = std::max(widening_at(lens, rows.y), widening_at(lens, rows.br().y - 1));
+  const bool is_round = layer.rect.x <= image.x && layer.rect.br().x >= image.br().x;
+  const int margin = static_cast<int>(std::min(std::ceil(3 * sigma.x * widest), image.width / 2.0));
+  const cv::Rect target = cv::Rect(rows.x - margin, rows.y, rows.width + 2 * margin, rows.height) & image;
+  if (target.empty()) return {};
+  const int begin = is_round ? image.x : down.rect.x;  // of the columns that are blurred
+  const int count = is_round ? image.width : down.rect.width;
+  Layer out{target, cv::Mat(target.size(), CV_32FC4), coverage_over(target, layer)};
+  for (int y = target.y; y < target.br().y; ++y) {
+    const cv::Mat row = down.color.row(y - down.rect.y).colRange(begin - down.rect.x, begin - down.rect.x + count);
+    const double sigma_x = sigma.x * widening_at(lens, y);
+    cv::Mat to = out.color.row(y - target.y);
+    if (is_round && sigma_x > count / 4.0)
+      to.setTo(cv::mean(row));
+    else
+      blur_row(row, is_round, sigma_x, target.x - begin, to);
+  }
+  return out;
 }
 
 bool is_visible_after_blur(const Layer& layer, double sigma_px, const ColorInfo& footage, int bit_depth) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "camera/lens.h"
 #include "video/frame.h"
 
 namespace sigs {
@@ -42,6 +43,19 @@ inline constexpr double kWideSigma_px = 16;
 //   spread_px2  variance along each axis that the layer has been spread by already; the blur has so much less of it
 [[nodiscard]] Layer blurred_within(const Layer& layer, double sigma_px, const cv::Rect& image,
                                    const glm::dvec2& spread_px2 = {0, 0});
+
+// The same through a lens. Of one whose columns repeat (Lens::period_px), where the blur is that of an angle: sigma_px
+// is that of the middle rows, and across it is wider towards the poles, as columns become narrower, by 1 /
+// cos(elevation).
+//   image  the pixels wanted; of such a lens all rows, and as many columns as the image has, wherever they begin. A
+//   layer
+//          at least as wide is all around; else nothing of it lies beyond the columns wanted
+[[nodiscard]] Layer blurred_through(const Lens& lens, const Layer& layer, double sigma_px, const cv::Rect& image,
+                                    const glm::dvec2& spread_px2 = {0, 0});
+
+// How much wider across a blur is in a row of such a lens than in the middle ones, at least 1: 1 / cos(elevation),
+// within half a pixel of a pole as there. 1 of any other lens.
+[[nodiscard]] double widening_at(const Lens& lens, double row);
 
 // Upper bound of any channel of any pixel after a blur above kWideSigma_px.
 [[nodiscard]] double max_after_blur(const Layer& layer, double sigma_px);

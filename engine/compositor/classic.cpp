@@ -55,6 +55,8 @@ FixedMap undistorting_map(const Camera& camera) {
       cv::fisheye::initUndistortRectifyMap(matrix, lens.coefficients, cv::Matx33d::eye(), matrix, camera.size_px,
                                            CV_16SC2, map.pixels, map.shares);
       break;
+    case LensModel::equirectangular:
+      ENSURE(false && "scenes of 360 degree footage refuse the classic method");
   }
   return map;
 }

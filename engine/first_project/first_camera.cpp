@@ -23,6 +23,7 @@ namespace {
 constexpr double kMinFov_deg = 1;
 constexpr double kMaxFov_deg = 359;
 const std::string kStateFov = "--fov states it if you know it; ";
+const std::string kEquirectangular = "equirectangular";  // VideoInfo::projection
 const std::string kMeasure = "`sigs calibrate` measures the lens";
 
 double pixel_aspect(const VideoInfo& video) {
@@ -95,6 +96,10 @@ GuessedLens guessed_lens(const FirstProjectOptions& options, const VideoInfo& vi
                   "by what the file states (" + logged->source + "); distortion is not known");
   }
   note.remedy = kStateFov + note.remedy;
+  if (video.size_px.width == 2 * video.size_px.height)
+    note.remedy +=
+        "; if the image, twice as wide as high, is 360 degree footage, set footage.lens_model to "
+        "equirectangular and footage.calibration to \"\"";
   GuessedLens guessed = default_lens(video, rad_of_deg(kGuessedFov_deg));
   guessed.is_default = true;
   return finish(std::move(guessed), "a guess: nothing in the file tells it");
@@ -136,6 +141,11 @@ Result<FirstCamera> first_camera(const FirstProjectOptions& options, const Video
     if (!camera) return fail(camera.error());
     note.text = options.calibration.filename().string() + ", as given";
     return FirstCamera{.camera = *std::move(camera), .note = note};
+  }
+  if (!options.horizontal_fov_deg && video.projection == kEquirectangular) {
+    note.field = "footage.lens_model";
+    note.text = "equirectangular: the file states 360 degree footage";
+    return FirstCamera{.camera = equirectangular_camera(video.size_px), .note = note};
   }
   if (options.horizontal_fov_deg &&
       !(*options.horizontal_fov_deg >= kMinFov_deg && *options.horizontal_fov_deg <= kMaxFov_deg))

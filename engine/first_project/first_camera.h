@@ -25,13 +25,14 @@ inline constexpr double kFisheyeFov_deg = 120;
 // The lens of a first project.
 struct FirstCamera {
   Camera camera;                 // of the footage's size
-  std::string calibration_text;  // of the file to be written; empty: the user's file is used
+  std::string calibration_text;  // of the file to be written; empty: the user's file is used, or none is needed
   FirstProjectNote note;         // field footage.calibration
   bool is_default = false;       // of kGuessedFov_deg, since nothing tells it
 };
 
 // The camera of the user's calibration file, else of the stated field of view, else of what the file says, else of
-// kGuessedFov_deg. Pixels that are not square are respected.
+// kGuessedFov_deg. Footage whose container states it equirectangular has that lens, which needs no file. Pixels that
+// are not square are respected.
 //   logged  what the footage's file or its log says; may be nothing
 // Errors: those of read_calibration(); usage for a field of view out of range.
 [[nodiscard]] Result<FirstCamera> first_camera(const FirstProjectOptions& options, const VideoInfo& video,

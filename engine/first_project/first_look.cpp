@@ -122,6 +122,7 @@ Result<FirstLook> first_look(FrameSource& footage, const Scene& scene, const std
   Surroundings surroundings(!sun);
   Levels levels;
   std::vector<double> covers;
+  const bool is_round = scene.camera.lens.period_px() > 0;
   for (const int number : look_frames(scene)) {
     if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
     const Result<Frame> frame = footage.read(number);
@@ -131,11 +132,14 @@ Result<FirstLook> first_look(FrameSource& footage, const Scene& scene, const std
     if (scene.horizon_is_known)
       view.world_from_camera = camera_at(scene.motion, time_of_frame_s(scene.footage, number)).rotation;
     surroundings.add(*frame, view);
-    if (!scene.horizon_is_known) levels.add(*frame, scene.camera);
+    if (!scene.horizon_is_known && !is_round) levels.add(*frame, scene.camera);
     covers.push_back(CloudMap(*frame).cover(kCloud));
   }
   FirstLook look{.surroundings = surroundings.finish(sun), .cloud_cover = covers.empty() ? 0 : median(covers)};
-  levels.set(look);
+  if (is_round)
+    look.level_by = LevelBy::all_round;
+  else
+    levels.set(look);
   return look;
 }
 
@@ -154,6 +158,10 @@ std::vector<FirstProjectNote> set_attitude(const FirstLook& look, bool has_path,
       note.text = fmt::format("roll {}, pitch {}: by the horizon in a few frames",
                               number_text(*project.camera.roll_deg, 1), pitch);
       note.remedy = "`sigs ego-motion` finds each frame's attitude";
+      break;
+    case LevelBy::all_round:
+      note.text = "roll 0, pitch 0: 360 degree cameras mostly level their footage";
+      note.remedy = "level it while it is stitched, or set camera.attitude_deg";
       break;
     case LevelBy::skyline:
       note.text = fmt::format(

@@ -157,7 +157,9 @@ class Planning {
     camera_ = camera->camera;
     note(camera->note);
     lens_is_default_ = camera->is_default;
-    if (camera->calibration_text.empty()) {
+    if (camera_->lens.parameters().model == LensModel::equirectangular && options_.calibration.empty()) {
+      project().footage.lens_model = LensModelChoice::equirectangular;
+    } else if (camera->calibration_text.empty()) {
       project().footage.calibration = relative_to(options_.calibration, project().file);
     } else {
       first_.files.push_back({.path = calibration_file(), .content = camera->calibration_text, .copy_of = {}});

@@ -23,17 +23,18 @@ namespace sigs {
 // What tells the level in the footage.
 enum class LevelBy {
   nothing,
-  horizon,  // a straight one, which tells roll and pitch
-  skyline,  // sky above woods, hills, houses: tells the pitch to some degrees
-  sky,      // nothing but sky: the camera looks up, by an unknown angle
-  ground,   // nothing but ground: the camera looks down, by an unknown angle
+  horizon,    // a straight one, which tells roll and pitch
+  skyline,    // sky above woods, hills, houses: tells the pitch to some degrees
+  sky,        // nothing but sky: the camera looks up, by an unknown angle
+  ground,     // nothing but ground: the camera looks down, by an unknown angle
+  all_round,  // 360 degree footage, which its camera has mostly levelled
 };
 
 // What a few frames of the footage show.
 struct FirstLook {
   SurroundingsEstimate surroundings;  // light and sun
   LevelBy level_by = LevelBy::nothing;
-  double roll_rad = 0, pitch_rad = 0;  // of the camera; guessed for `sky` and `ground`, 0 for `nothing`
+  double roll_rad = 0, pitch_rad = 0;  // of the camera; guessed for `sky` and `ground`, 0 for `nothing` and `all_round`
   double cloud_cover = 0;              // share of the sky, 0..1
 };
 

@@ -229,7 +229,9 @@ LampLayer lamp_layer(const LampImage& lamp, const LampSpread& spread, const cv::
   const double sharp = 1 - spread.glare;
   const double reach = std::max(reach_px(sharp * light, spread.sigma_px),
                                 spread.glare > 0 ? reach_px(spread.glare * light, spread.glare_px) : 0);
-  const cv::Rect rect = pixels_touched({lamp.pixel.x - reach, lamp.pixel.y - reach, 2 * reach, 2 * reach}, 0, bounds);
+  const double across_px = reach * spread.widening;
+  const cv::Rect rect =
+      pixels_touched({lamp.pixel.x - across_px, lamp.pixel.y - reach, 2 * across_px, 2 * reach}, 0, bounds);
   if (rect.empty()) return {};
   LampLayer made{.layer = {.rect = rect,
                            .color = cv::Mat(rect.size(), CV_32FC4, cv::Scalar::all(0)),
@@ -237,7 +239,8 @@ LampLayer lamp_layer(const LampImage& lamp, const LampSpread& spread, const cv::
   bool is_seen = false;
   std::vector<glm::dvec2> across;  // shares of the two Gaussians in each column
   for (int x = rect.x; x < rect.x + rect.width; ++x)
-    across.emplace_back(share_on(lamp.pixel.x, spread.sigma_px, x), share_on(lamp.pixel.x, spread.glare_px, x));
+    across.emplace_back(share_on(lamp.pixel.x, spread.sigma_px * spread.widening, x),
+                        share_on(lamp.pixel.x, spread.glare_px * spread.widening, x));
   for (int y = 0; y < rect.height; ++y) {
     const double down = share_on(lamp.pixel.y, spread.sigma_px, rect.y + y);
     const double down_wide = share_on(lamp.pixel.y, spread.glare_px, rect.y + y);

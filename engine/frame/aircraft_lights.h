@@ -59,6 +59,7 @@ struct LampSpread {
   double sigma_px = 0;
   double glare = 0;  // share, 0..1
   double glare_px = 0;
+  double widening = 1;  // how much wider both are across (widening_at in compositor/blur.h)
 };
 
 // A point's light over the pixels within bounds where it adds at least a quarter of the darkest 8-bit code. It adds to

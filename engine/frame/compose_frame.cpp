@@ -19,6 +19,7 @@
 #include "frame/composite.h"
 #include "frame/contrail.h"
 #include "frame/ground_shadow.h"
+#include "frame/panorama.h"
 #include "frame/render_plan.h"
 #include "scene/scene.h"
 #include "scene/scene_at.h"
@@ -67,11 +68,12 @@ bool needs_blurred_layers(const Scene& scene) {
   return scene.compositing.method != MethodChoice::classic || scene.intruders.size() > 1;
 }
 
-// Pixels of the image that the intruder takes up.
-cv::Rect box_in_image(const IntruderLayers& layers, cv::Size image_size_px) {
-  const cv::Rect image({0, 0}, image_size_px);
-  if (layers.silhouette && layers.silhouette->all_have_image) return pixels_touched(layers.silhouette->box, 0, image);
-  return layers.warped.rect & image;
+// Pixels of the image that the intruder takes up; in a 360 degree image those of its larger part.
+cv::Rect box_in_image(const IntruderLayers& layers, const Lens& lens, cv::Size image_size_px) {
+  cv::Rect box = layers.warped.rect & layers.window;
+  if (layers.silhouette && layers.silhouette->all_have_image)
+    box = pixels_touched(layers.silhouette->box, 0, layers.window);
+  return larger_part(box, lens, image_size_px);
 }
 
 // Linear light of the haze in front of what is in a box of the image. Where the footage around it is asked for, but the
@@ -130,14 +132,17 @@ void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* ba
                   IntruderLayers& layers) {
   const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(layers.placed.id)];
   if (intruder.contrail.strands == 0 || scene.is_thermal || scene.compositing.method != MethodChoice::direct) return;
-  const cv::Rect image({0, 0}, scene.footage.size_px);
+  const cv::Rect& window = layers.window;
+  const Lens& model = lens.camera().lens;
   const double distance_m = layers.placed.distance_m();
-  const std::vector<TrailStrand> strands = contrail_strands(scene, moment, layers.placed, lens.camera().lens);
+  const std::vector<TrailStrand> strands = contrail_strands(scene, moment, layers.placed, model);
   const Layer trail = trail_layer(strands, contrail_color(scene, moment, intruder.contrail),
-                                  grown(image, blur_margin_px(std::min(layers.sigma_px, 100.0))));
+                                  grown(window, blur_margin_px(std::min(layers.sigma_px, 100.0))));
   if (trail.empty()) return;
-  const Layer hazed = hazed_layer(scene, trail, distance_m, trail.rect & image, background);
-  layers.contrail = without_hidden(scene, moment, blurred_within(hazed, layers.sigma_px, image), distance_m, lens);
+  const cv::Rect box = larger_part(trail.rect & window, model, scene.footage.size_px);
+  const Layer hazed = hazed_layer(scene, trail, distance_m, box, background);
+  layers.contrail =
+      without_hidden(scene, moment, blurred_through(model, hazed, layers.sigma_px, window), distance_m, lens);
   layers.contrail_is_nearer = is_before_aircraft(scene, moment, layers.placed);
 }
 
@@ -146,9 +151,13 @@ void add_lamps(const Scene& scene, const SceneMoment& moment, LensTable& lens, I
   const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(layers.placed.id)];
   if (intruder.lights.is_dark() || scene.is_thermal || scene.compositing.method != MethodChoice::direct) return;
   const AppearanceSettings& look = scene.appearance;
-  const LampSpread spread{.sigma_px = layers.sigma_px, .glare = look.glare, .glare_px = look.glare_px};
-  for (const LampImage& lamp : lamp_images(scene, moment, layers.placed, lens.camera().lens)) {
-    LampLayer made = lamp_layer(lamp, spread, {{0, 0}, scene.footage.size_px});
+  const Lens& model = lens.camera().lens;
+  for (const LampImage& lamp : lamp_images(scene, moment, layers.placed, model)) {
+    const LampSpread spread{.sigma_px = layers.sigma_px,
+                            .glare = look.glare,
+                            .glare_px = look.glare_px,
+                            .widening = widening_at(model, lamp.pixel.y)};
+    LampLayer made = lamp_layer(lamp, spread, window_around(lamp.pixel.x, model, scene.footage.size_px));
     if (made.layer.empty()) continue;
     made.layer = without_hidden(scene, moment, made.layer, layers.placed.distance_m(), lens);
     if (made.layer.empty()) continue;
@@ -166,18 +175,17 @@ void add_shadow(const Scene& scene, const SceneMoment& moment, LensTable& lens, 
 }
 
 // Fills `motion_blurred` and `blurred`; the latter stays empty where the layer is too faint to be seen.
-void blur(const Scene& scene, const ColorInfo& footage, int bit_depth, IntruderLayers& layers) {
-  const cv::Rect image({0, 0}, scene.footage.size_px);
-  const cv::Rect& rect = layers.hazed.rect;
+void blur(const Scene& scene, const Lens& lens, const ColorInfo& footage, int bit_depth, IntruderLayers& layers) {
   layers.motion_blurred = motion_blurred(layers.hazed, layers.motion, kUnboundedRect);
   layers.op_counts.pixels_motion_blurred +=
-      static_cast<std::int64_t>(layers.motion.shifts.size()) * std::int64_t{rect.area()};
+      static_cast<std::int64_t>(layers.motion.shifts.size()) * std::int64_t{layers.hazed.rect.area()};
   if (!is_visible_after_blur(layers.motion_blurred, layers.sigma_px, footage, bit_depth)) return;
   if (!needs_blurred_layers(scene)) {
-    layers.blurred = clipped(layers.motion_blurred, image);
+    layers.blurred = clipped(layers.motion_blurred, layers.window);
     return;
   }
-  layers.blurred = blurred_within(layers.motion_blurred, layers.sigma_px, image, layers.motion.spread_px2);
+  layers.blurred =
+      blurred_through(lens, layers.motion_blurred, layers.sigma_px, layers.window, layers.motion.spread_px2);
   if (layers.sigma_px > 0) layers.op_counts.pixels_blurred += layers.blurred.rect.area();
 }
 
@@ -198,7 +206,7 @@ std::vector<MeasuredLayers> measured_layers(const Scene& scene, const std::vecto
                    .silhouette = layers.silhouette,
                    .outermost_m = intruder.model->outermost_m,
                    .whole_area_px = layers.whole_area_px,
-                   .inside = clipped(layers.warped, {{0, 0}, scene.footage.size_px}),
+                   .inside = clipped(layers.warped, layers.window),
                    .max_coverage = max_coverage(layers.warped.coverage),
                    .occluded = layers.occluded});
   }
@@ -256,6 +264,7 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
   const auto up = scene.horizon_is_known ? std::optional(up_in_camera(moment)) : std::nullopt;
   const bool has_haze = scene.compositing.method == MethodChoice::direct;
   std::vector<IntruderTruth> truths;
+  std::vector<IntruderTruth> parts;  // of one intruder
   for (std::size_t i = 0; i < all.size(); ++i) {
     IntruderTruth truth = measured(all[i], std::span(all).subspan(i + 1), composed.mask, up);
     see_lights(composed, far_to_near[i], footage_luma[i], truth);
@@ -269,7 +278,10 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
     truth.has_contrail = !far_to_near[i].contrail.empty();
     truth.has_shadow = !far_to_near[i].shadow.empty();
     truth.is_distractor = scene.intruders[static_cast<std::size_t>(truth.id)].is_distractor;
-    truths.push_back(std::move(truth));
+    parts.push_back(std::move(truth));
+    if (i + 1 < all.size() && all[i + 1].id == all[i].id) continue;
+    truths.push_back(joined(parts));
+    parts.clear();
   }
   std::ranges::sort(truths, {}, &IntruderTruth::id);
   return truths;
@@ -307,6 +319,7 @@ FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, co
 Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
                                        ComposeContext& context, const ColorInfo& footage, const Frame* background) {
   LensTable& lens = context.lens_of(compositing_camera(scene));
+  lens.turn_to(placed.camera_from_body.translation_m);
   const std::int64_t evaluations_before = lens.evaluations();
   IntruderLayers layers = placed_layers(scene, moment, placed, lens.camera());
   const RenderPlan plan = render_plan_for(layers, lens, scene, moment);
@@ -317,9 +330,9 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     if (!views) return fail(views.error());
     layers.views = std::move(*views);
     layers.warped = warped(layers.views, lens, plan.warp_rect, row_transform(layers));
-    layers.hazed =
-        hazed_layer(scene, layers.warped, placed.distance_m(), box_in_image(layers, scene.footage.size_px), background);
-    blur(scene, footage, background == nullptr ? 8 : background->bit_depth, layers);
+    layers.hazed = hazed_layer(scene, layers.warped, placed.distance_m(),
+                               box_in_image(layers, lens.camera().lens, scene.footage.size_px), background);
+    blur(scene, lens.camera().lens, footage, background == nullptr ? 8 : background->bit_depth, layers);
     layers.occluded = without_hidden(scene, moment, layers.blurred, placed.distance_m(), lens);
     const Result<double> area = whole_area_px(layers, plan, lens, scene, **renderer);
     if (!area) return fail(area.error());
@@ -343,7 +356,8 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   for (const PlacedIntruder& placed : moment.intruders) {
     Result<IntruderLayers> layers = intruder_layers(scene, moment, placed, context, background.color, &background);
     if (!layers) return fail(layers.error());
-    far_to_near.push_back(std::move(*layers));
+    for (IntruderLayers& part : parts_in_image(std::move(*layers), scene.camera.lens, scene.footage.size_px))
+      far_to_near.push_back(std::move(part));
   }
   const std::optional<CloudMap> clouds = clouds_of(scene, background, far_to_near, stages);
   hide_behind_clouds(scene, clouds ? &*clouds : nullptr, far_to_near);

@@ -37,14 +37,16 @@ std::optional<glm::dvec3> on_sphere(const glm::dvec3& offset_m, const glm::dvec3
   return offset_m + unit_ray * (std::sqrt(along_m * along_m + inside) - along_m);
 }
 
-// Bilinear; beyond the borders is nothing.
-float sampled(const cv::Mat& mask, const glm::dvec2& at) {
-  if (!(at.x > -1 && at.y > -1 && at.x < mask.cols && at.y < mask.rows)) return 0;
+// Bilinear; beyond the borders is nothing, beside those of a mask that goes round.
+float sampled(const cv::Mat& mask, const glm::dvec2& at, bool goes_round) {
+  if (!(at.y > -1 && at.y < mask.rows)) return 0;
+  if (!goes_round && !(at.x > -1 && at.x < mask.cols)) return 0;
   const int x = static_cast<int>(std::floor(at.x));
   const int y = static_cast<int>(std::floor(at.y));
   const auto right = static_cast<float>(at.x - x);
   const auto down = static_cast<float>(at.y - y);
   const auto value = [&](int column, int row) {
+    if (goes_round) column = column_round(column, mask.cols);
     return column < 0 || row < 0 || column >= mask.cols || row >= mask.rows ? 0.0F : mask.at<float>(row, column);
   };
   return (1 - down) * ((1 - right) * value(x, y) + right * value(x + 1, y)) +
@@ -158,8 +160,9 @@ void composite_intruder(ComposedFrame& composed, const Scene& scene, const Intru
   const cv::Mat before = is_watched ? luma_of_part(composed.image, layers.occluded.rect).clone() : cv::Mat();
   blend(layers.occluded, keep ? StageDone(keep_stage) : StageDone());
   if (is_watched)
-    composed.body_changes[layers.placed.id] =
-        luma_change(before, luma_of_part(composed.image, layers.occluded.rect), layers.occluded);
+    composed.body_changes[layers.placed.id] =  // of a 360 degree image's two parts the larger change
+        std::max(composed.body_changes[layers.placed.id],
+                 luma_change(before, luma_of_part(composed.image, layers.occluded.rect), layers.occluded));
   if (layers.contrail_is_nearer) blend(layers.contrail, {});
   if (keep && !layers.contrail.empty()) keep_stage("contrail");
   for (const LampLayer& lamp : layers.lamps) blend_in(BlendChoice::linear, lamp.layer, {});
@@ -280,7 +283,9 @@ cv::Mat occluder_seen_from(const Pose<frame::World, frame::Camera>& world_from_c
   const glm::dvec3 offset_m = occluder.distance_m > 0 ? glm::conjugate(made_at.rotation) *
                                                             (world_from_camera.translation_m - made_at.translation_m)
                                                       : glm::dvec3(0);
-  if (made_at.rotation == world_from_camera.rotation && offset_m == glm::dvec3(0)) return occluder.mask(rect);
+  if (made_at.rotation == world_from_camera.rotation && offset_m == glm::dvec3(0))
+    return part_round(occluder.mask, rect);
+  const bool goes_round = lens.camera().lens.period_px() > 0;
   cv::Mat seen = cv::Mat::zeros(rect.size(), CV_32FC1);
   for (int y = 0; y < rect.height; ++y) {
     const std::vector<glm::dvec3> rays = middle_rays(lens, rect, rect.y + y);
@@ -290,7 +295,7 @@ cv::Mat occluder_seen_from(const Pose<frame::World, frame::Camera>& world_from_c
       std::optional<glm::dvec3> point = made_from_now * ray;
       if (occluder.distance_m > 0) point = on_sphere(offset_m, *point, occluder.distance_m);
       const std::optional<glm::dvec2> pixel = point ? lens.pixel(*point) : std::nullopt;
-      if (pixel) seen.at<float>(y, x) = sampled(occluder.mask, *pixel);
+      if (pixel) seen.at<float>(y, x) = sampled(occluder.mask, *pixel, goes_round);
     }
   }
   return seen;

@@ -58,6 +58,40 @@ float depth_of(const Piece& piece, const glm::dvec2& pixel) {
   return static_cast<float>(depth * std::exp(-glm::dot(off, off) / (2 * wide_px * wide_px)));
 }
 
+// Where the lens' columns repeat, each strand in one piece, and three times: in its place and a period to each side, so
+// that what leaves the image on one side comes in on the other.
+std::vector<TrailStrand> all_round(std::vector<TrailStrand> strands, const Lens& lens) {
+  const double period_px = lens.period_px();
+  if (!(period_px > 0)) return strands;
+  std::vector<TrailStrand> all;
+  for (TrailStrand& strand : strands) {
+    for (std::size_t i = 1; i < strand.size(); ++i)
+      strand[i].pixel = strand[i - 1].pixel + lens.way(strand[i - 1].pixel, strand[i].pixel);
+    for (const double by_px : {-period_px, 0.0, period_px}) {
+      all.push_back(strand);
+      for (TrailPoint& point : all.back()) point.pixel.x += by_px;
+    }
+  }
+  return all;
+}
+
+// Pixels to a radian across a strand: of a lens whose scale differs by direction that much, across its image.
+//   p_in_camera  the place
+//   along        the strand's direction there
+double pixels_across(const Lens& lens, const glm::dvec3& p_in_camera, const glm::dvec3& along,
+                     const glm::dvec2& pixel) {
+  constexpr double kStep_rad = 1e-4;
+  if (!(lens.period_px() > 0)) return lens.pixels_per_radian(p_in_camera);
+  const glm::dvec3 seen = glm::normalize(p_in_camera);
+  const glm::dvec3 across = glm::cross(along, seen);
+  const double sine = glm::length(across);
+  const auto beside = lens.pixel(seen + kStep_rad / sine * across);
+  const auto ahead = lens.pixel(seen + kStep_rad / sine * (along - seen * glm::dot(along, seen)));
+  if (!(sine > 0) || !beside || !ahead) return lens.pixels_per_radian(seen);
+  const glm::dvec2 a = lens.way(pixel, *beside), b = lens.way(pixel, *ahead);
+  return std::abs(a.x * b.y - a.y * b.x) / (std::max(glm::length(b), 1e-12) * kStep_rad);
+}
+
 double reach_px(const Piece& piece) {
   return kReach * std::max({piece.from.sigma_px, piece.to.sigma_px, kMinSigma_px});
 }
@@ -131,12 +165,12 @@ std::vector<TrailStrand> contrail_strands(const Scene& scene, const SceneMoment&
         continue;
       }
       const double sine = glm::length(glm::cross(along, seen / distance_m));
-      open[k].push_back({*pixel, lens.pixels_per_radian(seen) * sigma_m / distance_m,
+      open[k].push_back({*pixel, pixels_across(lens, seen, along, *pixel) * sigma_m / distance_m,
                          depth_at(intruder.contrail, behind_m, sigma_m, aircraft_m) / std::max(sine, kMinSine)});
     }
   }
   for (TrailStrand& strand : open) close(strand);
-  return strands;
+  return all_round(std::move(strands), lens);
 }
 
 Layer trail_layer(std::span<const TrailStrand> strands, const cv::Vec3d& color, const cv::Rect& bounds) {

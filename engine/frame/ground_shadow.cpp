@@ -9,6 +9,7 @@
 #include "base/pose.h"
 #include "compositor/blur.h"
 #include "compositor/haze.h"
+#include "frame/panorama.h"
 
 namespace sigs {
 
@@ -32,6 +33,11 @@ class SeenGround {
     const std::optional<glm::dvec2> at = lens_.pixel(camera_from_world_ * (ground_m - camera_m_));
     if (!at || !(std::abs(at->x) < kFar_px) || !(std::abs(at->y) < kFar_px)) return std::nullopt;
     return at;
+  }
+
+  // Whether two corners lie on different sides of where the lens' columns repeat.
+  [[nodiscard]] bool is_torn(const glm::dvec2& a, const glm::dvec2& b) const {
+    return lens_.period_px() > 0 && std::abs(a.x - b.x) > lens_.period_px() / 2;
   }
 
   // Pixels in a metre of the ground, the mean of both directions by area.
@@ -66,7 +72,8 @@ std::vector<Corners> seen_triangles(const Mesh& mesh, const Pose<frame::World, f
     if (material.rotor) continue;  // which hardly darkens the ground
     for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
       const auto &a = pixels[mesh.indices[i]], &b = pixels[mesh.indices[i + 1]], &c = pixels[mesh.indices[i + 2]];
-      if (a && b && c) triangles.push_back({*a, *b, *c});
+      if (a && b && c && !ground.is_torn(*a, *b) && !ground.is_torn(*b, *c) && !ground.is_torn(*c, *a))
+        triangles.push_back({*a, *b, *c});
     }
   }
   return triangles;
@@ -125,7 +132,7 @@ std::optional<glm::dvec3> shadow_of(const glm::dvec3& point_m, const glm::dvec3&
 }
 
 GroundShadow ground_shadow(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
-                           const Lens& lens, double sigma_px, const cv::Rect& bounds) {
+                           const Lens& camera_lens, double sigma_px, const cv::Rect& image) {
   const SceneLight& light = scene.light;
   if (light.ground_shadow <= 0 || light.kind != LightKind::sun) return {};
   if (!(moment.world_from_camera.translation_m.z < 0)) return {};
@@ -134,6 +141,9 @@ GroundShadow ground_shadow(const Scene& scene, const SceneMoment& moment, const 
       placed.world_from_body, moment.world_from_camera * placed.camera_from_body.translation_m};
   const std::optional<glm::dvec3> middle = shadow_of(world_from_body.translation_m, to_sun);
   if (!middle) return {};
+  const Lens lens = camera_lens.around(inverse(moment.world_from_camera) * *middle);
+  const std::optional<glm::dvec2> middle_px = lens.pixel(inverse(moment.world_from_camera) * *middle);
+  const cv::Rect bounds = middle_px && lens.period_px() > 0 ? window_around(middle_px->x, lens, image.size()) : image;
   const SeenGround ground(moment, lens);
   const double penumbra_m = kSun_rad * glm::length(*middle - world_from_body.translation_m);
   const double soft_px = std::hypot(sigma_px, penumbra_m / 4 * ground.pixels_per_m(*middle));
@@ -148,7 +158,7 @@ GroundShadow ground_shadow(const Scene& scene, const SceneMoment& moment, const 
   Layer layer{.rect = rect, .color = cv::Mat(rect.size(), CV_32FC4, cv::Scalar::all(0))};
   cv::insertChannel(covered(triangles, rect) * (light.ground_shadow * moment.sun_visible_share * left), layer.color, 3);
   layer.coverage = cv::Mat::zeros(rect.size(), CV_32FC1);
-  return {.layer = blurred_within(layer, soft_px, bounds), .distance_m = distance_m};
+  return {.layer = blurred_through(lens, layer, soft_px, bounds), .distance_m = distance_m};
 }
 
 }  // namespace sigs

@@ -22,7 +22,9 @@ namespace sigs {
 // A shadow as it is seen: black, with the opacity that it takes of the ground's light; no coverage, as it is no part of
 // the target. Softened by the sun's disc: a Gaussian of the standard deviation of a disc that is as wide as the
 // penumbra, in both directions that of the image's mean scale there. Empty: none is seen within bounds, the scene draws
-// none, or its sun stands below the horizon or its camera below the ground.
+// none, or its sun stands below the horizon or its camera below the ground. In a 360 degree image bounds are those of
+// the window around the shadow (frame/panorama.h), whatever columns are asked for; of one around the nadir that a
+// triangle of the mesh covers, the rows next to it stay bright.
 struct GroundShadow {
   Layer layer;
   double distance_m = 0;  // from the camera to the shadow of the intruder's reference point

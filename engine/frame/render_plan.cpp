@@ -9,7 +9,9 @@
 
 #include "base/image.h"
 #include "base/stopwatch.h"
+#include "compositor/blend.h"
 #include "compositor/blur.h"
+#include "frame/panorama.h"
 
 namespace sigs {
 namespace {
@@ -71,11 +73,34 @@ int margin_px(double sigma_px) {
   return sigma_px > kMaxMargin_px ? kMaxMargin_px : std::min(blur_margin_px(sigma_px), kMaxMargin_px);
 }
 
-// Pixels from which light of the intruder can get into the image.
-cv::Rect warp_rect_of(const std::optional<Box>& bounds, cv::Size blur_px, cv::Size image_size_px) {
-  const cv::Rect grown(-blur_px.width, -blur_px.height, image_size_px.width + 2 * blur_px.width,
-                       image_size_px.height + 2 * blur_px.height);
-  return bounds ? pixels_touched(*bounds, 1, grown) : grown;
+// How far a blur reaches across from the rows of an intruder: farther towards the poles of a 360 degree image.
+double margin_across_px(const IntruderLayers& layers, double blur_px, const Lens& lens) {
+  if (!layers.silhouette) return blur_px;
+  const Box& box = layers.silhouette->box;
+  return blur_px * std::max(widening_at(lens, box.y - blur_px), widening_at(lens, box.y + box.height + blur_px));
+}
+
+// Pixels from which light of the intruder can get into the window. In a 360 degree image all columns, and what lies
+// over a pole, where some of it gets to a pole or to both sides of the window.
+//   blur_px, motion_px  how far the blurs carry it, the motion's too
+cv::Rect warp_rect_of(const std::optional<Box>& bounds, int blur_px, cv::Size motion_px, const IntruderLayers& layers,
+                      const Lens& lens) {
+  const cv::Rect& window = layers.window;
+  const cv::Size margin_px = motion_px + cv::Size(blur_px, blur_px);
+  const cv::Rect grown(window.x - margin_px.width, window.y - margin_px.height, window.width + 2 * margin_px.width,
+                       window.height + 2 * margin_px.height);
+  if (!(lens.period_px() > 0)) return bounds ? pixels_touched(*bounds, 1, grown) : grown;
+  constexpr int kNear_px = 2;  // beyond the points by which the silhouette is measured
+  const cv::Rect all_round(window.x - motion_px.width, grown.y, window.width + 2 * motion_px.width, grown.height);
+  if (!bounds) return all_round;
+  const double across_px = margin_across_px(layers, blur_px, lens) + motion_px.width + kNear_px;
+  const cv::Rect own = pixels_touched(*bounds, 1, kUnboundedRect);
+  const bool at_zenith = own.y - margin_px.height - kNear_px < window.y;
+  const bool at_nadir = own.br().y + margin_px.height + kNear_px > window.br().y;
+  const bool is_inside = own.x - across_px >= window.x && own.br().x + across_px <= window.br().x;
+  if (!at_zenith && !at_nadir && is_inside) return own;
+  const int first = at_zenith ? grown.y : own.y, past = at_nadir ? grown.br().y : own.br().y;
+  return {all_round.x, first, all_round.width, past - first};
 }
 
 Light light_of(const Scene& scene, const SceneMoment& moment) {
@@ -166,7 +191,7 @@ glm::dvec2 motion_during_exposure(const Scene& scene, const SceneMoment& moment,
   const auto id = static_cast<std::size_t>(placed.id);
   const std::optional<glm::dvec2> first = pixel_at(scene, moment, id, lens, -moment.exposure_s / 2);
   const std::optional<glm::dvec2> last = pixel_at(scene, moment, id, lens, moment.exposure_s / 2);
-  return first && last ? *last - *first : glm::dvec2(0, 0);
+  return first && last ? lens.way(*first, *last) : glm::dvec2(0, 0);
 }
 
 std::vector<cv::Point2d> earlier_places(const Scene& scene, int frame, const PlacedIntruder& placed, const Lens& lens,
@@ -180,7 +205,8 @@ std::vector<cv::Point2d> earlier_places(const Scene& scene, int frame, const Pla
   for (int k = 1; now && k <= std::min(count, frame); ++k) {
     const std::optional<glm::dvec2> then = pixel_in(frame - k);
     if (!then) break;
-    places.emplace_back(then->x - now->x, then->y - now->y);
+    const glm::dvec2 way = lens.way(*now, *then);
+    places.emplace_back(way.x, way.y);
   }
   return places;
 }
@@ -200,7 +226,8 @@ IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, cons
     layers.row_motion.emplace(pose_at, scene.footage.size_px.height, scene.motion.readout_s);
     layers.silhouette = silhouette_of(model.points_m, *layers.row_motion, camera.lens);
   } else {
-    layers.silhouette = silhouette_of(model.points_m, placed.camera_from_body, camera.lens);
+    layers.silhouette = with_covered_poles(silhouette_of(model.points_m, placed.camera_from_body, camera.lens),
+                                           model.mesh, placed.camera_from_body, camera.lens, camera.size_px);
   }
   if (!camera.lens.is_pinhole() && layers.silhouette) layers.op_counts.lens_evaluations = std::ssize(model.points_m);
   layers.sigma_px = sigma_px_of(scene, placed.distance_m());
@@ -210,6 +237,9 @@ IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, cons
     if (!layers.motion.shifts.empty()) layers.motion_px = std::min(glm::length(motion_px), kMaxMotion_px);
     if (!camera.lens.is_pinhole()) layers.op_counts.lens_evaluations += 2;
   }
+  const double blur_px = margin_px(layers.sigma_px) + layers.motion.margin_px.width;
+  layers.window =
+      window_of(layers.silhouette, margin_across_px(layers, blur_px, camera.lens), camera.lens, scene.footage.size_px);
   return layers;
 }
 
@@ -224,7 +254,7 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
                   .exposure_s = moment.exposure_s};
   const std::optional<Box> bounds = bounds_of(layers, mesh.radius_m);
   const int blur_px = margin_px(layers.sigma_px);
-  plan.warp_rect = warp_rect_of(bounds, layers.motion.margin_px + cv::Size(blur_px, blur_px), scene.footage.size_px);
+  plan.warp_rect = warp_rect_of(bounds, blur_px, layers.motion.margin_px, layers, lens.camera().lens);
   const bool is_within = bounds && pixels_touched(*bounds, 1, kUnboundedRect) == plan.warp_rect;
   // A body that lies within needs no clipping.
   std::optional<cv::Rect> target;
@@ -332,6 +362,7 @@ Result<std::vector<RenderedView>> sparingly_rendered_views(const RenderPlan& pla
 Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, const LensTable& lens, const Scene& scene,
                              Renderer& renderer) {
   if (!layers.silhouette || layers.warped.empty()) return 0;
+  if (lens.camera().lens.period_px() > 0) return area_px(clipped(layers.warped, layers.window).coverage);
   const Box& box = layers.silhouette->box;
   const cv::Rect whole = pixels_touched(box, 1, kUnboundedRect);
   if ((whole & layers.warped.rect) == whole) return area_px(layers.warped.coverage);

@@ -42,20 +42,21 @@ struct IntruderLayers {
   Pose<frame::World, frame::Camera> world_from_camera;
   std::optional<RowMotion> row_motion;   // of a rolling shutter; none where all rows are read at once
   std::optional<Silhouette> silhouette;  // of the model's points through the lens
+  cv::Rect window;                       // the image or, of a 360 degree one, as many columns around the intruder
   double sigma_px = 0;                   // of the blur: the lens' own, and that at this distance
   MotionKernel motion;                   // in the image, during the exposure; empty: none
   double motion_px = 0;                  // its length; 0: none
   std::vector<RenderedView> views;       // empty where no part of it can be in the image
   std::vector<RenderedView> given_up;    // coarse views that tell too little; their memory serves the next frame's
-  Layer warped;                          // through the lens, with the margin beyond the image that the blurs need
+  Layer warped;                          // through the lens, with the margin beyond the window that the blurs need
   Layer hazed;                           // in the footage's tones, behind haze; shares its samples where both are off
   Layer motion_blurred;                  // blurred by its motion; likewise
-  Layer blurred;                         // clipped to the image; empty where too faint to change any sample
+  Layer blurred;                         // clipped to the window; empty where too faint to change any sample
   Layer occluded;  // without what own body, occluder and clouds hide; shares its samples where they hide nothing
-  Layer contrail;  // clipped to the image, without what is hidden; empty: none
+  Layer contrail;  // clipped to the window, without what is hidden; empty: none
   bool contrail_is_nearer = false;     // than the aircraft
-  Layer shadow;                        // on the ground, clipped to the image, without what is hidden; empty: none
-  std::vector<LampLayer> lamps;        // the aircraft's lights, clipped to the image, without what is hidden
+  Layer shadow;                        // on the ground, clipped to a window, without what is hidden; empty: none
+  std::vector<LampLayer> lamps;        // the aircraft's lights, clipped to a window, without what is hidden
   std::vector<LampTruth> lamp_truths;  // one for each of them
   std::optional<CloudTruth> clouds;    // none: the scene has no clouds that hide anything
   double whole_area_px = 0;            // of the silhouette, the part outside the image included

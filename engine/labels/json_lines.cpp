@@ -111,6 +111,7 @@ std::string intruder_json(const IntruderTruth& truth, const LabelSequence& seque
   object.add("attitude", numbers_json(attitude_numbers(truth.world_from_body)));
   add_place_json(object, truth.place);
   add_numbers_json(object, "box", box_numbers(truth));
+  add_numbers_json(object, "other_box", other_box_numbers(truth));
   add_numbers_json(object, "silhouette", silhouette_numbers(truth));
   add_numbers_json(object, "appearance", appearance_numbers(truth));
   add_lights_json(object, truth);

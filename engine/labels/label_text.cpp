@@ -129,14 +129,26 @@ LabelNumbers place_numbers(const GeodeticPosition& place) {
           {"height_m", place.height_m}};
 }
 
-LabelNumbers box_numbers(const IntruderTruth& truth) {
-  if (!truth.visible_box) return {};
-  const cv::Rect2d box = *truth.visible_box;
+namespace {
+
+LabelNumbers numbers_of(const std::optional<cv::Rect>& whole_pixels, int pixels) {
+  if (!whole_pixels) return {};
+  const cv::Rect2d box = *whole_pixels;
   return {{"x", box.x},
           {"y", box.y},
           {"width", box.width},
           {"height", box.height},
-          {"pixels", static_cast<double>(truth.visible_pixels)}};
+          {"pixels", static_cast<double>(pixels)}};
+}
+
+}  // namespace
+
+LabelNumbers box_numbers(const IntruderTruth& truth) {
+  return numbers_of(truth.visible_box, truth.visible_pixels);
+}
+
+LabelNumbers other_box_numbers(const IntruderTruth& truth) {
+  return numbers_of(truth.other_box, truth.other_pixels);
 }
 
 LabelNumbers silhouette_numbers(const IntruderTruth& truth) {

@@ -75,7 +75,8 @@ using LabelNumbers = std::vector<LabelNumber>;
 [[nodiscard]] LabelNumbers attitude_numbers(const glm::dquat& world_from_body);
 [[nodiscard]] LabelNumbers deviation_numbers(const CameraTruth& camera);  // empty: attitude_sd_deg() has none
 [[nodiscard]] LabelNumbers place_numbers(const GeodeticPosition& place);
-[[nodiscard]] LabelNumbers box_numbers(const IntruderTruth& truth);  // visible, with pixels; empty: there is none
+[[nodiscard]] LabelNumbers box_numbers(const IntruderTruth& truth);        // visible, with pixels; empty: there is none
+[[nodiscard]] LabelNumbers other_box_numbers(const IntruderTruth& truth);  // likewise of IntruderTruth::other_box
 [[nodiscard]] LabelNumbers silhouette_numbers(const IntruderTruth& truth);  // amodal box; empty: there is none
 [[nodiscard]] LabelNumbers appearance_numbers(
     const IntruderTruth& truth);  // visibility_m comes last, where it is known

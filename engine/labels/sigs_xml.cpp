@@ -71,6 +71,7 @@ void add_intruder(pugi::xml_node frame, const IntruderTruth& truth) {
   add_numbers(node, "attitude", attitude_numbers(truth.world_from_body));
   if (truth.place) add_numbers(node, "place", place_numbers(*truth.place));
   add_numbers(node, "box", box_numbers(truth));
+  add_numbers(node, "other_box", other_box_numbers(truth));
   add_numbers(node, "silhouette", silhouette_numbers(truth));
   add_numbers(node, "appearance", appearance_numbers(truth));
   for (const LampTruth& lamp : truth.lights) {

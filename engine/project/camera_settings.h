@@ -16,7 +16,8 @@ namespace sigs {
 
 // The lens model that the numbers of the calibration file belong to; automatic: as the file states or, where it does
 // not, judged by its numbers (docs/calibration-files.md).
-enum class LensModelChoice { automatic, brown_conrady, fisheye };
+//   equirectangular  of 360 degree footage, which needs no calibration file
+enum class LensModelChoice { automatic, brown_conrady, fisheye, equirectangular };
 
 // What the camera's sensor responds to: light, or the heat that things send out (long-wave infrared).
 enum class Spectrum { visible, thermal };

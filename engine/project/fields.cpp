@@ -27,11 +27,13 @@ void add_footage(FieldList list, FootageSettings& footage) {
             "of footage in images: text file with a line for each, its time in seconds; empty: evenly spaced");
   list.number("first_frame", &footage.first_frame, "frame", 0, 1e9, "first frame that is used, counted from 0");
   list.number("last_frame", &footage.last_frame, "frame", 0, 1e9, "last frame that is used; null: the footage's last");
-  list.path("calibration", footage.calibration, true, "the camera's calibration file");
+  list.path("calibration", footage.calibration, footage.lens_model != LensModelChoice::equirectangular,
+            "the camera's calibration file; of equirectangular footage none is needed");
   list.add("spectrum", choice_of(footage.spectrum, {"visible", "thermal"}), "",
            "thermal: the camera sees heat; light has no effect, appearance.thermal and intruders[].heat have");
-  list.add("lens_model", choice_of(footage.lens_model, {"auto", "brown_conrady", "fisheye"}), "",
-           "lens model of the calibration's numbers; auto: as the file says, else as they look");
+  list.add("lens_model", choice_of(footage.lens_model, {"auto", "brown_conrady", "fisheye", "equirectangular"}), "",
+           "lens model of the calibration's numbers; auto: as the file says, else as they look; equirectangular: 360 "
+           "degree footage");
   list.path("occluder_mask", footage.occluder_mask, false,
             "image of the footage's size, white where trees or hills hide what is farther away; empty: none");
   list.number("occluder_frame", &footage.occluder_frame, "frame", 0, 1e9,

@@ -185,6 +185,11 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
                                      draft.problems);
   set_camera_motion(
       scene, part_or_placeholder(camera_flight(clean, footage, range, files), steady_flight(clean), draft.problems));
+  while (const std::optional<Problem> problem = panorama_problem(scene)) {
+    draft.problems.push_back(*problem);
+    if (problem->field == "camera.readout_s") scene.motion.readout_s = 0;
+    scene.compositing.method = MethodChoice::direct;
+  }
   scene.light = part_or_placeholder(scene_light(clean, scene), placeholder_light(scene.light), draft.problems);
   scene.own_body = part_or_placeholder(scene_own_body(clean, footage.size_px, files), cv::Mat(), draft.problems);
   scene.real_aircraft = part_or_placeholder(scene_real_aircraft(clean, files), BoxesByFrame(), draft.problems);

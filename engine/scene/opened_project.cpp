@@ -42,6 +42,7 @@ Result<Scene> open_valid_scene(const Project& project, const FootageShape& foota
   Result<CameraFlight, Problem> flight = camera_flight(project, footage, {scene.first_frame, scene.last_frame}, files);
   if (!flight) return failed(flight.error());
   set_camera_motion(scene, *std::move(flight));
+  if (const std::optional<Problem> problem = panorama_problem(scene)) return failed(*problem);
   const Result<SceneLight, Problem> light = scene_light(project, scene);
   if (!light) return failed(light.error());
   scene.light = *light;

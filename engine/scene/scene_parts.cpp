@@ -214,15 +214,31 @@ std::optional<LensModel> lens_model_of(LensModelChoice choice) {
       return LensModel::brown_conrady;
     case LensModelChoice::fisheye:
       return LensModel::kannala_brandt;
+    case LensModelChoice::equirectangular:
+      return LensModel::equirectangular;
   }
   return std::nullopt;
 }
 
 Result<Camera, Problem> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
+  if (project.footage.calibration.empty() && project.footage.lens_model == LensModelChoice::equirectangular)
+    return equirectangular_camera(footage_size_px);
   Result<Camera> camera = files.camera(resolved(project, project.footage.calibration), footage_size_px,
                                        lens_model_of(project.footage.lens_model));
   if (!camera) return in_field("footage.calibration", camera.error());
   return *std::move(camera);
+}
+
+std::optional<Problem> panorama_problem(const Scene& scene) {
+  if (!(scene.camera.lens.period_px() > 0)) return std::nullopt;
+  if (scene.compositing.method != MethodChoice::direct)
+    return Problem{"compositing.method", "needs a flat image, which 360 degree footage is not; use direct"};
+  if (scene.motion.readout_s > 0)
+    return Problem{
+        "camera.readout_s",
+        "is of a rolling shutter, which 360 degree footage, stitched of several images, does not have row by "
+        "row; set it to 0"};
+  return std::nullopt;
 }
 
 Result<std::vector<PlatformAttitude>, Problem> scene_platform_attitudes(const Project& project,

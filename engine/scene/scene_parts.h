@@ -44,6 +44,11 @@ namespace sigs {
 // The calibrated camera, scaled to the footage's size.
 [[nodiscard]] Result<Camera, Problem> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
 
+// What 360 degree footage cannot be used with: the classic method and plain, a rolling shutter. None where all is well,
+// also for footage of any other lens.
+//   scene  its camera and motion
+[[nodiscard]] std::optional<Problem> panorama_problem(const Scene& scene);
+
 // None for `automatic`: the lens model is then taken from the calibration file.
 [[nodiscard]] std::optional<LensModel> lens_model_of(LensModelChoice choice);
 

@@ -66,7 +66,8 @@ struct PointCounts {
   int occluded = 0;  // of these, behind the own body
 };
 
-void count_point(const glm::dvec2& pixel, cv::Size size_px, const cv::Mat& own_body, PointCounts& counts) {
+void count_point(glm::dvec2 pixel, cv::Size size_px, const Lens& lens, const cv::Mat& own_body, PointCounts& counts) {
+  if (lens.period_px() > 0) pixel.x -= size_px.width * std::floor((pixel.x + 0.5) / size_px.width);
   // Compared before the conversion: near the plane of a lens, pixels are beyond what an int holds.
   if (!(pixel.x >= -0.5 && pixel.y >= -0.5 && pixel.x < size_px.width - 0.5 && pixel.y < size_px.height - 0.5)) return;
   ++counts.inside;
@@ -76,12 +77,13 @@ void count_point(const glm::dvec2& pixel, cv::Size size_px, const cv::Mat& own_b
   counts.occluded += own_body.at<float>(y, x) >= kOccludingOpacity ? 1 : 0;
 }
 
-VisibilityState state_of(const std::vector<glm::dvec2>& images, cv::Size size_px, const cv::Mat& own_body) {
+VisibilityState state_of(const std::vector<glm::dvec2>& images, cv::Size size_px, const Lens& lens,
+                         const cv::Mat& own_body) {
   glm::dvec2 mean(0);
   for (const glm::dvec2& pixel : images) mean += pixel / double(images.size());
   PointCounts counts;
   for (const double share : kShares)
-    for (const glm::dvec2& pixel : images) count_point(mean + share * (pixel - mean), size_px, own_body, counts);
+    for (const glm::dvec2& pixel : images) count_point(mean + share * (pixel - mean), size_px, lens, own_body, counts);
   if (counts.inside == 0) return VisibilityState::out_of_view;
   if (counts.occluded == 0) return VisibilityState::in_view;
   return counts.occluded == counts.inside ? VisibilityState::occluded : VisibilityState::partly_occluded;
@@ -122,11 +124,12 @@ VisibilityEstimate VisibilityEstimator::of(const PlacedIntruder& placed, int fra
   const Model* const model = scene_->intruders[static_cast<std::size_t>(placed.id)].model;
   if (model == nullptr) return estimate;
   estimate.is_behind_camera = placed.camera_from_body.translation_m.x < -double(model->mesh.radius_m);
-  const std::vector<glm::dvec2> images = images_of(model->outermost_m, placed.camera_from_body, camera_.lens);
+  const Lens lens = camera_.lens.around(placed.camera_from_body.translation_m);
+  const std::vector<glm::dvec2> images = images_of(model->outermost_m, placed.camera_from_body, lens);
   if (images.empty()) return estimate;
   estimate.silhouette = box_around(images);
   estimate.size_px = std::max(estimate.silhouette->width, estimate.silhouette->height);
-  estimate.visibility_state = state_of(images, scene_->footage.size_px, scene_->own_body);
+  estimate.visibility_state = state_of(images, scene_->footage.size_px, lens, scene_->own_body);
   return estimate;
 }
 

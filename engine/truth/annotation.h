@@ -98,9 +98,11 @@ struct IntruderTruth {
   bool in_image = false;                   // some of it lies within the image and in front of the lens, hidden or not
   double visible_fraction = 0;             // of the whole silhouette's area: what lies in the image and is not hidden
   std::optional<cv::Rect> visible_box;     // visible pixels; none where nothing is visible
-  cv::Mat visible;                // CV_8UC1 over visible_box: 255 where a pixel shows it, else 0; empty: not measured
-  int visible_pixels = 0;         // how many of them there are
-  std::optional<Box> amodal_box;  // the whole of it through the lens; none where no part of it has an image
+  cv::Mat visible;         // CV_8UC1 over visible_box: 255 where a pixel shows it, else 0; empty: not measured
+  int visible_pixels = 0;  // how many of them there are
+  std::optional<cv::Rect> other_box = {};  // visible pixels of its smaller part across the sides of a 360 degree image
+  int other_pixels = 0;                    // how many of them there are
+  std::optional<Box> amodal_box;           // the whole of it through the lens; none where no part of it has an image
   HorizonSide horizon = HorizonSide::unknown;  // above or below: all of it is
   double inside_fraction = 0;                  // of the whole silhouette's area: what lies in the image, hidden or not
   std::optional<GeodeticPosition> place = {};  // of the reference point; none where the world has no place on the Earth

@@ -4,12 +4,29 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "base/ensure.h"
 
 namespace sigs {
 
 namespace {
+
+// The shortest interval of columns that holds all of them where columns repeat: what the largest gap between two that
+// follow each other leaves. Its first column and its length.
+std::pair<double, double> shortest_around(std::vector<double> columns_px, double period_px) {
+  std::sort(columns_px.begin(), columns_px.end());
+  double first = columns_px.front();
+  double gap = columns_px.front() + period_px - columns_px.back();
+  for (std::size_t i = 1; i < columns_px.size(); ++i) {
+    if (!(columns_px[i] - columns_px[i - 1] > gap)) continue;
+    gap = columns_px[i] - columns_px[i - 1];
+    first = columns_px[i];
+  }
+  return {first, period_px - gap};
+}
 
 template <class PixelOf>
 std::optional<Silhouette> silhouette_by(std::span<const glm::vec3> points_in_body, const PixelOf& pixel_of) {
@@ -31,7 +48,19 @@ std::optional<Silhouette> silhouette_by(std::span<const glm::vec3> points_in_bod
 
 std::optional<Silhouette> silhouette_of(std::span<const glm::vec3> points_in_body,
                                         const Pose<frame::Camera, frame::Body>& camera_from_body, const Lens& lens) {
-  return silhouette_by(points_in_body, [&](const glm::dvec3& point) { return lens.pixel(camera_from_body * point); });
+  if (!(lens.period_px() > 0))
+    return silhouette_by(points_in_body, [&](const glm::dvec3& point) { return lens.pixel(camera_from_body * point); });
+  const Lens near = lens.around(camera_from_body.translation_m);
+  std::vector<double> columns_px;
+  std::optional<Silhouette> silhouette = silhouette_by(points_in_body, [&](const glm::dvec3& point) {
+    const std::optional<glm::dvec2> pixel = near.pixel(camera_from_body * point);
+    if (pixel) columns_px.push_back(pixel->x);
+    return pixel;
+  });
+  // Round about a pole or the camera.
+  if (silhouette && silhouette->box.width > lens.period_px() / 2)
+    std::tie(silhouette->box.x, silhouette->box.width) = shortest_around(std::move(columns_px), lens.period_px());
+  return silhouette;
 }
 
 std::optional<Silhouette> silhouette_of(std::span<const glm::vec3> points_in_body, const RowMotion& motion,

@@ -23,7 +23,8 @@ struct Silhouette {
   bool all_have_image = true;  // false: some lie behind the camera or beyond the lens' valid field
 };
 
-// The smallest box around the images of the points. Nothing where no point has an image.
+// The smallest box around the images of the points. Nothing where no point has an image. Where the lens' columns repeat
+// (Lens::period_px), the smallest on the cylinder: in one piece, also where it extends beyond the image's side.
 //   points_in_body  the model's vertices, metres
 [[nodiscard]] std::optional<Silhouette> silhouette_of(std::span<const glm::vec3> points_in_body,
                                                       const Pose<frame::Camera, frame::Body>& camera_from_body,

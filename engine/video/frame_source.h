@@ -34,6 +34,7 @@ struct VideoInfo {
   std::string pixel_format;       // as the decoder names it: "yuv420p10le"
   std::string conversion;         // how other formats are converted to planes; empty: samples are taken as they are
   std::string container;          // "mov,mp4,..."
+  std::string projection;         // of footage that states itself spherical: "equirectangular"; empty: it does not
   long long declared_frames = 0;  // number of frames that the header states; 0: none
   std::vector<Warning> warnings;  // "header declares 444 frames, 68 are there"
 

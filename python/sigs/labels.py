@@ -207,6 +207,7 @@ def _encounter(node: ElementTree.Element) -> Optional[Encounter]:
 
 def _intruder(node: ElementTree.Element) -> IntruderTruth:
     box = node.find("box")
+    other = node.find("other_box")
     silhouette = node.find("silhouette")
     return IntruderTruth(
         id=int(node.attrib["id"]),
@@ -221,6 +222,7 @@ def _intruder(node: ElementTree.Element) -> IntruderTruth:
         place=_place(node),
         box=None if box is None else Box(*(int(box.attrib[name]) for name in ("x", "y", "width", "height"))),
         pixels=0 if box is None else int(box.attrib["pixels"]),
+        other_box=None if other is None else Box(*(int(other.attrib[name]) for name in ("x", "y", "width", "height"))),
         silhouette=None
         if silhouette is None
         else Silhouette(*(_number(silhouette, name) for name in ("x", "y", "width", "height"))),

@@ -101,6 +101,7 @@ class IntruderTruth:
     position_m    of its reference point in the camera frame: X forward, Y right, Z down
     attitude_deg  of its body in the world
     box, pixels   visible pixels; None and 0 where no pixel shows it
+    other_box     of the smaller part of one across the sides of 360 degree footage; None where it is in one part
     silhouette    of the whole body through the lens; None where no part of it has an image
     """
 
@@ -119,6 +120,7 @@ class IntruderTruth:
     silhouette: Optional[Silhouette] = None
     appearance: Optional[Appearance] = None
     encounter: Optional[Encounter] = None
+    other_box: Optional[Box] = None
 
 
 @dataclass(frozen=True)

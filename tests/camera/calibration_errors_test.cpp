@@ -185,7 +185,7 @@ TEST_CASE("unsupported models are refused by name") {
         "gopro.any: xi: the omnidirectional model (xi) is not supported; calibrate as fisheye");
   CHECK(message(with("distortion_model: fov")) ==
         "gopro.any: distortion_model: distortion model 'fov' is not supported; plumb_bob, rational_polynomial, "
-        "equidistant and fisheye are");
+        "equidistant, fisheye and equirectangular are");
   CHECK(message(with("fisheye_model: perhaps")) == "gopro.any: fisheye_model: expected 0 or 1");
 }
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "base/input_file.h"
 #include "base/paths.h"
 #include "base/pose.h"
 #include "first_project/first_model.h"
@@ -44,6 +46,34 @@ fs::path made_clip(const test::TemporaryFolder& folder, const std::string& patte
                                            file.string() + "' </dev/null");
   REQUIRE_MESSAGE(run.status == 0, run.out);
   return file;
+}
+
+std::string big_endian(std::size_t number) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<char>(number >> shift & 0xFF));
+  return bytes;
+}
+
+// Puts the box of Google's spherical video, version 1, into the track of an MP4 whose `moov` is its last box.
+void state_spherical(const fs::path& mp4) {
+  std::string bytes = read_text(mp4, std::size_t{1} << 30).value();
+  const std::string xml =
+      "<?xml version=\"1.0\"?><rdf:SphericalVideo xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\" "
+      "xmlns:GSpherical=\"http://ns.google.com/videos/1.0/spherical/\"><GSpherical:Spherical>true</"
+      "GSpherical:Spherical>"
+      "<GSpherical:Stitched>true</GSpherical:Stitched><GSpherical:StitchingSoftware>test</GSpherical:StitchingSoftware>"
+      "<GSpherical:ProjectionType>equirectangular</GSpherical:ProjectionType></rdf:SphericalVideo>";
+  const std::string id = "\xFF\xCC\x82\x63\xF8\x55\x4A\x93\x88\x14\x58\x7A\x02\x52\x1F\xDD";
+  const std::string box = big_endian(8 + id.size() + xml.size()) + "uuid" + id + xml;
+  const std::size_t moov = bytes.rfind("moov") - 4, trak = bytes.find("trak", moov) - 4;
+  const auto size_at = [&](std::size_t at) {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i) size = size << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return size;
+  };
+  bytes.insert(trak + size_at(trak), box);
+  for (const std::size_t at : {moov, trak}) bytes.replace(at, 4, big_endian(size_at(at) + box.size()));
+  std::ofstream(mp4, std::ios::binary) << bytes;
 }
 
 bool notes_guess(const FirstProject& made, const std::string& field) {
@@ -117,6 +147,25 @@ TEST_CASE("a calibration is referred to, checked against the footage, and exclud
   CHECK(make_first_project({.video = wide, .calibration = calibration, .horizontal_fov_deg = 70.0}).error().kind ==
         ErrorKind::usage);
   CHECK_FALSE(fs::exists(folder / "q.json"));
+}
+
+TEST_CASE(
+    "footage that states itself spherical becomes a 360 degree project without a calibration; twice as wide, a hint") {
+  const test::TemporaryFolder folder;
+  const fs::path clip = made_clip(folder, "size=640x320:rate=25:duration=0.4", "-pix_fmt yuv420p");
+  const auto note_of = [&](const char* out, const char* field) {
+    const FirstProject made = made_and_opened({.video = clip, .out = folder / out, .plain = true});
+    if (made.project.footage.calibration.empty()) CHECK(made.project.camera.pitch_deg == 0);
+    CHECK(made.project.footage.calibration.empty() ==
+          (made.project.footage.lens_model == LensModelChoice::equirectangular));
+    return note_on(made, field);
+  };
+  const FirstProjectNote flat = note_of("flat/flat.json", "footage.calibration");
+  CHECK(flat.remedy.find("360 degree") != std::string::npos);
+  state_spherical(clip);
+  const FirstProjectNote round = note_of("round/round.json", "footage.lens_model");
+  CHECK_FALSE(round.is_guess);
+  CHECK(round.text.find("360 degree") != std::string::npos);
 }
 
 TEST_CASE("clips of one frame, of odd size, in 4K, with oblong pixels, upright and without times become projects") {

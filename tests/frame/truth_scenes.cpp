@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "camera/camera.h"
 #include "frame/synthetic_scenes.h"
 #include "scene/scene_at.h"
 
@@ -45,6 +46,10 @@ Scene scene_of(const Sight& sight, Scenario& scenario) {
   write_calibration(scenario.path("lens.xml"), {lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1}, lens.coefficients,
                     sight.size_px, lens.model == LensModel::kannala_brandt);
   scenario.project.footage.calibration = "lens.xml";
+  if (lens.model == LensModel::equirectangular) {
+    scenario.project.footage.calibration = "";
+    scenario.project.footage.lens_model = LensModelChoice::equirectangular;
+  }
   scenario.project.light = {.kind = sight.light,
                             .position_m = sight.light_m,
                             .ambient = sight.ambient,
@@ -185,6 +190,10 @@ LensParameters pinhole_lens() {
 
 LensParameters tangential_lens() {
   return {.fx = 535, .fy = 535, .cx = 319.5, .cy = 239.5, .coefficients = {-0.1, 0.02, 0.05, -0.08}};
+}
+
+LensParameters sphere_lens(cv::Size size_px) {
+  return equirectangular_camera(size_px).lens.parameters();
 }
 
 LensParameters fisheye_lens() {

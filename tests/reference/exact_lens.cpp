@@ -43,7 +43,10 @@ Matrix<Real> tilt_of(Real tau_x, Real tau_y) {
 
 template <class Real>
 ExactLens<Real>::ExactLens(const LensParameters& p)
-    : is_fisheye_(p.model == LensModel::kannala_brandt), focal_px_(p.fx, p.fy), center_px_(p.cx, p.cy) {
+    : is_fisheye_(p.model == LensModel::kannala_brandt),
+      is_sphere_(p.model == LensModel::equirectangular),
+      focal_px_(p.fx, p.fy),
+      center_px_(p.cx, p.cy) {
   for (std::size_t i = 0; i < p.coefficients.size() && i < k_.size(); ++i) k_[i] = Real(p.coefficients[i]);
   tilt_ = tilt_of(k_[12], k_[13]);
   field_radius_ = first_fold();
@@ -52,6 +55,7 @@ ExactLens<Real>::ExactLens(const LensParameters& p)
 
 template <class Real>
 Real ExactLens<Real>::field_angle_rad() const {
+  if (is_sphere_) return std::numbers::pi_v<Real>;
   return is_fisheye_ ? field_radius_ : std::atan(field_radius_);
 }
 
@@ -84,6 +88,9 @@ auto ExactLens<Real>::kannala_brandt(const Vec2& point) const -> Image {
 
 template <class Real>
 auto ExactLens<Real>::image(const Vec2& point) const -> Image {
+  if (is_sphere_)
+    return {center_px_.x + focal_px_.x * Number{point.x, 1, 0}, center_px_.y + focal_px_.y * Number{point.y, 0, 1},
+            true};
   const Image flat = is_fisheye_ ? kannala_brandt(point) : brown_conrady(point);
   return {center_px_.x + focal_px_.x * flat.x, center_px_.y + focal_px_.y * flat.y, flat.is_sane};
 }
@@ -143,7 +150,14 @@ template <class Real>
 auto ExactLens<Real>::pixel(const Vec3& p_in_camera) const -> std::optional<Vec2> {
   const Real z = p_in_camera.x;
   Vec2 point(p_in_camera.y, p_in_camera.z);
-  if (is_fisheye_) {
+  if (is_sphere_) {
+    const Real length = glm::length(p_in_camera);
+    if (!(length > 0)) return std::nullopt;
+    const Real level = std::sqrt(p_in_camera.x * p_in_camera.x + p_in_camera.y * p_in_camera.y);
+    const Real longitude = level > 0 ? std::acos(std::clamp(p_in_camera.x / level, Real(-1), Real(1))) : Real(0);
+    point = {p_in_camera.y < 0 ? -longitude : longitude,
+             std::acos(std::clamp(-p_in_camera.z / length, Real(-1), Real(1))) - std::numbers::pi_v<Real> / 2};
+  } else if (is_fisheye_) {
     const Real off_axis = glm::length(point);
     if (off_axis == 0 && !(z > 0)) return std::nullopt;
     if (off_axis > 0) point *= std::atan2(off_axis, z) / off_axis;
@@ -203,6 +217,11 @@ auto ExactLens<Real>::plane_point(const Vec2& pixel_px) const -> std::optional<V
 template <class Real>
 auto ExactLens<Real>::ray_of(const Vec2& plane_point) const -> Vec3 {
   const Real radius = glm::length(plane_point);
+  if (is_sphere_) {
+    const Real colatitude = plane_point.y + std::numbers::pi_v<Real> / 2;
+    return {std::sin(colatitude) * std::cos(plane_point.x), std::sin(colatitude) * std::sin(plane_point.x),
+            -std::cos(colatitude)};
+  }
   if (!is_fisheye_) return Vec3(1, plane_point.x, plane_point.y) / std::sqrt(1 + radius * radius);
   const Vec2 across = radius > 0 ? plane_point * (std::sin(radius) / radius) : plane_point;
   return {std::cos(radius), across.x, across.y};

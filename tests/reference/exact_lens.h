@@ -11,10 +11,12 @@
 
 namespace sigs::truth {
 
-// The lens models as OpenCV's documentation writes them (calib3d's "Detailed Description" and fisheye's), and their
+// The lens models as OpenCV's documentation writes them (calib3d's "Detailed Description" and fisheye's), the
+// equirectangular one as maps have it (Snyder 1987, chapter 12), and their
 // inverse to the last digits of Real. The only thing taken from the engine is the struct of parameters.
 //
-// Points lie on a plane: (x / z, y / z) for Brown-Conrady; for Kannala-Brandt away from the axis by the angle from it.
+// Points lie on a plane: (x / z, y / z) for Brown-Conrady; for Kannala-Brandt away from the axis by the angle from it;
+// for the equirectangular one longitude and latitude, the latter down. Its pixels are those of longitudes -pi to pi.
 template <class Real>
 class ExactLens {
  public:
@@ -62,6 +64,7 @@ class ExactLens {
   [[nodiscard]] std::vector<Known> known_points() const;
 
   bool is_fisheye_;
+  bool is_sphere_;
   Vec2 focal_px_;
   Vec2 center_px_;
   std::array<Real, 14> k_{};

@@ -67,6 +67,7 @@ RayTracer::RayTracer(const Setup& setup)
       camera_from_body_(setup.camera_from_body),
       eye_in_body_m_(inverse(setup.camera_from_body).translation_m),
       lens_(setup.lens),
+      goes_round_(setup.lens.model == LensModel::equirectangular),
       body_(*setup.mesh),
       lighting_(lighting_of(setup)),
       shader_(*setup.mesh, lighting_) {}
@@ -157,7 +158,7 @@ Outline RayTracer::outline() const {
       if (images[corner]) outline.add(*images[corner]);
       add_edge(outline, corner, triangle.corners[(k + 1) % 3], images);
     }
-  if (glm::length(eye_in_body_m_) <= body_.radius_m()) outline.is_whole = false;
+  if (glm::length(eye_in_body_m_) <= body_.radius_m() || goes_round_) outline.is_whole = false;
   return outline;
 }
 

@@ -24,7 +24,9 @@ struct Outline {
   glm::dvec2 low_px{0, 0};
   glm::dvec2 high_px{0, 0};
   bool is_empty = true;
-  bool is_whole = true;  // false: part of the body has no image, or the camera is within its radius
+  // False: part of the body has no image, the camera is within its radius, or the image goes round, so that the body
+  // may cover a pole.
+  bool is_whole = true;
 
   void add(const glm::dvec2& pixel);
 };
@@ -52,6 +54,7 @@ class RayTracer {
   Pose<frame::Camera, frame::Body> camera_from_body_;
   glm::dvec3 eye_in_body_m_;
   ExactLens<double> lens_;
+  bool goes_round_;
   TracedBody body_;
   Lighting lighting_;
   Shader shader_;

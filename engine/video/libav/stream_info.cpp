@@ -13,6 +13,7 @@
 extern "C" {
 #include <libavutil/display.h>
 #include <libavutil/pixdesc.h>
+#include <libavutil/spherical.h>
 }
 extern "C" {
 #include <libavutil/pixdesc.h>
@@ -170,17 +171,27 @@ void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
 
 namespace {
 
-const int32_t* display_matrix(const AVStream& stream) {
-  constexpr size_t kMatrixBytes = 9 * sizeof(int32_t);
+// Null where the container states none of that type, or less than so many bytes.
+const uint8_t* side_data(const AVStream& stream, AVPacketSideDataType type, size_t bytes) {
 #if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
-  const AVPacketSideData* data = av_packet_side_data_get(
-      stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
-  return data != nullptr && data->size >= kMatrixBytes ? reinterpret_cast<const int32_t*>(data->data) : nullptr;
+  const AVPacketSideData* data =
+      av_packet_side_data_get(stream.codecpar->coded_side_data, stream.codecpar->nb_coded_side_data, type);
+  return data != nullptr && data->size >= bytes ? data->data : nullptr;
 #else
   size_t size = 0;
-  const uint8_t* data = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, &size);
-  return data != nullptr && size >= kMatrixBytes ? reinterpret_cast<const int32_t*>(data) : nullptr;
+  const uint8_t* data = av_stream_get_side_data(&stream, type, &size);
+  return data != nullptr && size >= bytes ? data : nullptr;
 #endif
+}
+
+const int32_t* display_matrix(const AVStream& stream) {
+  return reinterpret_cast<const int32_t*>(side_data(stream, AV_PKT_DATA_DISPLAYMATRIX, 9 * sizeof(int32_t)));
+}
+
+std::string projection_of(const AVStream& stream) {
+  const auto* const mapping =
+      reinterpret_cast<const AVSphericalMapping*>(side_data(stream, AV_PKT_DATA_SPHERICAL, sizeof(AVSphericalMapping)));
+  return mapping == nullptr ? "" : av_spherical_projection_name(mapping->projection);
 }
 
 // Position of a chroma sample along one axis after an optional flip, in luma samples from an even one: 0 or 0.5 before
@@ -371,6 +382,7 @@ VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxe
   info.pixel_format = av_get_pix_fmt_name(pixel_format);
   info.conversion = conversion.text;
   info.container = demuxer.format().iformat->name;
+  info.projection = projection_of(stream);
   info.declared_frames = stream.nb_frames;
   add_warnings(info, demuxer, table, order);
   set_oriented(info, {first.width, first.height}, orientation);

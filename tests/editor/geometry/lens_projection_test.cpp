@@ -316,4 +316,34 @@ TEST_CASE("where a pixel has no ray, or both have the same, there is no horizon"
   CHECK_FALSE(lifted_to({-1e5, 1e5}, 0, fisheye.lens));
 }
 
+TEST_CASE("lines that leave a 360 degree image on one side come in on the other, and never cross it") {
+  const Camera around = equirectangular_camera({1024, 512});
+  const glm::dvec2 size(1024, 512);
+  const auto check_unbroken = [&](const std::vector<PixelLine>& lines) {
+    REQUIRE_FALSE(lines.empty());
+    double low = 1e9, high = -1e9;
+    for (const PixelLine& line : lines)
+      for (std::size_t i = 1; i < line.size(); ++i) {
+        CHECK(std::abs(line[i].x - line[i - 1].x) < 512);
+        low = std::min({low, line[i].x, line[i - 1].x});
+        high = std::max({high, line[i].x, line[i - 1].x});
+      }
+    CHECK(low < 0.5);  // up to the sides
+    CHECK(high > 1022.5);
+  };
+  for (const glm::dvec3& attitude : {glm::dvec3(0, 0, 0), glm::dvec3(0.3, -0.2, 1.1)}) {
+    const CameraPose pose{.rotation = rotation_of({attitude.x, attitude.y, attitude.z}), .translation_m = {0, 0, -150}};
+    check_unbroken(horizon_through_lens(pose, around.lens, size));
+  }
+  const auto behind = [](double t_s) { return glm::dvec3(-100, 30 * t_s - 60, -170); };
+  const std::vector<PixelLine> passing =
+      path_through_lens(behind, std::vector<double>{0, 2, 4}, kLevel, around.lens, size);
+  CHECK(passing.size() == 2);
+  check_unbroken(passing);
+  // Over the zenith, where the azimuth turns by half a turn at once.
+  const auto over = [](double t_s) { return glm::dvec3(50 * t_s - 100, 0.01, -250); };
+  for (const PixelLine& line : path_through_lens(over, std::vector<double>{0, 2, 4}, kLevel, around.lens, size))
+    for (std::size_t i = 1; i < line.size(); ++i) CHECK(std::abs(line[i].x - line[i - 1].x) <= 512);
+}
+
 }  // namespace sigs::editor
