@@ -33,6 +33,11 @@ namespace sigs {
 // First and last frame; a problem where they are not frames of the footage or not in order.
 [[nodiscard]] Result<FrameRange, Problem> scene_range(const FootageSettings& settings, const FootageShape& footage);
 
+// Whether the footage's lens is stated: by a calibration file or, of 360 degree footage, by the model alone.
+[[nodiscard]] inline bool states_lens(const FootageSettings& footage) {
+  return !footage.calibration.empty() || footage.lens_model == LensModelChoice::equirectangular;
+}
+
 // The calibrated camera, scaled to the footage's size.
 [[nodiscard]] Result<Camera, Problem> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
 
