@@ -8,6 +8,7 @@
 
 #include "base/pose.h"
 #include "editor/document/project_paths.h"
+#include "scene/scene_parts.h"
 
 namespace sigs::editor {
 
@@ -49,7 +50,7 @@ EgoMotionSession::EgoMotionSession(Edits& edits, std::function<void()> wake, Wor
 
 void EgoMotionSession::start(const Document& document) {
   const Project& project = document.project();
-  if (project.footage.video.empty() || project.footage.calibration.empty())
+  if (project.footage.video.empty() || !states_lens(project.footage))
     return edits().ask(
         ShowMessage{"The camera's motion is estimated from footage and calibration: choose both first.", true});
   if (document.active_camera() > 0)

@@ -13,6 +13,7 @@
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
+#include "scene/scene_parts.h"
 
 namespace sigs::editor {
 
@@ -94,7 +95,9 @@ Steps steps_of(const ViewContext& context) {
                {.name = "Calibration",
                 .what = "Of the camera that took it: OpenCV, ROS or Gyroflow",
                 .key = "footage.calibration",
-                .file = project.footage.calibration,
+                .file = project.footage.calibration.empty() && states_lens(project.footage)
+                            ? "none is needed: 360 degree footage"
+                            : project.footage.calibration,
                 .extensions = extensions_for("footage.calibration"),
                 .choose = put_file(context, "choose calibration", "footage.calibration")},
                {.name = "Model",

@@ -16,6 +16,7 @@
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
 #include "scene/scene_light.h"
+#include "scene/scene_parts.h"
 
 namespace sigs {
 
@@ -277,7 +278,7 @@ Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footag
   const Result<FrameRange, Problem> range = scene_range(project.footage, scene.footage);
   if (!range) return failed(range.error());
   SceneFiles files;
-  if (!project.footage.calibration.empty()) {
+  if (states_lens(project.footage)) {
     Result<Camera, Problem> camera = scene_camera(project, footage.size_px, files);
     if (!camera) return failed(camera.error());
     scene.camera = *std::move(camera);

@@ -37,9 +37,14 @@ namespace sigs {
 [[nodiscard]] Result<std::optional<Timeline>, Problem> scene_timeline(const Project& project, SceneFiles& files);
 
 // Sets first and last frame of a scene and its timeline: scene_range() and, of a further camera of a rig, of that what
-// lies between the first and the last frame of the first camera, less than a frame beyond them; a problem where nothing
+// lies between the first and the last frame of the first camera, up to half a frame beyond them; a problem where nothing
 // does.
 [[nodiscard]] Result<void, Problem> set_range(Scene& scene, const Project& project, SceneFiles& files);
+
+// Whether the footage's lens is stated: by a calibration file or, of 360 degree footage, by the model alone.
+[[nodiscard]] inline bool states_lens(const FootageSettings& footage) {
+  return !footage.calibration.empty() || footage.lens_model == LensModelChoice::equirectangular;
+}
 
 // The calibrated camera, scaled to the footage's size.
 [[nodiscard]] Result<Camera, Problem> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
