@@ -91,7 +91,8 @@ void ProbeWriter::write(const Document& document, const PreviewOutput& shown, co
   if (!wanted()) return;
   nlohmann::json json;
   json["frame"] = document.playhead();
-  json["revision"] = document.revision().number;
+  json["revision"] = document.state().number;
+  json["camera"] = document.active_camera();
   json["unsaved"] = document.has_unsaved_changes();
   json["current"] = shown.image_is_current;
   json["busy"] = shown.busy;

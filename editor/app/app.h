@@ -50,7 +50,8 @@ struct ProbedWindow {
 
 // For programs that drive the window from outside: writes what it shows into a JSON file, anew after each update that
 // changed it. The file is replaced as a whole, so a reader never finds half of it.
-//   {"turn": 12, "frame": 3, "revision": 4, "unsaved": true, "current": true, "busy": false, "page": "project",
+//   {"turn": 12, "frame": 3, "revision": 4, "camera": 0, "unsaved": true, "current": true, "busy": false, "page":
+//   "project",
 //    "problems": ["footage.video: ..."], "turns_a_second": 60, "places": {"ruler": [x, y, width, height], ...},
 //    "memory": {"images": 1000, "decoded": ..., "shown": ..., "textures": ..., "sum": ..., "limit": ...}, in bytes
 //    "composites": 31, how often another composited frame was shown than in the update before,

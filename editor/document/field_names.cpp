@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 83> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 84> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
@@ -23,6 +23,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 83> kNames{{
     {"camera.track.incomplete", "If incomplete"},
     {"mount.position_m", "Position on the aircraft"},
     {"clock.offset_s", "Clock offset"},
+    {"clock.drift_ppm", "Clock drift"},
     {"camera.readout_s", "Shutter readout"},
     {"camera.exposure_s", "Exposure time"},
     {"light.sun.azimuth_deg", "Sun azimuth"},

@@ -4,10 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "cli/tiny_project.h"
+#include "export/export_rig.h"
 #include "project/fields.h"
 #include "project/json.h"
+#include "project/rig.h"
 
 using namespace sigs;
 using namespace sigs::editor;
@@ -42,6 +45,30 @@ TEST_CASE("the files that an export will write are known in advance, for every c
         CHECK(those_there(outputs_of(project, footage, folder)).size() == written.size());
         std::filesystem::remove_all(folder);
       }
+}
+
+TEST_CASE("the files of a rig's export are known in advance, and the command of one camera names it") {
+  const TinyProject tiny(2);
+  Project project = read_project(tiny.project()).value().project;
+  RigCamera camera{.name = "a", .footage = std::exchange(project.footage, {}), .mount = {}, .clock = {}};
+  project.cameras = {camera, camera};
+  project.cameras[1].name = "b c";
+  project.cameras[1].mount.yaw_deg = 1;
+  const std::filesystem::path folder = tiny.file("out");
+  VideoInfo footage;
+  footage.times_s = {0, 0.04};
+  std::vector<std::filesystem::path> foretold = outputs_of_rig(project, {footage, footage}, folder);
+  CHECK(those_there(foretold).empty());
+  const Result<RigReport> report = export_rig({.project = project, .folder = folder}, {});
+  REQUIRE_MESSAGE(report, report.error().text());
+  std::vector<std::filesystem::path> written = report->written;
+  std::sort(foretold.begin(), foretold.end());
+  std::sort(written.begin(), written.end());
+  CHECK(foretold == written);
+  CHECK(those_there(foretold) == foretold);
+  CHECK(export_command({.project = project, .folder = "out"}).find("--camera") == std::string::npos);
+  CHECK(export_command({.project = seen_by(project, 1), .folder = "out"}).find(" --camera 'b c' ") !=
+        std::string::npos);
 }
 
 TEST_CASE("the usual folder lies beside the project file") {

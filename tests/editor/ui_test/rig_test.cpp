@@ -25,6 +25,13 @@ Json rig_project() {
   return project;
 }
 
+// Does what makes another camera the active one; returns when its image is shown.
+void look_through(UiTest& ui_test, int camera, const std::function<void()>& action) {
+  action();
+  ui_test.editor().wait_for("another camera", [&](const Json& now) { return now.value("camera", -1) == camera; });
+  ui_test.editor().wait_for_image();
+}
+
 void wait_for_tab(UiTest& ui_test, bool is_all) {
   ui_test.editor().wait_for("the tab", [&](const Json& now) { return shows(now, "mosaic") == is_all; });
 }
@@ -45,7 +52,7 @@ TEST_CASE("cameras are tabs, one playhead is for all of them, and a waypoint dra
   ui_test.image("front");
   const ScreenPlace in_front = editor.place("viewport/waypoint/0/1");
 
-  ui_test.edit([&] { editor.click("camera/side"); });
+  look_through(ui_test, 1, [&] { editor.click("camera/side"); });
   CHECK(editor.state()["frame"].get<int>() == 150);
   CHECK_FALSE(is_unsaved(editor.state()));
   ui_test.wait_for_place("inspector/camera name");
@@ -63,7 +70,7 @@ TEST_CASE("cameras are tabs, one playhead is for all of them, and a waypoint dra
   CHECK(saved["cameras"][1]["mount"]["attitude_deg"]["yaw"].get<double>() == -2);
   CHECK_FALSE(saved.contains("footage"));
   CHECK(waypoints_m(saved)[1].y > before[1].y + 1);
-  ui_test.edit([&] { editor.key("c"); });  // back to the first
+  look_through(ui_test, 0, [&] { editor.key("c"); });
   CHECK(editor.place("viewport/waypoint/0/1").center_x() > in_front.center_x() + 10);
 }
 
@@ -84,7 +91,7 @@ TEST_CASE("all cameras are shown side by side at the playhead, and a click on on
   const bool is_apart = front.x + front.width <= side.x + 1 || front.y + front.height <= side.y + 1;
   CHECK(is_apart);
   ui_test.image("all");
-  editor.click("mosaic/side");
+  look_through(ui_test, 1, [&] { editor.click("mosaic/side"); });
   wait_for_tab(ui_test, false);
   ui_test.wait_for_place("viewport/image");
   CHECK(editor.has_place("viewport/waypoint/0/1"));
@@ -102,7 +109,7 @@ TEST_CASE("a camera of a rig is taken out by the menu, and undo brings it back")
   const fs::path project = put(rig_project(), ui_test.folder() / "rig.json");
   editor.start({project.string()});
   editor.wait_for_image();
-  ui_test.edit([&] { editor.click("camera/side"); });
+  look_through(ui_test, 1, [&] { editor.click("camera/side"); });
   editor.click("menu/Edit");
   ui_test.edit([&] { editor.click("menu/Remove camera"); });
   CHECK_FALSE(editor.has_place("camera/All"));
