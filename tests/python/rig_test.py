@@ -18,8 +18,9 @@ def rig_file(folder):
     """The sample with its footage in three cameras, of which the last begins 5 s later."""
     document = json.loads(support.CROSSING.read_text())
     footage = document.pop("footage")
-    for key in ("video", "calibration"):
-        footage[key] = str((support.CROSSING.parent / footage[key]).resolve())
+    for key, value in footage.items():
+        if isinstance(value, str) and (support.CROSSING.parent / value).is_file():
+            footage[key] = str((support.CROSSING.parent / value).resolve())
     for intruder in document["intruders"]:
         intruder["model"]["file"] = str((support.CROSSING.parent / intruder["model"]["file"]).resolve())
     document["cameras"] = [
