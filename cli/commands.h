@@ -22,7 +22,7 @@ using Command = std::function<Result<void>()>;
 [[nodiscard]] Command add_ego_motion_command(CLI::App& program);       // sigs ego-motion
 [[nodiscard]] Command add_encounter_command(CLI::App& program);        // sigs encounter
 [[nodiscard]] Command add_encounter_model_command(CLI::App& program);  // sigs encounter-model
-[[nodiscard]] Command add_evaluate_command(CLI::App& program);         // sigs evaluate, with its three subcommands
+[[nodiscard]] Command add_evaluate_command(CLI::App& program);         // sigs evaluate, with its four subcommands
 [[nodiscard]] Command add_export_command(CLI::App& program);           // sigs export
 [[nodiscard]] Command add_frame_command(CLI::App& program);            // sigs frame
 [[nodiscard]] Command add_info_command(CLI::App& program);             // sigs info
@@ -38,6 +38,7 @@ using Command = std::function<Result<void>()>;
 // The same for the subcommands of sigs evaluate.
 [[nodiscard]] Command add_evaluate_detect(CLI::App& evaluate);
 [[nodiscard]] Command add_evaluate_performance(CLI::App& evaluate);
+[[nodiscard]] Command add_evaluate_rig(CLI::App& evaluate);
 [[nodiscard]] Command add_evaluate_track(CLI::App& evaluate);
 
 }  // namespace sigs::cli

@@ -11,8 +11,9 @@ constexpr const char* kEvaluateFooter =
     "  sigs evaluate track out/crossing.xml --results mine.txt --format otb\n"
     "  sigs evaluate detect out/crossing.xml --results found.csv\n"
     "  sigs evaluate performance datasets/mine --results found --out report --sensor sensor.json\n"
+    "  sigs evaluate rig out/ring.rig.json --results found --out report\n"
     "\n"
-    "sigs evaluate track --help, detect --help and performance --help have the options of each.";
+    "sigs evaluate track --help, detect --help, performance --help and rig --help have the options of each.";
 
 }  // namespace
 
@@ -23,7 +24,9 @@ Command add_evaluate_command(CLI::App& program) {
   const Command track = add_evaluate_track(*command);
   const Command detect = add_evaluate_detect(*command);
   const Command performance = add_evaluate_performance(*command);
-  return [command, track, detect, performance] {
+  const Command rig = add_evaluate_rig(*command);
+  return [command, track, detect, performance, rig] {
+    if (command->got_subcommand("rig")) return rig();
     if (command->got_subcommand("performance")) return performance();
     return command->got_subcommand("track") ? track() : detect();
   };

@@ -7,6 +7,7 @@
 #include "base/paths.h"
 #include "base/text.h"
 #include "camera/camera.h"
+#include "dataset/video_folder.h"
 #include "project/json.h"
 #include "scene/scene_parts.h"
 #include "video/frame_source.h"
@@ -47,7 +48,7 @@ Result<void> add_project(PerformanceClip& clip, const ClipFiles& files) {
   if (!fs::is_regular_file(file, code)) return {};
   const Result<ReadProject> read = read_project(file);
   if (!read) return fail(read.error());
-  const Project& project = read->project;
+  const Project project = project_of_video(read->project, files.tags);
   for (std::size_t i = 0; i < project.intruders.size(); ++i)
     clip.kinds[static_cast<int>(i)] = project.intruders[i].category;
   if (clip.ray_of_pixel) return {};

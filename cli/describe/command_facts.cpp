@@ -51,8 +51,9 @@ ValueKind kind_of(const std::string& value) {
   if (word.ends_with("S")) word.pop_back();
   if (word.empty()) return ValueKind::none;
   if (word == "DIR") return ValueKind::folder;
-  const bool is_file = is_one_of(word, {"FILE", "PROJECT", "VIDEO", "RECIPE", "LABEL", "INPUT", "IMAGE", "LOG"}) ||
-                       word.find("PROJECT") != std::string::npos || word.find("LABEL") != std::string::npos;
+  const bool is_file =
+      is_one_of(word, {"FILE", "PROJECT", "VIDEO", "RECIPE", "LABEL", "INPUT", "IMAGE", "LOG", "RIG"}) ||
+      word.find("PROJECT") != std::string::npos || word.find("LABEL") != std::string::npos;
   return is_file ? ValueKind::file : ValueKind::text;
 }
 

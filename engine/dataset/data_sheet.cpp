@@ -17,6 +17,7 @@
 #include "dataset/entry.h"
 #include "dataset/index.h"
 #include "dataset/made_dataset.h"
+#include "dataset/video_folder.h"
 #include "project/json.h"
 #include "project/project.h"
 
@@ -131,7 +132,7 @@ Result<void> add_video(const fs::path& dataset, const IndexedVideo& video, Sheet
   if (!document) return fail(document.error());
   SheetCount& split = facts.splits[video.split.empty() ? "all" : video.split];
   if (const Result<ReadProject> project = read_project(dataset / video.name / (video.name + ".json")); project)
-    add_project(video, project->project, facts, split);
+    add_project(video, project_of_video(project->project, video.tags), facts, split);
   const std::map<std::string, std::string> kinds = categories_of(dataset, video.name);
   const auto background = video.tags.find("background");
   SheetFootage& footage = facts.footage[background == video.tags.end() ? "" : background->second];

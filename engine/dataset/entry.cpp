@@ -69,7 +69,7 @@ Result<std::string> fingerprint_of(const Project& project, const std::string& pr
     if (written.empty()) continue;
     const fs::path file = resolved(project, written);
     std::error_code code;
-    const bool is_sequence = field.key == "footage.video" && is_image_sequence(file);
+    const bool is_sequence = field.key.ends_with("footage.video") && is_image_sequence(file);
     if (is_sequence || fs::is_regular_file(file, code)) {
       const Result<std::string> checksum = is_sequence                         ? inputs.of_images(file)
                                            : field.key.ends_with("model.file") ? inputs.of_model(file)

@@ -165,7 +165,7 @@ std::optional<Scene> VideoVisibility::scene_of(const Project& project) {
     intruder.model.scale = 1;
     intruder.model.length_m = 0;
   }
-  Result<Scene> scene = open_scene(unit, *footage, files_);
+  Result<Scene> scene = open_scene(unit, in_rig_time(*footage, project), files_);
   if (!scene) return std::nullopt;
   for (std::size_t i = 0; i < scene->intruders.size(); ++i) {
     std::shared_ptr<const Model> model = model_of_size(*scene->intruders[i].model, project.intruders[i].model);
@@ -244,9 +244,22 @@ std::optional<FootageShape> VideoVisibility::shape_of_footage(const FootageSetti
   return shapes_[key] = shape ? std::optional(*shape) : std::nullopt;
 }
 
+namespace {
+
+// The frames that an export writes; of a further camera of a rig those of the time of the first one.
+Result<FrameRange> range_of(const Project& project, const FootageShape& footage) {
+  Scene scene = bare_scene(project, in_rig_time(footage, project));
+  SceneFiles files;
+  if (const Result<void, Problem> step = set_range(scene, project, files); !step)
+    return fail(error_of(project, step.error()));
+  return FrameRange{scene.first_frame, scene.last_frame};
+}
+
+}  // namespace
+
 Result<int> frames_of(const Project& project, const FootageShape& footage) {
-  const Result<FrameRange, Problem> range = scene_range(project.footage, footage);
-  if (!range) return fail(error_of(project, range.error()));
+  const Result<FrameRange> range = range_of(project, footage);
+  if (!range) return fail(range.error());
   return range->last - range->first + 1;
 }
 
@@ -262,9 +275,11 @@ Result<ExportExtent> ExportExtents::of(const Project& project) {
     known = shapes_.emplace(key, std::move(shape)).first;
   }
   if (!known->second) return fail(known->second.error());
-  const Result<FrameRange, Problem> frames = scene_range(project.footage, *known->second);
-  if (!frames) return fail(error_of(project, frames.error()));
-  return ExportExtent{*frames, known->second->size_px};
+  const FootageShape shape = *known->second;
+  lock.unlock();
+  const Result<FrameRange> frames = range_of(project, shape);
+  if (!frames) return fail(frames.error());
+  return ExportExtent{*frames, shape.size_px};
 }
 
 std::vector<std::optional<Visibility>> visibilities_of(const std::vector<const PlannedVideo*>& videos, int frames,

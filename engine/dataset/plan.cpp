@@ -14,6 +14,7 @@
 #include "dataset/sample.h"
 #include "dataset/video_name.h"
 #include "dataset/video_sample.h"
+#include "project/rig.h"
 #include "project/validate.h"
 
 namespace sigs {
@@ -64,7 +65,7 @@ Result<std::vector<VideoSpec>> all_specs(const Recipe& recipe) {
 
 Result<void> check_projects(const Recipe& recipe, const Plan& plan) {
   for (const PlannedVideo& video : plan.videos)
-    for (const Problem& problem : validate(video.project))
+    for (const Problem& problem : validate(video.rig ? *video.rig : video.project))
       return fail(fmt::format("{}: video {}: {}", recipe.file.string(), video.name, problem.field), problem.what,
                   problem.kind == ErrorKind::cannot_read ? problem.kind : ErrorKind::bad_data);
   return {};
@@ -88,6 +89,25 @@ Result<void> split_up(const Recipe& recipe, Plan& plan) {
 // Why a sample was rejected: the quantity that its reason begins with.
 std::string condition_of(const std::string& why) {
   return why.substr(0, std::min(why.find(':'), why.find(" in frame")));
+}
+
+// The videos of all cameras of a background's aircraft: what was sampled is of the whole.
+std::vector<PlannedVideo> videos_of_cameras(PlannedVideo sampled, const std::vector<RigCamera>& cameras) {
+  if (cameras.empty()) return {std::move(sampled)};
+  Project rig = sampled.project;
+  rig.cameras = cameras;
+  rig.cameras.front().footage = std::exchange(rig.footage, {});
+  std::vector<PlannedVideo> videos;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    PlannedVideo video = sampled;
+    video.project = seen_by(rig, i);
+    video.name = video.project.name;
+    video.rig = rig;
+    video.tags["rig"] = sampled.name;
+    video.tags["camera"] = cameras[i].name;
+    videos.push_back(std::move(video));
+  }
+  return videos;
 }
 
 // Samples the recipe's videos one by one.
@@ -135,8 +155,11 @@ tl::expected<PlannedVideo, std::string> Planner::one_sample(const VideoSpec& spe
                                                             int again) {
   tl::expected<PlannedVideo, std::string> video = sampled_video(recipe_, spec, background, again, estimator_);
   if (!video || !recipe_.groups[spec.group].resamples) return video;
-  const std::optional<Visibility> view = estimator_.visibility_of(video->project, kVisibilityFrames);
-  if (view && view->visible == 0)
+  const auto is_never_visible = [&](const PlannedVideo& of_camera) {
+    const std::optional<Visibility> view = estimator_.visibility_of(of_camera.project, kVisibilityFrames);
+    return view && view->visible == 0;
+  };
+  if (std::ranges::all_of(videos_of_cameras(*video, recipe_.backgrounds[spec.background].cameras), is_never_visible))
     return tl::unexpected(std::string("never in the picture: the intruder is beside it or behind the own body"));
   return video;
 }
@@ -183,9 +206,14 @@ Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
     if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
     planner.add(spec, plan);
   }
-  Result<void> step = check_projects(recipe, plan);
-  if (step) step = split_up(recipe, plan);
-  if (!step) return fail(step.error());
+  if (const Result<void> step = split_up(recipe, plan); !step) return fail(step.error());
+  std::vector<PlannedVideo> videos;  // after the splits, so that all cameras of an aircraft are in the same
+  for (PlannedVideo& video : plan.videos) {
+    const auto& cameras = recipe.backgrounds[index_of(recipe.backgrounds, video.tags.at("background"))].cameras;
+    for (PlannedVideo& of_camera : videos_of_cameras(std::move(video), cameras)) videos.push_back(std::move(of_camera));
+  }
+  plan.videos = std::move(videos);
+  if (const Result<void> step = check_projects(recipe, plan); !step) return fail(step.error());
   return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ namespace sigs {
 struct PlannedVideo {
   std::string name;  // unique in the plan; the project's too
   Project project;   // its paths are absolute
+  // Of one of several cameras of an aircraft, whose videos follow one another: the project of all of them, of which
+  // `project` is what this camera sees. The name is that of the whole, a dot and the camera's.
+  std::optional<Project> rig = {};
   std::string split;
   std::map<std::string, std::string> tags;  // background, aircraft, flight and those of the recipe
   std::map<std::string, double> sampled;    // what was sampled or fixed for it: "miss_distance_m", ...

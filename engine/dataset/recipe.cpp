@@ -186,6 +186,7 @@ void read_project_of(RecipeNode& node, Project& project) {
   if (!loaded) return node.log().wrong(node.key_of("project"), loaded.error().text(), loaded.error().kind);
   make_paths_absolute(loaded->project);
   project.footage = loaded->project.footage;
+  project.cameras = loaded->project.cameras;
   project.camera = loaded->project.camera;
   project.light = loaded->project.light;
   project.appearance = loaded->project.appearance;
@@ -196,6 +197,27 @@ void read_origin(RecipeNode& node) {
   for (const char* const key : {"licence", "source"}) static_cast<void>(node.text(key));
 }
 
+// Flights are planned about a camera that is turned as `camera` says.
+void check_cameras(const std::vector<RigCamera>& cameras, RecipeNode& node) {
+  if (cameras.empty()) return;
+  const MountSettings& first = cameras.front().mount;
+  if (first.roll_deg != 0 || first.pitch_deg != 0 || first.yaw_deg != 0)
+    node.log().wrong(node.key_of("project"),
+                     fmt::format("has a first camera, \"{}\", whose mount is turned; flights are planned about the "
+                                 "first one: put one that looks ahead first",
+                                 cameras.front().name));
+}
+
+// Images are frames of one camera.
+void check_images(const Recipe& recipe, RecipeLog& log) {
+  for (const VideoGroup& group : recipe.groups)
+    for (const Background& background : recipe.backgrounds)
+      if (group.is_images && !background.cameras.empty() && std::ranges::count(group.backgrounds, background.name) > 0)
+        log.wrong("images", fmt::format("have the background \"{}\" with several cameras; take videos, or name other "
+                                        "backgrounds",
+                                        background.name));
+}
+
 Background read_background(RecipeNode node, const Project& base, const std::vector<std::string>& settings) {
   Project project = base;
   Background background{.name = node.needed_text("name"), .tags = node.text_map("tags")};
@@ -204,7 +226,9 @@ Background read_background(RecipeNode node, const Project& base, const std::vect
   read_section(node, "camera", "camera", project);
   read_section(node, "light", "light", project);
   apply_settings(settings, project);
-  background.footage = project.footage;
+  background.footage = project.cameras.empty() ? project.footage : project.cameras.front().footage;
+  background.cameras = project.cameras;
+  check_cameras(background.cameras, node);
   background.camera = project.camera;
   background.light = project.light;
   background.appearance = project.appearance;
@@ -331,6 +355,7 @@ void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>&
   check_names(recipe.aircraft, "aircraft", node.log());
   read_splits(node, recipe);
   recipe.groups = read_groups(node, recipe, settings);
+  check_images(recipe, node.log());
   node.done();
 }
 

@@ -22,7 +22,8 @@ namespace sigs {
 // Footage that videos may use, with its camera, its light and how it looks. Paths are absolute.
 struct Background {
   std::string name;
-  FootageSettings footage;  // first and last frame limit the part that may be used
+  FootageSettings footage;  // first and last frame limit the part that may be used; of several cameras the first one's
+  std::vector<RigCamera> cameras = {};  // of an aircraft with several; empty: one camera
   CameraSettings camera;
   LightSettings light;
   AppearanceSettings appearance;

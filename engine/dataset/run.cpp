@@ -135,7 +135,9 @@ void DatasetRun::inspect(Task& task) {
   if (is_cancelled()) return;
   remove_abandoned_staging(task.folder.path());  // of temporary files that a killed run was writing
   const PlannedVideo& video = *task.folder.video;
-  Result<std::string> planned = fingerprint_of(video.project, request_.source.program, inputs_);
+  const std::string program =
+      video.rig ? request_.source.program + "\ncamera " + video.project.rig_view->name : request_.source.program;
+  Result<std::string> planned = fingerprint_of(video.rig ? *video.rig : video.project, program, inputs_);
   if (!planned) {
     task.error = planned.error();
     return;

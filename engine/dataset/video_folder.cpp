@@ -14,6 +14,7 @@
 #include "export/export_project.h"
 #include "project/fields.h"
 #include "project/json.h"
+#include "project/rig.h"
 
 namespace sigs {
 
@@ -33,12 +34,13 @@ fs::path without_links(const fs::path& file) {
 }
 
 Project with_relative_paths(const VideoFolder& folder) {
-  Project project = folder.video->project;
+  const Project& planned = folder.video->rig ? *folder.video->rig : folder.video->project;
+  Project project = planned;
   for (const Field& field : fields_of(project)) {
     if (!field.is_path) continue;
     std::string& path = *std::get<std::string*>(field.value);
     if (path.empty()) continue;
-    path = without_links(resolved(folder.video->project, path)).lexically_relative(folder.path()).generic_string();
+    path = without_links(resolved(planned, path)).lexically_relative(folder.path()).generic_string();
   }
   project.file = folder.path() / project_name(*folder.video);
   return project;
@@ -129,6 +131,14 @@ std::vector<std::string> uncounted(const PlannedVideo& video) {
 
 std::string project_text(const VideoFolder& folder) {
   return text_of(with_relative_paths(folder));
+}
+
+Project project_of_video(const Project& in_file, const std::map<std::string, std::string>& tags) {
+  const auto tag = tags.find("camera");
+  if (tag == tags.end()) return in_file;
+  const auto camera = std::ranges::find(in_file.cameras, tag->second, &RigCamera::name);
+  if (camera == in_file.cameras.end()) return in_file;
+  return seen_by(in_file, static_cast<std::size_t>(camera - in_file.cameras.begin()));
 }
 
 Result<void> update_metadata(const VideoFolder& folder, const VideoEntry& entry) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,10 @@ struct VideoExport {
 // The text of the project file in the video's folder. Paths are relative to that folder, so that dataset and inputs can
 // be moved together; the bytes therefore depend on where the dataset is.
 [[nodiscard]] std::string project_text(const VideoFolder& folder);
+
+// What the project file in a video's folder says of that video: of one of several cameras the file has all of them, and
+// the video's tag "camera" says which.
+[[nodiscard]] Project project_of_video(const Project& in_file, const std::map<std::string, std::string>& tags);
 
 // Writes project and entry where their text differs from the planned one. Errors cannot_create, write_failed.
 [[nodiscard]] Result<void> update_metadata(const VideoFolder& folder, const VideoEntry& entry);

@@ -15,6 +15,7 @@
 #include "base/threads.h"
 #include "export/frame_stream.h"
 #include "labels/formats.h"
+#include "project/rig.h"
 #include "scene/opened_project.h"
 #include "video/video_writer.h"
 
@@ -176,6 +177,8 @@ LabelSequence label_sequence(const Project& project, const VideoInfo& footage, c
                          .box_margin_px = project.output.label_box_margin_px,
                          .has_real_aircraft = !scene.real_aircraft.empty(),
                          .volumes = project.output.encounter};
+  if (project.rig_view)
+    sequence.mounted = {.name = project.rig_view->name, .body_from_camera = body_from_camera(project.rig_view->mount)};
   for (std::size_t i = 0; i < scene.intruders.size(); ++i)
     sequence.intruders.push_back({.id = static_cast<int>(i),
                                   .name = scene.intruders[i].name,

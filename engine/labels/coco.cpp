@@ -67,6 +67,21 @@ Json info_of(const LabelSequence& sequence) {
           {"min_visible_fraction", rounded(sequence.thresholds.min_visible_fraction)}};
 }
 
+// One of several cameras: its lens, whose pixels count from the centre of the first one, and where it sits.
+Json camera_of(const MountedCamera& mounted, const std::optional<Camera>& camera) {
+  Json json{{"name", mounted.name}};
+  if (camera) {
+    const LensParameters& lens = camera->lens.parameters();
+    json["lens"] = {
+        {"model", name_of(lens.model)},     {"fx", lens.fx}, {"fy", lens.fy}, {"cx", lens.cx}, {"cy", lens.cy},
+        {"coefficients", lens.coefficients}};
+  }
+  const glm::dquat& turn = mounted.body_from_camera.rotation;
+  json["mount"] = {{"position_m", json_of(mounted.body_from_camera.translation_m)},
+                   {"body_from_camera_wxyz", {turn.w, turn.x, turn.y, turn.z}}};
+  return json;
+}
+
 Json video_of(const LabelSequence& sequence) {
   const FootageTruth& footage = sequence.footage;
   Json video{{"id", kVideoId},
@@ -78,6 +93,7 @@ Json video_of(const LabelSequence& sequence) {
   if (!sequence.video.empty()) video["file_name"] = sequence.video;
   video["footage"] = {
       {"file_name", footage.video}, {"first_frame", footage.first_frame}, {"last_frame", footage.last_frame}};
+  if (sequence.mounted) video["camera"] = camera_of(*sequence.mounted, sequence.camera);
   return video;
 }
 
@@ -142,14 +158,16 @@ class CocoLabels : public LabelWriter {
   [[nodiscard]] int category_id_of(int intruder_id) const { return category_index(sequence_, intruder_id) + 1; }
 
   [[nodiscard]] Json image_of(const FrameTruth& truth, int frame, int image_id) const {
-    return {{"id", image_id},
-            {"file_name", sequence_.images + "/" + image_name(truth.index, sequence_.image_extension)},
-            {"width", sequence_.footage.size_px.width},
-            {"height", sequence_.footage.size_px.height},
-            {"video_id", kVideoId},
-            {"frame_id", frame},
-            {"footage_frame", truth.index},
-            {"time_s", rounded(truth.time_s)}};
+    Json image{{"id", image_id},
+               {"file_name", sequence_.images + "/" + image_name(truth.index, sequence_.image_extension)},
+               {"width", sequence_.footage.size_px.width},
+               {"height", sequence_.footage.size_px.height},
+               {"video_id", kVideoId},
+               {"frame_id", frame},
+               {"footage_frame", truth.index},
+               {"time_s", rounded(truth.time_s)}};
+    if (sequence_.mounted) image["camera"] = sequence_.mounted->name;
+    return image;
   }
 
   [[nodiscard]] Json annotation_of(const IntruderTruth& intruder, int image_id) const {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/pose.h"
 #include "base/result.h"
 #include "camera/camera.h"
 #include "truth/annotation.h"
@@ -34,6 +35,12 @@ struct LabelledIntruder {
   glm::dvec3 high_m{0, 0, 0};
 };
 
+// Where one of several cameras of an aircraft sits (docs/rigs.md).
+struct MountedCamera {
+  std::string name;
+  Pose<frame::Body, frame::Camera> body_from_camera;
+};
+
 // What is the same for all frames of one set of labels.
 struct LabelSequence {
   std::string name;  // the project's; any text that can name a folder
@@ -51,7 +58,8 @@ struct LabelSequence {
   double box_scale = 1;            // of labelled_box()
   int box_margin_px = 0;           // likewise
   bool has_real_aircraft = false;  // some frame's truth has FrameTruth::real_aircraft, which formats ignore as they can
-  std::vector<std::string> volumes = {};  // of EncounterTruth, by name; empty: the truth has no encounters
+  std::vector<std::string> volumes = {};      // of EncounterTruth, by name; empty: the truth has no encounters
+  std::optional<MountedCamera> mounted = {};  // none: the project has one camera
 };
 
 // The intruder with this id, which must exist.

@@ -46,9 +46,10 @@ std::string seqinfo(const LabelSequence& sequence, const std::string& name) {
   const FootageTruth& footage = sequence.footage;
   std::string text = fmt::format(
       "[Sequence]\nname={}\nimDir=img1\nframeRate={}\nseqLength={}\nimWidth={}\nimHeight={}\nimExt={}\n"
-      "exactFrameRate={}\n\n[Classes]\n",
+      "exactFrameRate={}\n{}\n[Classes]\n",
       name, whole_rate_hz(footage), frame_count(footage), footage.size_px.width, footage.size_px.height,
-      sequence.image_extension, rate_text(footage));
+      sequence.image_extension, rate_text(footage),
+      sequence.mounted ? fmt::format("camera={}\n", line_name(sequence.mounted->name)) : "");
   for (std::size_t i = 0; i < sequence.categories.size(); ++i)
     text += fmt::format("{}={}\n", i + 1, line_name(sequence.categories[i]));
   if (!sequence.own_body.empty()) text += fmt::format("{}=own body, ignored\n", ignored_class(sequence));

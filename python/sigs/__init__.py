@@ -23,19 +23,19 @@ from .errors import (
     UsageError,
     WriteFailed,
 )
+from .intruder import Intruder, Waypoints
 from .labels import Labels, read_labels
 from .project import (
     ExportReport,
     Field,
     Footage,
-    Intruder,
     Pose,
     Problem,
     Project,
-    Waypoints,
     export,
     open,
 )
+from .rig import Rig, RigCamera, read_rig
 from .truth import (
     Appearance,
     Attitude,
@@ -75,6 +75,8 @@ __all__ = [
     "Problem",
     "Project",
     "ProjectWarning",
+    "Rig",
+    "RigCamera",
     "Silhouette",
     "Unavailable",
     "UsageError",
@@ -86,4 +88,5 @@ __all__ = [
     "export",
     "open",
     "read_labels",
+    "read_rig",
 ]

@@ -12,22 +12,16 @@ from dataclasses import dataclass, field
 from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from . import _sigs
 from ._sigs import Frame, FrameIterator
 from .errors import ProjectWarning, UsageError
+from .intruder import Intruder
+from .rig import RigCamera, nearest_frame
 
 _Path = Union[str, "os.PathLike[str]"]
 _PoseTuple = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
-
-
-class Waypoints(NamedTuple):
-    """frames: float64 [n], NaN for a waypoint whose frame is chosen by even spacing; positions_m: float64 [n, 3] in
-    the world (X forward, Y right, Z down)."""
-
-    frames: NDArray[np.float64]
-    positions_m: NDArray[np.float64]
 
 
 class Problem(NamedTuple):
@@ -68,7 +62,8 @@ class Pose:
 
 @dataclass(frozen=True)
 class Footage:
-    """The footage of an opened project. times_s: presentation time of each frame, 0 for the first."""
+    """The footage of an opened project. times_s: presentation time of each frame, 0 for the first; of a camera of a
+    rig by the rig's clock."""
 
     path: pathlib.Path
     size_px: tuple[int, int]
@@ -136,58 +131,6 @@ def _ends(frames: Optional[range]) -> Optional[tuple[int, int]]:
 def _warn(texts: Sequence[str]) -> None:
     for text in texts:
         warnings.warn(text, ProjectWarning, stacklevel=3)
-
-
-class Intruder:
-    """One intruder of a project. It stays the one at its position in the project's list."""
-
-    def __init__(self, project: Project, index: int) -> None:
-        self._project = project
-        self._index = index
-
-    @property
-    def index(self) -> int:
-        """Its position in the project's list, from 0: the id in labels."""
-        return self._index
-
-    @property
-    def name(self) -> str:
-        """Its name in annotations."""
-        return str(self["name"])
-
-    @property
-    def waypoints(self) -> Waypoints:
-        """Frames and positions of its waypoints: copies; assign to change them.
-
-        Assign Waypoints(frames, positions_m), or a tuple of both; where frames is None, or NaN in it, the frame is
-        chosen by even spacing.
-        """
-        return Waypoints(*self._project._inside.waypoints(self._index))
-
-    @waypoints.setter
-    def waypoints(self, value: tuple[Optional[ArrayLike], ArrayLike]) -> None:
-        frames, positions = value
-        positions_m = np.asarray(positions, dtype=np.float64)
-        if positions_m.ndim != 2 or positions_m.shape[1] != 3:
-            raise UsageError("waypoints", f"expected positions [n, 3], found the shape {positions_m.shape}", "usage")
-        numbers = np.full(len(positions_m), np.nan) if frames is None else np.asarray(frames, dtype=np.float64)
-        if numbers.shape != (len(positions_m),):
-            raise UsageError(
-                "waypoints", f"{len(positions_m)} positions need as many frames, found {numbers.shape}", "usage"
-            )
-        self._project._inside.set_waypoints(
-            self._index, [None if np.isnan(n) else float(n) for n in numbers], positions_m.tolist()
-        )
-
-    def __getitem__(self, key: str) -> Any:
-        """A field by its key within the intruder: intruder["model.scale"]."""
-        return self._project[f"intruders[{self._index}].{key}"]
-
-    def __setitem__(self, key: str, value: Any) -> None:
-        self._project[f"intruders[{self._index}].{key}"] = value
-
-    def __repr__(self) -> str:
-        return f"<sigs.Intruder {self._index} '{self.name}'>"
 
 
 class Project:
@@ -265,7 +208,61 @@ class Project:
         """Removes an intruder; those behind it move up."""
         self._inside.remove_intruder(self.intruder(which).index)
 
+    @property
+    def cameras(self) -> list[RigCamera]:
+        """The cameras of an aircraft with several (docs/rigs.md), in the project's order; empty: it has one."""
+        return [RigCamera(self, index, name) for index, name in enumerate(self._inside.camera_names())]
+
+    @property
+    def camera_name(self) -> Optional[str]:
+        """Of a project from camera(): the camera's name."""
+        return self._inside.camera_name()
+
+    def camera(self, which: int | str) -> Project:
+        """The project as one of several cameras sees it, by name or index: frames, labels and exports are that
+        camera's, times are the rig's, fields are those of a project with one camera.
+
+        It is a project of its own: later changes of one have no effect on the other. Its text() and save() give the
+        whole rig, with what was changed through this camera. Raises UsageError where there is no such camera.
+        """
+        names = self._inside.camera_names()
+        if isinstance(which, int) and not 0 <= which < len(names):
+            raise UsageError(f"camera {which}", f"{self.path} has {len(names)} cameras, counted from 0", "usage")
+        return Project(self._inside.camera(which))
+
+    def _choose_camera(self) -> None:
+        names = self._inside.camera_names()
+        if names:
+            raise UsageError(
+                str(self.path),
+                f"has several cameras ({', '.join(names)}); choose one, as in project.camera(\"{names[0]}\"), or take "
+                "render_all()",
+                "usage",
+            )
+
+    def render_all(self, frame: int, poses: Optional[Mapping[int | str, Any]] = None) -> dict[str, Frame]:
+        """The frames of all cameras at the time of a frame of the first one, by the cameras' names in their order.
+
+        frame  number in the first camera's footage
+        poses  as those of render()
+
+        Of each camera it is the frame nearest in time; frame.time_s is its own, by the rig's clock. A camera that has
+        none within three quarters of its interval is left out. Decoders, models and OpenGL are kept from call to call.
+        """
+        names = self._inside.camera_names()
+        if not names:
+            raise UsageError(str(self.path), "has one camera; take render()", "usage")
+        given = self._given(poses)
+        first = self._inside.render_camera(0, frame, given)
+        frames = {names[0]: first}
+        for index, name in enumerate(names[1:], 1):
+            nearest = nearest_frame(self._inside.opened_camera(index)["times_s"], first.time_s)
+            if nearest is not None:
+                frames[name] = self._inside.render_camera(index, nearest, given)
+        return frames
+
     def _opened(self) -> dict[str, Any]:
+        self._choose_camera()
         opened = self._inside.opened()
         _warn(opened["warnings"])
         return opened
@@ -299,6 +296,7 @@ class Project:
 
         The project is read now: later changes have no effect on the frames.
         """
+        self._choose_camera()
         iterator = FrameIterator(self._inside, _ends(frames), _jobs(jobs))
         _warn(iterator.warnings)
         return iterator
@@ -318,11 +316,14 @@ class Project:
         Decoder, models and OpenGL are kept from call to call, also when fields or waypoints change between them.
         Truth of encounters is that of whole flights and is None here.
         """
-        given = [
+        self._choose_camera()
+        return self._inside.render(frame, None if camera is None else _pose_tuple(camera, "camera"), self._given(poses))
+
+    def _given(self, poses: Optional[Mapping[int | str, Any]]) -> list[tuple[int, _PoseTuple]]:
+        return [
             (self.intruder(which).index, _pose_tuple(pose, f"intruder {which}"))
             for which, pose in (poses or {}).items()
         ]
-        return self._inside.render(frame, None if camera is None else _pose_tuple(camera, "camera"), given)
 
     def close(self) -> None:
         """Frees decoder and OpenGL; the next render() opens them again."""
@@ -330,16 +331,21 @@ class Project:
 
     def copy(self) -> Project:
         """A project of its own with the same fields."""
-        return Project.parse(self.text(), self.path)
+        return _parsed(self.text(), self.path, self.camera_name)
 
     def __iter__(self) -> Iterator[Frame]:
         return iter(self.frames())
 
-    def __reduce__(self) -> tuple[Callable[[str, _Path], Project], tuple[str, str]]:
-        return Project.parse, (self.text(), str(self.path.absolute()))
+    def __reduce__(self) -> tuple[Callable[[str, _Path, Optional[str]], Project], tuple[str, str, Optional[str]]]:
+        return _parsed, (self.text(), str(self.path.absolute()), self.camera_name)
 
     def __repr__(self) -> str:
         return f"<sigs.Project '{self['name']}', {len(self.intruders)} intruders>"
+
+
+def _parsed(text: str, path: _Path, camera: Optional[str]) -> Project:
+    whole = Project.parse(text, path)
+    return whole if camera is None else whole.camera(camera)
 
 
 def open(path: _Path) -> Project:
@@ -360,6 +366,7 @@ def export(
     """Exports as `sigs export` does: video, masks and labels, which appear when all are complete.
 
     folder    created if it is missing
+    frames    of a project with several cameras, all of which are exported: those of the first one
     progress  called with the number of frames done and of all, on this thread, some 20 times a second; an exception
               that it raises stops the export
 

@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -12,6 +13,7 @@
 
 #include "errors.h"
 #include "export/export_project.h"
+#include "export/export_rig.h"
 #include "frame_iterator.h"
 #include "frame_object.h"
 #include "job_thread.h"
@@ -56,6 +58,27 @@ class ProgressReport {
   int reported_ = 0;
 };
 
+// Of all cameras of a rig as one.
+ExportReport summed(RigReport rig, double wall_s) {
+  ExportReport sum{.written = std::move(rig.written)};
+  for (ExportReport& camera : rig.cameras) {
+    sum.frames += camera.frames;
+    sum.damaged_frames += camera.damaged_frames;
+    sum.warnings.insert(sum.warnings.end(), camera.warnings.begin(), camera.warnings.end());
+    if (sum.renderer_description.empty()) sum.renderer_description = camera.renderer_description;
+  }
+  sum.times.wall_s = wall_s;
+  return sum;
+}
+
+Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
+  if (request.project.cameras.empty()) return export_project(request, control);
+  const auto start = std::chrono::steady_clock::now();
+  Result<RigReport> rig = export_rig(request, control);
+  if (!rig) return fail(rig.error());
+  return summed(*std::move(rig), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
 py::dict export_to(const ProjectObject& object, const std::filesystem::path& folder,
                    const std::optional<std::pair<int, int>>& frames, int jobs, bool overwrite,
                    const py::object& progress) {
@@ -65,8 +88,8 @@ py::dict export_to(const ProjectObject& object, const std::filesystem::path& fol
   JobThread thread;
   const ExportReport report = thread.wait_for(
       [&](const std::atomic<bool>* cancel) {
-        return export_project(request,
-                              {.progress = [&](int done, int total) { reported.put(done, total); }, .cancel = cancel});
+        return exported(request,
+                        {.progress = [&](int done, int total) { reported.put(done, total); }, .cancel = cancel});
       },
       [&] { reported.report(); });
   return dict_of(report);

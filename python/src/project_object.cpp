@@ -127,6 +127,41 @@ RenderThread::Opened ProjectObject::opened() {
   return renderer()->open(project);
 }
 
+std::shared_ptr<ProjectObject> ProjectObject::camera(std::size_t index) const {
+  if (index >= project_.cameras.size()) throw py::index_error("no camera " + std::to_string(index));
+  auto seen = std::make_shared<ProjectObject>(seen_by(project_, index));
+  seen->whole_ = project_;
+  return seen;
+}
+
+std::shared_ptr<ProjectObject> ProjectObject::camera_called(const std::string& name) const {
+  return camera(value_or_raise(camera_named(project_, name)));
+}
+
+std::shared_ptr<ProjectObject> ProjectObject::kept_camera(std::size_t index) {
+  if (index >= project_.cameras.size()) throw py::index_error("no camera " + std::to_string(index));
+  while (kept_cameras_.size() < project_.cameras.size())
+    kept_cameras_.push_back(std::make_shared<ProjectObject>(Project{}));
+  kept_cameras_[index]->project_ = seen_by(project_, index);
+  return kept_cameras_[index];
+}
+
+std::shared_ptr<FrameObject> ProjectObject::render_camera(std::size_t index, int frame,
+                                                          const std::vector<std::pair<int, PoseTuple>>& intruders) {
+  const std::shared_ptr<ProjectObject> camera = kept_camera(index);  // stays, should another thread close the project
+  return camera->render(frame, {}, intruders);
+}
+
+RenderThread::Opened ProjectObject::opened_camera(std::size_t index) {
+  const std::shared_ptr<ProjectObject> camera = kept_camera(index);
+  return camera->opened();
+}
+
+void ProjectObject::close() {
+  kept_cameras_.clear();
+  renderer_.reset();
+}
+
 std::shared_ptr<FrameObject> ProjectObject::render(int frame, const std::optional<PoseTuple>& camera,
                                                    const std::vector<std::pair<int, PoseTuple>>& intruders) {
   GivenPoses poses;
@@ -160,14 +195,20 @@ py::list problems_of(const ProjectObject& object) {
   return list;
 }
 
-py::dict opened_as_dict(ProjectObject& object) {
-  const RenderThread::Opened opened = object.opened();
+py::dict dict_of(const RenderThread::Opened& opened) {
   const VideoInfo& info = opened.footage;
-  return py::dict("path"_a = info.path, "width"_a = info.size_px.width, "height"_a = info.size_px.height,
-                  "times_s"_a = py::array_t<double>(static_cast<py::ssize_t>(info.times_s.size()), info.times_s.data()),
-                  "frame_rate"_a = py::make_tuple(info.frame_rate_num, info.frame_rate_den), "codec"_a = info.codec,
-                  "layout"_a = name_of(info.layout), "first_frame"_a = opened.first_frame,
-                  "last_frame"_a = opened.last_frame, "warnings"_a = texts_of(opened.warnings));
+  return py::dict(
+      "path"_a = info.path, "width"_a = info.size_px.width, "height"_a = info.size_px.height,
+      "times_s"_a = py::array_t<double>(static_cast<py::ssize_t>(opened.times_s.size()), opened.times_s.data()),
+      "frame_rate"_a = py::make_tuple(info.frame_rate_num, info.frame_rate_den), "codec"_a = info.codec,
+      "layout"_a = name_of(info.layout), "first_frame"_a = opened.first_frame, "last_frame"_a = opened.last_frame,
+      "warnings"_a = texts_of(opened.warnings));
+}
+
+py::list camera_names(const ProjectObject& object) {
+  py::list names;
+  for (const RigCamera& camera : object.project().cameras) names.append(camera.name);
+  return names;
 }
 
 }  // namespace
@@ -178,13 +219,13 @@ void add_project_class(py::module_& module) {
       .def_static("parse", &parse, py::arg("text"), py::arg("path"),
                   "The project of a file's text; relative paths start in the folder of `path`.")
       .def(
-          "text", [](const ProjectObject& object) { return text_of(object.project()); }, "The project as JSON text.")
+          "text", [](const ProjectObject& object) { return text_of(object.whole()); }, "The project as JSON text.")
       .def(
           "path", [](const ProjectObject& object) { return object.project().file; }, "Where it was read from.")
       .def(
           "write",
           [](const ProjectObject& object, const std::filesystem::path& path, bool overwrite) {
-            value_or_raise(write_project(object.project(), path, overwrite));
+            value_or_raise(write_project(object.whole(), path, overwrite));
           },
           py::arg("path"), py::arg("overwrite"), "Writes the project file.")
       .def("value", &ProjectObject::value, py::arg("key"), "A field's value as JSON text.")
@@ -197,7 +238,23 @@ void add_project_class(py::module_& module) {
            py::arg("positions_m"))
       .def("add_intruder", &ProjectObject::add_intruder, "Appends an intruder; returns its index.")
       .def("remove_intruder", &ProjectObject::remove_intruder, py::arg("intruder"))
-      .def("opened", &opened_as_dict, "Opens all files; the footage's properties as a dict.")
+      .def("camera_names", &camera_names, "Of several cameras; empty where the project has one.")
+      .def("camera_name",
+           [](const ProjectObject& object) {
+             const std::optional<RigView>& view = object.project().rig_view;
+             return view ? std::optional(view->name) : std::nullopt;
+           })
+      .def("camera", &ProjectObject::camera, py::arg("index"), "The project as one of several cameras sees it.")
+      .def("camera", &ProjectObject::camera_called, py::arg("name"))
+      .def(
+          "opened", [](ProjectObject& object) { return dict_of(object.opened()); },
+          "Opens all files; the footage's properties as a dict.")
+      .def(
+          "opened_camera",
+          [](ProjectObject& object, std::size_t index) { return dict_of(object.opened_camera(index)); },
+          py::arg("index"), "The same of one of several cameras.")
+      .def("render_camera", &ProjectObject::render_camera, py::arg("index"), py::arg("frame"), py::arg("intruders"),
+           "Composes one frame of one of several cameras, with given poses.")
       .def("render", &ProjectObject::render, py::arg("frame"), py::arg("camera"), py::arg("intruders"),
            "Composes one frame, with given poses.")
       .def("close", &ProjectObject::close, "Frees decoder and OpenGL context.");

@@ -14,6 +14,7 @@
 #include "frame_object.h"
 #include "process_bound.h"
 #include "project/project.h"
+#include "project/rig.h"
 #include "render_thread.h"
 
 namespace sigs::python {
@@ -28,6 +29,17 @@ class ProjectObject {
   explicit ProjectObject(Project project) : project_(std::move(project)) {}
 
   [[nodiscard]] const Project& project() const { return project_; }
+  // What its file holds: of a camera's project the whole rig, with what was changed through the camera.
+  [[nodiscard]] Project whole() const { return whole_ ? put_back(*whole_, project_) : project_; }
+
+  // The project as one camera of a rig sees it, on its own from then on; raises usage where there is no such camera.
+  [[nodiscard]] std::shared_ptr<ProjectObject> camera(std::size_t index) const;
+  [[nodiscard]] std::shared_ptr<ProjectObject> camera_called(const std::string& name) const;
+
+  // Composes a camera's frame of the rig as it is; decoder and OpenGL of each camera are kept from call to call.
+  [[nodiscard]] std::shared_ptr<FrameObject> render_camera(std::size_t index, int frame,
+                                                           const std::vector<std::pair<int, PoseTuple>>& intruders);
+  [[nodiscard]] RenderThread::Opened opened_camera(std::size_t index);
 
   [[nodiscard]] std::string value(const std::string& key) const;  // JSON; raises usage for a key that there is not
   [[nodiscard]] pybind11::list fields() const;
@@ -43,14 +55,18 @@ class ProjectObject {
   [[nodiscard]] RenderThread::Opened opened();
   [[nodiscard]] std::shared_ptr<FrameObject> render(int frame, const std::optional<PoseTuple>& camera,
                                                     const std::vector<std::pair<int, PoseTuple>>& intruders);
-  void close() { renderer_.reset(); }  // frees the decoder and OpenGL; the next call makes them anew
+  void close();  // frees decoders and OpenGL; the next call makes them anew
 
  private:
   [[nodiscard]] std::shared_ptr<RenderThread> renderer();
   [[nodiscard]] IntruderSettings& intruder_at(std::size_t index);
+  [[nodiscard]] std::shared_ptr<ProjectObject> kept_camera(
+      std::size_t index);  // with the rig's settings of this moment
 
   Project project_;
+  std::optional<Project> whole_;  // of a camera's project: the rig from which it was taken
   ProcessBound<RenderThread> renderer_;
+  std::vector<std::shared_ptr<ProjectObject>> kept_cameras_;  // of render_camera()
 };
 
 // Adds the class Project to the module.

@@ -27,7 +27,8 @@ RenderThread::Opened RenderThread::open(const Project& project) {
   return thread_.wait_for([&](const std::atomic<bool>* cancel) -> Result<Opened> {
     Result<FrameRenderer::Opened> opened = renderer().open(project, cancel);
     if (!opened) return fail(opened.error());
-    return Opened{*opened->footage, opened->scene->first_frame, opened->scene->last_frame, std::move(opened->warnings)};
+    return Opened{*opened->footage, opened->scene->footage.times_s, opened->scene->first_frame,
+                  opened->scene->last_frame, std::move(opened->warnings)};
   });
 }
 

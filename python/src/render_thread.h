@@ -20,8 +20,9 @@ class RenderThread {
   // What opening the project shows: copies, so that they outlive the next call.
   struct Opened {
     VideoInfo footage;
-    int first_frame = 0;  // of the project's range
-    int last_frame = 0;   // included
+    std::vector<double> times_s;  // of its frames; of a camera of a rig by the rig's clock
+    int first_frame = 0;          // of the project's range
+    int last_frame = 0;           // included
     std::vector<Warning> warnings;
   };
   [[nodiscard]] Opened open(const Project& project);

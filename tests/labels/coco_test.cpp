@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -92,6 +93,22 @@ TEST_CASE("coco: the exported video is named where there is one") {
   LabelSequence sequence = label_sequence();
   sequence.video = "crossing.mkv";
   CHECK(coco_of(sequence, {})["videos"][0]["file_name"] == "crossing.mkv");
+}
+
+TEST_CASE("coco: of several cameras the video has name, lens and mount, and each image the name") {
+  LabelSequence sequence = label_sequence();
+  const std::string alone = coco_text(sequence, frames_of({{visible_intruder(1, {10, 20, 3, 2})}}));
+  CHECK(alone.find("\"camera\"") == std::string::npos);
+  const double half = std::sqrt(0.5);
+  sequence.mounted = MountedCamera{.name = "left", .body_from_camera = {{half, 0, 0, -half}, {0.5, -1, 0.25}}};
+  const Json coco = coco_of(sequence, frames_of({{visible_intruder(1, {10, 20, 3, 2})}}));
+  check_is_coco(coco);
+  for (const Json& image : coco["images"]) CHECK(image["camera"] == "left");
+  const Json& camera = coco["videos"][0]["camera"];
+  CHECK(camera["name"] == "left");
+  CHECK(camera["mount"]["position_m"] == Json({0.5, -1.0, 0.25}));
+  CHECK(camera["mount"]["body_from_camera_wxyz"] == Json({half, 0.0, 0.0, -half}));
+  CHECK(camera.contains("lens") == sequence.camera.has_value());
 }
 
 TEST_CASE("coco: an annotation has the box, mask and place of the intruder") {

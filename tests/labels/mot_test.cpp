@@ -109,6 +109,18 @@ TEST_CASE("mot's seqinfo describes the sequence, in the order that readers by li
   CHECK(lines_of(folder / "m" / "seqmaps" / "clip.txt") == std::vector<std::string>{"name", "clip"});
 }
 
+TEST_CASE("mot's seqinfo names the camera where it is one of several") {
+  const TemporaryFolder folder;
+  LabelSequence clip = synthetic_sequence(7, 19, {"airplane"});
+  write_labels("mot", folder / "alone", clip, {});
+  clip.mounted = MountedCamera{.name = "left", .body_from_camera = {}};
+  write_labels("mot", folder / "rig", clip, {});
+  CHECK_FALSE(ini_of(folder / "alone" / "clip" / "seqinfo.ini", "Sequence").contains("camera"));
+  CHECK(ini_of(folder / "rig" / "clip" / "seqinfo.ini", "Sequence").at("camera") == "left");
+  CHECK(ini_of(folder / "rig" / "clip" / "seqinfo.ini", "Classes") ==
+        ini_of(folder / "alone" / "clip" / "seqinfo.ini", "Classes"));
+}
+
 TEST_CASE("mot's images are those of the export, numbered from 1, and take no space of their own") {
   const TemporaryFolder folder;
   const LabelSequence clip = synthetic_sequence(98, 100, {"airplane"});

@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 14> kFiles{"slices.csv",
+constexpr std::array<std::string_view, 15> kFiles{"slices.csv",
+                                                  "handovers.csv",
                                                   "performance.json",
                                                   "sensor.json",
                                                   "conditions.csv",

@@ -8,6 +8,7 @@
 #include "base/result.h"
 #include "evaluation/metrics/aot_rules.h"
 #include "evaluation/metrics/detection_score.h"
+#include "evaluation/metrics/rig_score.h"
 #include "evaluation/metrics/slices.h"
 #include "evaluation/metrics/track_score.h"
 
@@ -34,10 +35,21 @@ struct DetectionReport {
   std::vector<std::string> remarks = {};        // what the truth does not say (left_out_of)
 };
 
+// The scores of several detectors on the cameras of one rig.
+struct RigDetectionReport {
+  std::string rig;
+  std::vector<std::string> cameras;
+  DetectionPolicy policy;
+  std::vector<RigScore> scores;
+};
+
 // A table for a terminal: one row for each tracker or detector.
 [[nodiscard]] std::string table_text(const TrackReport& report);
 [[nodiscard]] std::string table_text(const DetectionReport& report);
 [[nodiscard]] std::string table_text(const TrackSetReport& report);
+
+// Of a rig: a row for each detector and intruder, and for each camera that shows it; then a row for each handover.
+[[nodiscard]] std::string table_text(const RigDetectionReport& report);
 
 [[nodiscard]] std::string aot_table(const AotScore& score);  // by the rules of the Airborne Object Tracking challenge
 
@@ -45,6 +57,7 @@ struct DetectionReport {
 [[nodiscard]] std::vector<std::string> policies_of(const TrackReport& report);
 [[nodiscard]] std::vector<std::string> policies_of(const DetectionReport& report);
 [[nodiscard]] std::vector<std::string> policies_of(const TrackSetReport& report);
+[[nodiscard]] std::vector<std::string> policies_of(const RigDetectionReport& report);
 
 // Frames matched by range, size, contrast, horizon and visible share, a row for each slice that has frames and a column
 // for each detector.
@@ -79,6 +92,9 @@ struct WrittenReport {
 // Of trackers on many clips: summary.csv, clips.csv, slices.csv, evaluation.json, the plots precision, success and
 // normalized_precision, and report.html.
 [[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const TrackSetReport& report);
+
+// Of a rig: summary.csv, handovers.csv, evaluation.json and report.html.
+[[nodiscard]] Result<WrittenReport> write_report(const std::filesystem::path& folder, const RigDetectionReport& report);
 
 // By the rules of the Airborne Object Tracking challenge: summary.json, encounters_by_detection.csv and
 // encounters_by_track.csv, as its own program writes them.

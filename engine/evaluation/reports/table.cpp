@@ -86,18 +86,6 @@ TableColumn error_column(const std::vector<TrackScore>& scores, std::string titl
   return out;
 }
 
-TableColumn text_column(std::string title, std::string unit) {
-  return {.title = std::move(title), .unit = std::move(unit)};
-}
-
-void add_row(std::vector<TableColumn>& columns, const std::vector<std::string>& cells) {
-  ENSURE(cells.size() == columns.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    columns[i].cells.push_back(cells[i]);
-    columns[i].is_best.push_back(false);
-  }
-}
-
 std::string frame_range_text(const EncounterScore& encounter) {
   return fmt::format("{} to {}", encounter.first_frame, encounter.last_frame);
 }
@@ -157,6 +145,18 @@ std::string right_trimmed(std::string line) {
 }
 
 }  // namespace
+
+TableColumn text_column(std::string title, std::string unit) {
+  return {.title = std::move(title), .unit = std::move(unit)};
+}
+
+void add_row(std::vector<TableColumn>& columns, const std::vector<std::string>& cells) {
+  ENSURE(cells.size() == columns.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    columns[i].cells.push_back(cells[i]);
+    columns[i].is_best.push_back(false);
+  }
+}
 
 std::vector<TableColumn> table_of(const TrackReport& report) {
   using Score = TrackScore;
