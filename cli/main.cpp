@@ -13,7 +13,7 @@
 namespace {
 
 bool is_no_evaluation(std::string_view word) {
-  return !word.starts_with('-') && word != "track" && word != "detect" && word != "performance";
+  return !word.starts_with('-') && word != "track" && word != "detect" && word != "performance" && word != "rig";
 }
 
 int run(int argc, char** argv) {
@@ -28,7 +28,7 @@ int run(int argc, char** argv) {
     return static_cast<int>(sigs::ErrorKind::usage);
   }
   if (argc > 2 && argv[1] == std::string_view("evaluate") && is_no_evaluation(argv[2])) {
-    print_error({std::string("evaluate ") + argv[2], "no such command; there are track, detect and performance",
+    print_error({std::string("evaluate ") + argv[2], "no such command; there are track, detect, performance and rig",
                  sigs::ErrorKind::usage});
     return static_cast<int>(sigs::ErrorKind::usage);
   }

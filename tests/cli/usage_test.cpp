@@ -26,7 +26,7 @@ TEST_CASE("an unknown command is answered with a list of the known ones") {
         "telemetry, ego-motion, appearance, path, calibrate, compare, encounter, encounter-model, risk and model\n");
   const Run inner = run_sigs("evaluate trck clip.xml");
   CHECK(inner.status == 64);
-  CHECK(inner.err == "error: evaluate trck: no such command; there are track, detect and performance\n");
+  CHECK(inner.err == "error: evaluate trck: no such command; there are track, detect, performance and rig\n");
   CHECK(run_sigs("evaluate --help").status == 0);
   CHECK(run_sigs("evaluate").status == 64);
 }

@@ -16,13 +16,13 @@
 namespace sigs::test {
 namespace {
 
-const Box kTarget{100, 100, 40, 20};
+const Box kShown{100, 100, 40, 20};
 const double kDegree_rad = std::acos(-1.0) / 180;
 
 // A camera whose frame n is taken at offset_s + n / rate_hz and shows the target where `shows` says so.
 DetectedClip camera_of(int frames, double rate_hz, double offset_s, const std::function<bool(int)>& shows) {
   DetectedClip clip{.truth = clip_of(frames, rate_hz, [&](int n) {
-                      return shows(n) ? visible_at(kTarget) : TargetFrame{.amodal_box = kTarget, .distance_m = 500};
+                      return shows(n) ? visible_at(kShown) : TargetFrame{.amodal_box = kShown, .distance_m = 500};
                     })};
   for (double& time_s : clip.truth.times_s) time_s += offset_s;
   return clip;
@@ -30,7 +30,7 @@ DetectedClip camera_of(int frames, double rate_hz, double offset_s, const std::f
 
 void detect(DetectedClip& clip, const std::function<bool(int)>& detects) {
   for (int n = 0; n < clip.truth.frames(); ++n)
-    if (detects(n)) report(clip.results, n, kTarget, kNoTrack);
+    if (detects(n)) report(clip.results, n, kShown, kNoTrack);
 }
 
 // The target flies past on a straight line: 300 m ahead, from 200 m left to the right at 100 m/s, 30 m below.
@@ -55,7 +55,7 @@ std::vector<DetectedClip> front_and_left() {
 }
 const RigHandover kHandover{.from = 0, .to = 1, .time_s = 0.96, .gap_s = 0.24};
 
-RigTargetScore score_of(const RigClip& rig, const std::vector<DetectedClip>& clips) {
+RigTargetScore rig_score_of(const RigClip& rig, const std::vector<DetectedClip>& clips) {
   const RigScore score = score_rig("mine", rig, clips, {});
   REQUIRE(score.targets.size() == 1);
   REQUIRE(score.targets[0].cameras.size() == clips.size());
@@ -65,7 +65,7 @@ RigTargetScore score_of(const RigClip& rig, const std::vector<DetectedClip>& cli
 TEST_CASE("a perfect detector has an intruder at once, all the time and through a handover") {
   std::vector<DetectedClip> clips = front_and_left();
   for (DetectedClip& clip : clips) detect(clip, kAlways);
-  const RigTargetScore score = score_of(rig_of({"front", "left"}, {kHandover}), clips);
+  const RigTargetScore score = rig_score_of(rig_of({"front", "left"}, {kHandover}), clips);
   CHECK(score.any.seen_s == doctest::Approx(25 / 25.0 + 20 / 20.0));
   CHECK(score.any.detected_s == doctest::Approx(score.any.seen_s));
   CHECK(score.any.share() == doctest::Approx(1));
@@ -87,7 +87,7 @@ TEST_CASE("a perfect detector has an intruder at once, all the time and through 
 }
 
 TEST_CASE("a detector that reports nothing loses all that is seen") {
-  const RigTargetScore score = score_of(rig_of({"front", "left"}, {kHandover}), front_and_left());
+  const RigTargetScore score = rig_score_of(rig_of({"front", "left"}, {kHandover}), front_and_left());
   CHECK(score.any.share() == 0);
   CHECK(score.any.detected_s == 0);
   CHECK_FALSE(score.any.first);
@@ -100,7 +100,7 @@ TEST_CASE("a detector that reports nothing loses all that is seen") {
 TEST_CASE("a detector of one camera alone loses the other camera's time") {
   std::vector<DetectedClip> clips = front_and_left();
   detect(clips[0], [](int n) { return n >= 5; });
-  const RigTargetScore score = score_of(rig_of({"front", "left"}, {kHandover}), clips);
+  const RigTargetScore score = rig_score_of(rig_of({"front", "left"}, {kHandover}), clips);
   CHECK(score.any.detected_s == doctest::Approx(20 / 25.0));
   CHECK(score.any.share() == doctest::Approx(0.8 / 2));
   CHECK(score.cameras[0].share() == doctest::Approx(0.8));
@@ -115,7 +115,7 @@ TEST_CASE("the loss of a handover counts the time shown without a match, not the
   std::vector<DetectedClip> clips = front_and_left();
   detect(clips[0], [](int n) { return n < 20; });   // the last 5 of 25 Hz are missed
   detect(clips[1], [](int n) { return n >= 24; });  // the first 4 of 20 Hz
-  const RigTargetScore score = score_of(rig_of({"front", "left"}, {kHandover}), clips);
+  const RigTargetScore score = rig_score_of(rig_of({"front", "left"}, {kHandover}), clips);
   CHECK(score.handovers[0].loss_s == doctest::Approx(5 / 25.0 + 4 / 20.0));
   CHECK(score.handovers[0].last_before->time_s == doctest::Approx(19 / 25.0));
   CHECK(score.handovers[0].first_after->time_s == doctest::Approx(0.2 + 24 / 20.0));
@@ -124,7 +124,7 @@ TEST_CASE("the loss of a handover counts the time shown without a match, not the
 TEST_CASE("what two cameras show at once counts once, and of equal times the first camera has the detection") {
   std::vector<DetectedClip> clips{camera_of(50, 25, 0, kAlways), camera_of(50, 25, 0, kAlways)};
   for (DetectedClip& clip : clips) detect(clip, [](int n) { return n >= 10; });
-  const RigTargetScore score = score_of(rig_of({"a", "b"}), clips);
+  const RigTargetScore score = rig_score_of(rig_of({"a", "b"}), clips);
   CHECK(score.any.seen_s == doctest::Approx(2));
   CHECK(score.any.detected_s == doctest::Approx(40 / 25.0));
   CHECK(score.any.first->camera == 0);
@@ -135,7 +135,7 @@ TEST_CASE("what two cameras show at once counts once, and of equal times the fir
 TEST_CASE("cameras that film at different times add up") {
   std::vector<DetectedClip> clips{camera_of(25, 25, 0, kAlways), camera_of(25, 25, 3, kAlways)};
   detect(clips[1], kAlways);
-  const RigTargetScore score = score_of(rig_of({"a", "b"}, {{0, 1, 0.96, 2.04}}), clips);
+  const RigTargetScore score = rig_score_of(rig_of({"a", "b"}, {{0, 1, 0.96, 2.04}}), clips);
   CHECK(score.any.seen_s == doctest::Approx(2));
   CHECK(score.any.first->time_s == doctest::Approx(3));
   CHECK(score.handovers[0].loss_s == doctest::Approx(1));
@@ -144,10 +144,10 @@ TEST_CASE("cameras that film at different times add up") {
 
 TEST_CASE("an intruder that no camera shows has no share, and one frame has the length of its nominal rate") {
   std::vector<DetectedClip> clips{camera_of(1, 25, 0, kAlways), camera_of(10, 25, 0, kNever)};
-  RigTargetScore score = score_of(rig_of({"a", "b"}), clips);
+  RigTargetScore score = rig_score_of(rig_of({"a", "b"}), clips);
   CHECK(score.any.seen_s == doctest::Approx(0.04));
   clips.erase(clips.begin());
-  score = score_of(rig_of({"b"}), clips);
+  score = rig_score_of(rig_of({"b"}), clips);
   CHECK(score.any.seen_s == 0);
   CHECK(std::isnan(score.any.share()));
   CHECK_FALSE(score.any.first_seen_s);
@@ -158,8 +158,8 @@ TEST_CASE("distractors are left out, and boxes elsewhere are false alarms of the
   rig.targets.push_back(rig.targets[0]);
   rig.targets[1].id = 1;  // no label file has it among its targets
   std::vector<DetectedClip> clips = front_and_left();
-  report(clips[1].results, 3, moved(kTarget, 500, 300));
-  report(clips[1].results, 4, moved(kTarget, 500, 300));
+  report(clips[1].results, 3, moved(kShown, 500, 300));
+  report(clips[1].results, 4, moved(kShown, 500, 300));
   const RigScore score = score_rig("mine", rig, clips, {});
   CHECK(score.targets.size() == 1);
   CHECK(score.false_alarm_boxes == std::vector{0, 2});
@@ -175,7 +175,7 @@ TEST_CASE("durations are those that a walk through time in small steps finds") {
                                 [&](int) { return random() % 3 == 0; }));
     for (DetectedClip& clip : clips) detect(clip, [&](int) { return random() % 2 == 0; });
     const double handover_s = 0.3 + 0.05 * static_cast<double>(random() % 30);
-    const RigTargetScore score = score_of(rig_of({"a", "b", "c"}, {{0, 1, handover_s, 0}}), clips);
+    const RigTargetScore score = rig_score_of(rig_of({"a", "b", "c"}, {{0, 1, handover_s, 0}}), clips);
 
     // The frame of a camera nearest to a time; none: it is before or after all of its frames by half an interval.
     const auto state_at = [&](const DetectedClip& clip, double time_s) {
