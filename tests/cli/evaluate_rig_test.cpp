@@ -16,15 +16,14 @@ namespace sigs::test {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 // An exported rig of two cameras: the cube leaves the front one to the right, where the right one shows it.
 struct ExportedRig {
   TinyProject tiny{60};
 
   ExportedRig() {
-    json project = json_of(tiny.project());
-    const json footage = project["footage"];
+    nlohmann::json project = json_of(tiny.project());
+    const nlohmann::json footage = project["footage"];
     project.erase("footage");
     project["camera"] = {{"speed_mps", 0}};
     project["cameras"] = {{{"name", "front"}, {"footage", footage}},
@@ -71,9 +70,9 @@ TEST_CASE(
                            rig.tiny.file("report").string());
   REQUIRE_MESSAGE(run.status == 0, run.err);
   CHECK_MESSAGE(run.out.find("front to right") != std::string::npos, run.out);
-  const json truth = json_of(rig.rig())["intruders"][0];
+  const nlohmann::json truth = json_of(rig.rig())["intruders"][0];
   REQUIRE(truth["handovers"].size() == 1);
-  const json intruder = json_of(rig.tiny.file("report/evaluation.json"))["detectors"][0]["intruders"][0];
+  const nlohmann::json intruder = json_of(rig.tiny.file("report/evaluation.json"))["detectors"][0]["intruders"][0];
   CHECK(intruder["detected_share"].get<double>() == doctest::Approx(1));
   CHECK(intruder["first_detection"]["camera"] == "front");
   CHECK(intruder["first_detection"]["time_s"].get<double>() ==
@@ -90,10 +89,10 @@ TEST_CASE("a rig's detector of the right camera alone begins where that camera d
   const Run run = run_sigs("evaluate rig " + rig.rig() + " --results " + rig.results("front", false) + " " +
                            rig.results("right") + " --out " + rig.tiny.file("report").string());
   REQUIRE_MESSAGE(run.status == 0, run.err);
-  const json truth = json_of(rig.rig())["intruders"][0];
-  const json intruder = json_of(rig.tiny.file("report/evaluation.json"))["detectors"][0]["intruders"][0];
+  const nlohmann::json truth = json_of(rig.rig())["intruders"][0];
+  const nlohmann::json intruder = json_of(rig.tiny.file("report/evaluation.json"))["detectors"][0]["intruders"][0];
   double first_s = -1;
-  for (const json& view : truth["views"])
+  for (const nlohmann::json& view : truth["views"])
     if (view["camera"] == "right" && first_s < 0) first_s = view["first_s"];
   CHECK(intruder["first_detection"]["time_s"].get<double>() == doctest::Approx(first_s));
   CHECK(intruder["cameras"][0]["first_detection"].is_null());
