@@ -74,8 +74,8 @@ TEST_CASE("a perfect detector has an intruder at once, all the time and through 
   CHECK(score.any.first->camera == 0);
   CHECK(score.any.first->time_s == 0);
   CHECK(score.any.first->range_m == doctest::Approx(std::sqrt(300.0 * 300 + 200.0 * 200 + 30.0 * 30)));
-  CHECK(score.any.first->bearing_rad / kDegree_rad == doctest::Approx(-33.690068));  // atan(200 / 300)
-  CHECK(score.any.first->elevation_rad / kDegree_rad == doctest::Approx(-4.756));    // asin(30 / 361.8)
+  CHECK(score.any.first->bearing_rad / kDegree_rad == doctest::Approx(-33.690068));   // atan(200 / 300)
+  CHECK(score.any.first->elevation_rad / kDegree_rad == doctest::Approx(-4.756341));  // asin(30 / 361.80)
   REQUIRE(score.cameras[1].first);
   CHECK(score.cameras[1].first->time_s == doctest::Approx(1.2));
   CHECK(score.cameras[1].first->range_m == doctest::Approx(std::sqrt(300.0 * 300 + 80.0 * 80 + 30.0 * 30)));
