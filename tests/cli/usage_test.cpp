@@ -21,9 +21,10 @@ using namespace sigs::test;
 TEST_CASE("an unknown command is answered with a list of the known ones") {
   const Run run = run_sigs("exprt p.json");
   CHECK(run.status == 64);
-  CHECK(run.err ==
-        "error: exprt: no such command; there are init, export, frame, mask, occluder, dataset, evaluate, check, info, "
-        "telemetry, ego-motion, appearance, path, calibrate, compare, encounter, encounter-model, risk and model\n");
+  CHECK(
+      run.err ==
+      "error: exprt: no such command; there are init, export, frame, mask, occluder, dataset, evaluate, check, info, "
+      "telemetry, ego-motion, appearance, path, calibrate, compare, encounter, encounter-model, risk, model and rig\n");
   const Run inner = run_sigs("evaluate trck clip.xml");
   CHECK(inner.status == 64);
   CHECK(inner.err == "error: evaluate trck: no such command; there are track, detect, performance and rig\n");

@@ -176,7 +176,8 @@ TEST_CASE("the complete project on the project format's page has every setting")
   std::set<std::string> keys = keys_in(nlohmann::ordered_json::parse(without_remarks(text)), "");
   CHECK(keys.erase("sigs") == 1);
   std::set<std::string> expected;
-  for (const auto& [key, row] : rows_in_code()) expected.insert(key);
+  for (const auto& [key, row] : rows_in_code())
+    if (!key.starts_with("cameras[]")) expected.insert(key);  // in place of footage: rigs.md has an example
   for (const std::string& key : expected) CHECK_MESSAGE(keys.contains(key), key);
   for (const std::string& key : keys) CHECK_MESSAGE(expected.contains(key), key);
 }
