@@ -327,10 +327,10 @@ std::optional<AnglePath::At> AnglePath::at(double time_s) const {
 std::optional<CoarseOffset> coarse_offset(const AnglePath& first, const AnglePath& second,
                                           const std::optional<glm::dquat>& first_from_second, double max_offset_s,
                                           const StepControl& control) {
-  constexpr double kStep_s = 0.02;
+  constexpr double kCoarseStep_s = 0.02;
   constexpr double kMostSteps = 15000;
   const double longest_s = std::max(first.last_s() - first.first_s(), second.last_s() - second.first_s());
-  const double step_s = std::max(kStep_s, longest_s / kMostSteps);
+  const double step_s = std::max(kCoarseStep_s, longest_s / kMostSteps);
   CoarseSearch search(sampled(first, step_s), sampled(second, step_s), step_s, max_offset_s, control);
   const auto found = first_from_second ? search.with_rotation(*first_from_second) : search.without_rotation();
   if (!found || control.is_cancelled()) return std::nullopt;
