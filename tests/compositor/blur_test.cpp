@@ -231,8 +231,8 @@ TEST_CASE(
     "through a 360 degree lens a point is blurred by an angle: across by 1 / cos(elevation) more, round the side") {
   const Lens lens = round_lens();
   for (const auto& [row, column] : {std::pair(128, 200), {60, 0}, {30, 511}, {225, 100}}) {
-    CAPTURE(row);
     const double elevation_rad = (127.5 - row) / kRound_px_per_rad;
+    CAPTURE(elevation_rad);
     const cv::Rect window(column - 256, 0, 512, 256);  // around the point, so that columns go on beyond the image
     const Layer out = blurred_through(lens, even_layer({column, row, 1, 1}, {1, 1, 1, 1}), 1.5, window);
     CHECK((out.rect & window) == out.rect);

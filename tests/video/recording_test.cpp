@@ -74,7 +74,7 @@ TEST_CASE("sound stands on the footage's time axis, mixed to one channel, whatev
     const std::string file = (folder / name).string();
     if (!made_by_ffmpeg(source + "-c:v mpeg4 -c:a " + codec + " -strict -2 " + file))
       return say_skipped("ffmpeg is not installed");
-    CAPTURE(name);
+    CAPTURE(file);
     const auto sound = read_sound(file);
     REQUIRE(sound);
     REQUIRE(*sound);
