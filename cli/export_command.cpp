@@ -18,7 +18,6 @@
 #include "cli/options.h"
 #include "cli/process.h"
 #include "export/export_project.h"
-#include "export/export_rig.h"
 #include "labels/labels.h"
 #include "project/fields.h"
 #include "project/rig.h"

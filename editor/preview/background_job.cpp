@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "export/export_rig.h"
+#include "export/export_project.h"
 #include "scene/opened_project.h"
 
 namespace sigs::editor {

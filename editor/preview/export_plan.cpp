@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "export/export_rig.h"
+#include "export/export_project.h"
 #include "labels/labels.h"
 #include "project/fields.h"
 #include "project/json.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/export_rig.h"
+#include "export/export_project.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,6 @@
 #include "labels/label_files.h"
 #include "project/rig.h"
 #include "project/validate.h"
-#include "rig/rig_tables.h"
 #include "rig/rig_truth.h"
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"

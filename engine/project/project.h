@@ -175,7 +175,7 @@ inline constexpr auto kLabelNames = std::to_array<std::string_view>(
 inline constexpr auto kWellClearNames =
     std::to_array<std::string_view>({"dwc-en-route", "dwc-non-cooperative", "dwc-terminal", "small-uas", "nmac"});
 
-// The tables that export.rig may contain: rig/rig_tables.h.
+// The tables that export.rig may contain: rig/rig_truth.h.
 inline constexpr auto kRigTableNames = std::to_array<std::string_view>({"nuscenes", "kitti"});
 
 // What an export writes. crf: quality of h264 and hevc, 0 (lossless) to 51, and of av1, to 63. max_bit_depth: samples

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rig/rig_tables.h"
-
+// The tables that others read (rig_truth.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 
 #include "base/json.h"
 #include "project/rig.h"
+#include "rig/rig_truth.h"
 
 namespace sigs {
 

@@ -13,7 +13,6 @@
 
 #include "errors.h"
 #include "export/export_project.h"
-#include "export/export_rig.h"
 #include "frame_iterator.h"
 #include "frame_object.h"
 #include "job_thread.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export/export_rig.h"
+#include "export/export_project.h"
 
 #include <doctest/doctest.h>
 

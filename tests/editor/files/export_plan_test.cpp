@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cli/tiny_project.h"
-#include "export/export_rig.h"
+#include "export/export_project.h"
 #include "project/fields.h"
 #include "project/json.h"
 #include "project/rig.h"
