@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "base/allocator.h"
 
+#include <sys/mman.h>
+
 #include <cstdlib>  // defines __GLIBC__ where it is glibc
 
 #ifdef __GLIBC__
@@ -15,6 +17,13 @@ void tune_allocator() {
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
   mallopt(M_ARENA_MAX, 2);
 #endif
+}
+
+bool has_free_memory(std::size_t bytes) {
+  void* const mapping = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (mapping == MAP_FAILED) return false;
+  munmap(mapping, bytes);
+  return true;
 }
 
 }  // namespace sigs

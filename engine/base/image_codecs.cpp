@@ -12,7 +12,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <system_error>
+
+#include "base/allocator.h"
 
 namespace sigs::image_codecs {
 
@@ -163,6 +166,10 @@ namespace {
 // Stays loaded to the end.
 void* library() {
   static void* const opened = [] {
+    // The libraries below it, with the tables that some build while they are loaded, take 160 MiB; without memory for
+    // its tables one of them ends the program.
+    constexpr std::size_t kLibraries_bytes = std::size_t{176} << 20;
+    if (!has_free_memory(kLibraries_bytes)) throw std::bad_alloc();
     void* found = nullptr;
     for (const char* const file : std::array{SIGS_IMAGE_CODECS_FILES})
       if (found == nullptr) found = dlopen(file, RTLD_LAZY | RTLD_LOCAL);

@@ -304,8 +304,8 @@ Result<TurnSync> clock_by_turns(std::span<const SeenTurn> first, std::span<const
   const auto found =
       coarse_offset(path_of_first, path_of_second, settings.first_from_second, settings.max_offset_s, control);
   if (control.is_cancelled()) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-  constexpr double kEvidence = 12;  // of offsets by chance, of which there are thousands, the best has some 8
-  if (!found || found->evidence < kEvidence)
+  constexpr double kMaxChance = 0.018;  // the fit below refuses most of what is left
+  if (!found || found->chance > kMaxChance)
     return fail("",
                 fmt::format("the cameras hardly turn, or not alike (correlation {:.2f} at best): no offset of their "
                             "clocks can be told from others",

@@ -52,7 +52,7 @@ struct TurnSync {
 };
 
 // The offset of the second camera's clock with which both have turned alike.
-//   1. Rates in steps of 20 ms, or 15000 to a clip, are compared at all offsets. Without a known rotation their lengths
+//   1. Rates in steps of 10 ms, or 15000 to a clip, are compared at all offsets. Without a known rotation their lengths
 //      are, and for the best offsets the rotation is found by Wahba's problem (best_rotation()), then once more with
 //      it. Which offset is the most significant counts, by the number of independent samples (Bartlett 1946), so that a
 //      short overlap does not win by chance.

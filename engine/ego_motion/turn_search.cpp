@@ -27,7 +27,9 @@ void add_slopes(AnglePath::Piece& piece) {
   }
 }
 
-// Rates at equal steps; a known one is the mean over a tenth of a second, in which features are followed well.
+constexpr double kRateWindow_s = 0.1;  // in which features are followed well
+
+// Rates at equal steps; a known one is the mean over the window.
 struct RateGrid {
   double first_s = 0;
   std::vector<glm::dvec3> rates_radps;
@@ -37,7 +39,7 @@ struct RateGrid {
 };
 
 RateGrid sampled(const AnglePath& path, double step_s) {
-  const double half_s = std::max(0.05, step_s / 2);
+  const double half_s = std::max(kRateWindow_s, step_s) / 2;
   RateGrid grid{.first_s = path.first_s(), .rates_radps = {}, .known = {}};
   const auto count = static_cast<std::size_t>((path.last_s() - path.first_s()) / step_s) + 1;
   for (std::size_t i = 0; i < count; ++i) {
@@ -141,8 +143,10 @@ class CoarseSearch {
     if (candidates.empty()) return std::nullopt;
     Found found{.best = candidates[0], .first_from_second = first_from_second, .rival = {}};
     const double unexplained = unexplained_about(turned, candidates[0].lag);
+    constexpr double kSaysLittle = 0.75;  // then all offsets agree about as well, which is no repetition
     for (const Candidate& other : candidates)
-      if (other.lag != found.best.lag && other.overlap.count > found.best.overlap.count / 2 && !found.rival &&
+      if (unexplained < kSaysLittle && other.lag != found.best.lag &&
+          other.overlap.count > found.best.overlap.count / 2 && !found.rival &&
           unexplained_about(turned, other.lag) < 1.5 * unexplained + 0.005)
         found.rival = other;
     return found;
@@ -169,6 +173,12 @@ class CoarseSearch {
     std::optional<Found> found = with_rotation(*best);
     if (!found) return std::nullopt;
     return with_rotation(rotation_at(found->best.lag));
+  }
+
+  // Offsets that were looked at, as many as differ: half a window apart.
+  [[nodiscard]] double offsets_compared() const {
+    const double range_s = std::min((first_.size() + second_.size()) * step_s_, 2 * max_offset_s_);
+    return std::max(1.0, range_s / (kRateWindow_s / 2));
   }
 
   [[nodiscard]] double offset_s(double lag) const { return first_.first_s - second_.first_s + lag * step_s_; }
@@ -327,7 +337,7 @@ std::optional<AnglePath::At> AnglePath::at(double time_s) const {
 std::optional<CoarseOffset> coarse_offset(const AnglePath& first, const AnglePath& second,
                                           const std::optional<glm::dquat>& first_from_second, double max_offset_s,
                                           const StepControl& control) {
-  constexpr double kCoarseStep_s = 0.02;
+  constexpr double kCoarseStep_s = 0.01;
   constexpr double kMostSteps = 15000;
   const double longest_s = std::max(first.last_s() - first.first_s(), second.last_s() - second.first_s());
   const double step_s = std::max(kCoarseStep_s, longest_s / kMostSteps);
@@ -338,7 +348,8 @@ std::optional<CoarseOffset> coarse_offset(const AnglePath& first, const AnglePat
                       .drift = search.drift_about(*found),
                       .first_from_second = found->first_from_second,
                       .correlation = found->best.overlap.correlation,
-                      .evidence = found->best.evidence};
+                      .evidence = found->best.evidence,
+                      .chance = std::min(1.0, search.offsets_compared() * std::exp(-found->best.evidence))};
   if (found->rival) offset.rival_offset_s = search.offset_s(found->rival->lag);
   return offset;
 }

@@ -54,10 +54,11 @@ struct CoarseOffset {
   glm::dquat first_from_second{1, 0, 0, 0};
   double correlation = 0;
   double evidence = 0;                     // logarithm of the likelihood, against that of clips without relation
+  double chance = 1;                       // of clips without relation to reach it at one of the offsets, at most
   std::optional<double> rival_offset_s{};  // another one with which the rates agree as well
 };
 
-// Rates, means over a tenth of a second, are compared at all offsets in steps of 20 ms, or of 1/15000 of the longer
+// Rates, means over a tenth of a second, are compared at all offsets in steps of 10 ms, or of 1/15000 of the longer
 // clip. Without a rotation their lengths are, and of the best offsets' rotations by Wahba's problem (best_rotation())
 // the one with which the rates agree best is taken. Evidence is by the number of independent samples, so that a short
 // overlap does not win by chance.

@@ -5,7 +5,6 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/allocator.h"
 #include "base/ensure.h"
 #include "base/result.h"
 #include "base/threads.h"
@@ -139,16 +139,12 @@ std::string description_of(const Platform& platform) {
   return fmt::format("{}, {}, OpenGL {}.{}", platform.name, text_of(GL_RENDERER), version / 10, version % 10);
 }
 
-// Mesa's driver and its compiler crash where memory cannot be had. They and the first textures take some 400 MiB of
-// addresses.
+// Mesa's driver and its compiler crash where memory cannot be had, and the library that chooses a driver ends the
+// program while it is loaded. They and the first textures take some 400 MiB of addresses.
 Result<void> check_memory() {
   constexpr std::size_t kDriverMemory_bytes = std::size_t{512} << 20;
-  void* const mapping =
-      mmap(nullptr, kDriverMemory_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (mapping == MAP_FAILED)
-    return fail("OpenGL", "out of memory: 512 MiB more must be free for it", ErrorKind::unavailable);
-  munmap(mapping, kDriverMemory_bytes);
-  return {};
+  if (has_free_memory(kDriverMemory_bytes)) return {};
+  return fail("OpenGL", "out of memory: 512 MiB more must be free for it", ErrorKind::unavailable);
 }
 
 // Mesa's software renderer starts a thread for each core, 32 at most, and waits endlessly for those that it could not
@@ -249,8 +245,8 @@ std::unique_lock<std::mutex> EglContext::lock_if_shared() const {
 Result<EglContext> EglContext::create() {
   const Result<Choice> wanted = choice();
   if (!wanted) return fail(wanted.error());
+  if (const Result<void> memory = check_memory(); !memory) return fail(memory.error());
   if (const Result<void> library = check_egl_library(); !library) return fail(library.error());
-  if (const Result<void> mapping = check_memory(); !mapping) return fail(mapping.error());
   std::string tried;
   for (const Platform& platform : platforms(*wanted)) {
     const Result<EGLContext> context = opened(platform);

@@ -89,4 +89,31 @@ TEST_CASE(
   CHECK(run_rig("sync " + project + " --by stars").status == 64);
 }
 
+TEST_CASE("the clocks of the sample rig are found by its cameras' turns, with and without its mounts") {
+  const auto sample = read_project(source_dir() / "projects" / "rig" / "rig.json");
+  REQUIRE(sample);
+  for (const char* const option : {"", " --find-mounts"}) {
+    const TemporaryFolder folder;
+    Project unset = sample->project;
+    for (RigCamera& camera : unset.cameras) {
+      camera.clock = {};
+      for (std::string* const file :
+           {&camera.footage.video, &camera.footage.calibration, &camera.footage.own_body_mask})
+        if (!file->empty()) *file = (sample->project.file.parent_path() / *file).string();
+    }
+    REQUIRE(write_project(unset, folder / "rig.json", true));
+    const Run done =
+        run_rig("sync '" + (folder / "rig.json").string() + "' --by turns --progress none --into" + option);
+    CAPTURE(done.out);
+    REQUIRE(done.status == 0);
+    const auto read = read_project(folder / "rig.json");
+    REQUIRE(read);
+    for (std::size_t i = 1; i < sample->project.cameras.size(); ++i) {
+      const double error_s = read->project.cameras[i].clock.offset_s - sample->project.cameras[i].clock.offset_s;
+      CAPTURE(sample->project.cameras[i].name);
+      CHECK(std::abs(error_s) < 0.005);
+    }
+  }
+}
+
 }  // namespace sigs::test

@@ -2,9 +2,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -78,7 +80,39 @@ struct Recorder {
   [[nodiscard]] double flight_time_s(double own_s) const { return start_s + own_s / (1 + drift); }
 };
 
-EgoMotion recorded(const FlownAircraft& aircraft, const Recorder& camera) {
+// An aircraft that swings about each axis with three frequencies of its own, as the samples' flights do.
+class SwingingAircraft {
+ public:
+  explicit SwingingAircraft(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (auto& axis : swings_)
+      for (std::size_t i = 0; i < axis.size(); ++i) {
+        const double frequency_hz = std::array{0.4, 1.2, 3.0}[i] * (0.7 + 0.8 * share(random));
+        axis[i] = {0.02 / frequency_hz * (0.5 + share(random)), 2 * std::numbers::pi * frequency_hz,
+                   2 * std::numbers::pi * share(random)};
+      }
+  }
+
+  [[nodiscard]] glm::dquat at(double t) const {
+    glm::dvec3 angles(0);
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+      for (const Swing& swing : swings_[static_cast<std::size_t>(axis)])
+        angles[axis] += swing.angle_rad * std::sin(swing.rate_radps * t + swing.phase_rad);
+    return rotation_of({.roll_rad = angles.x, .pitch_rad = angles.y, .yaw_rad = angles.z});
+  }
+
+ private:
+  struct Swing {
+    double angle_rad;
+    double rate_radps;
+    double phase_rad;
+  };
+  std::array<std::array<Swing, 3>, 3> swings_{};
+};
+
+template <class Aircraft>
+EgoMotion recorded(const Aircraft& aircraft, const Recorder& camera) {
   std::mt19937 random(camera.seed);
   std::normal_distribution<double> normal;
   const auto some = [&](double sd) { return sd * glm::dvec3(normal(random), normal(random), normal(random)); };
@@ -182,6 +216,41 @@ TEST_CASE(
   CHECK(says(synced(recorded(calm, first), recorded(calm, kSide)), "hardly turn"));
   CHECK(says(synced(recorded(FlownAircraft({.seed = 2004}), first), recorded(FlownAircraft({.seed = 2005}), kSide)),
              "not alike"));
+}
+
+TEST_CASE("of seven seconds, clips of one flight are placed, and those of unrelated flights are refused") {
+  // Limits were chosen with other seeds.
+  constexpr int kPairs = 60;
+  int placed = 0;
+  int wrong = 0;
+  int mistaken = 0;
+  for (unsigned seed = 3001; seed < 3001 + kPairs; ++seed)
+    for (const bool swings : {true, false}) {
+      const Recorder first{.rate_hz = 25, .start_s = 1, .length_s = 7, .seed = 2 * seed};
+      const Recorder second{
+          .rate_hz = 30, .start_s = 1.37, .length_s = 7, .body_from_camera = kSide.body_from_camera, .seed = 3 * seed};
+      const auto seen = [&](const Recorder& camera, unsigned flight) {
+        return swings ? recorded(SwingingAircraft(flight), camera)
+                      : recorded(FlownAircraft({.length_s = 10, .seed = flight}), camera);
+      };
+      const EgoMotion by_first = seen(first, seed);
+      const EgoMotion by_second = seen(second, seed);
+      const EgoMotion of_another = seen(second, seed + 5000);
+      for (const bool is_known : {true, false}) {
+        const TurnSyncSettings settings{.first_from_second =
+                                            is_known ? std::optional(second.body_from_camera) : std::nullopt};
+        if (const auto sync = synced(by_first, by_second, settings)) {
+          placed += swings ? 1 : 0;
+          wrong += std::abs(sync->clock.first_time_s(3) - 3.37) < 0.005 ? 0 : 1;
+        }
+        mistaken += synced(by_first, of_another, settings) ? 1 : 0;
+      }
+    }
+  MESSAGE(placed << " of " << 2 * kPairs << " placed that swing, " << wrong << " wrongly, " << mistaken << " of "
+                 << 4 * kPairs << " unrelated ones mistaken for a pair");
+  CHECK(placed >= 2 * kPairs * 0.95);
+  CHECK(wrong == 0);
+  CHECK(mistaken <= 4);
 }
 
 TEST_CASE("clocks that run apart by 80 millionths are found to, others are not") {

@@ -145,8 +145,9 @@ Result<void> SpliceFile::begin() {
     if (outputs_[i] < 0) input_->streams[i]->discard = AVDISCARD_ALL;
   format_ = splice_->format;
   format_.stream = input_->streams[video_]->codecpar;
-  if (const int opened = avio_open(&output_->pb, url_of(path_).c_str(), AVIO_FLAG_WRITE); opened < 0)
-    return fail(path_.string(), "cannot be created: " + text_of(opened), ErrorKind::cannot_create);
+  const int opened = avio_open(&output_->pb, url_of(path_).c_str(), AVIO_FLAG_WRITE);
+  check_memory(opened);
+  if (opened < 0) return fail(path_.string(), "cannot be created: " + text_of(opened), ErrorKind::cannot_create);
   AVDictionary* options = nullptr;
   if (splice_->writes_time_code) av_dict_set(&options, "write_tmcd", "1", 0);
   const int begun = avformat_write_header(output_.get(), &options);

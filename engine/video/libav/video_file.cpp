@@ -120,6 +120,7 @@ Result<void> VideoFile::open_output() {
     return {};
   }
   const int opened = avio_open(&output_->pb, url_of(path_).c_str(), AVIO_FLAG_WRITE);
+  check_memory(opened);
   return opened < 0 ? fail("", "cannot be created: " + text_of(opened), ErrorKind::cannot_create) : Result<void>();
 }
 
