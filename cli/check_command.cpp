@@ -49,8 +49,8 @@ std::filesystem::path log_of(const Project& project) {
   return turns ? resolved(project, track.file) : std::filesystem::path();
 }
 
-// What only opening shows, of one camera.
-Result<void> check_opened(const Project& seen) {
+// What only opening shows, of one camera: how well it sees each intruder.
+Result<std::vector<Visibility>> check_opened(const Project& seen) {
   Result<FrameSource> source = open_footage(seen);
   if (!source) return fail(error_of(seen, {"footage.video", source.error().text(), source.error().kind}));
   std::vector<Warning> warnings = warnings_of(source->info());
@@ -70,7 +70,7 @@ Result<void> check_opened(const Project& seen) {
   std::printf("%s: %s; frames %d to %d, %s\n", seen.file.c_str(),
               warnings.empty() ? "nothing is wrong" : ("no errors, " + count_text(warnings.size(), "warning")).c_str(),
               scene->first_frame, scene->last_frame, count_text(scene->intruders.size(), "intruder").c_str());
-  return {};
+  return visibilities;
 }
 
 // What can be seen without opening anything; then what only opening shows.
@@ -81,11 +81,17 @@ Result<void> check(const ProjectOptions& options) {
   for (const Problem& problem : problems) print(error_of(*project, problem));
   if (!problems.empty())
     return fail(project->file.string(), count_text(problems.size(), "problem"), problems.front().kind);
+  std::vector<bool> is_seen(project->intruders.size(), false);
   for (const Project& seen : seen_by_each(*project)) {
     if (!options.camera.empty() && seen.rig_view->name != options.camera) continue;
     if (seen.rig_view) std::printf("camera \"%s\":\n", seen.rig_view->name.c_str());
-    if (const Result<void> opened = check_opened(seen); !opened) return opened;
+    const Result<std::vector<Visibility>> visibilities = check_opened(seen);
+    if (!visibilities) return fail(visibilities.error());
+    for (std::size_t i = 0; i < is_seen.size(); ++i) is_seen[i] = is_seen[i] || (*visibilities)[i].visible > 0;
   }
+  if (project->cameras.empty() || !options.camera.empty()) return {};
+  for (std::size_t i = 0; i < is_seen.size(); ++i)
+    if (!is_seen[i]) print_warning(visible_in_no_camera(*project, i));
   return {};
 }
 

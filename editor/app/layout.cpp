@@ -45,7 +45,7 @@ void Layout::draw_tabs(const ViewContext& context, OwnBodySession& own_body) {
     cameras_.draw(context);
     if (cameras_.shows_all()) {
       shows_own_body_ = false;
-      return draw_mosaic(context, cameras_);
+      return mosaic_.draw(context, cameras_);
     }
   }
   if (!ImGui::BeginTabBar("image tabs")) return;

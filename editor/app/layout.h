@@ -49,6 +49,7 @@ class Layout {
   void draw_tabs(const ViewContext& context, OwnBodySession& own_body);
 
   CameraTabs cameras_;
+  Mosaic mosaic_;
   ViewportView viewport_;
   WorldView world_;
   TimelineView timeline_;

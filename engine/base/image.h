@@ -23,6 +23,12 @@ struct Box {
   [[nodiscard]] bool operator==(const Box&) const = default;
 };
 
+// Of images that are each a part of a larger one: the larger one's size, and the part's upper left pixel in it.
+struct ImagePart {
+  cv::Size whole_px;
+  cv::Point corner_px;
+};
+
 // Boxes in the frames of a video that have any.
 using BoxesByFrame = std::map<int, std::vector<Box>>;
 

@@ -129,6 +129,12 @@ std::vector<std::string> matrix_warnings(const LensParameters& lens, cv::Size si
   return warnings;
 }
 
+bool has_shape_of(cv::Size made_px, cv::Size size_px) {
+  const double x = static_cast<double>(size_px.width) / made_px.width;
+  const double y = static_cast<double>(size_px.height) / made_px.height;
+  return is_rounded(made_px, size_px) || std::abs(x / y - 1) <= kSameShape;
+}
+
 Result<LensParameters> scaled_calibration(LensParameters lens, cv::Size from_px, cv::Size to_px,
                                           const cv::Point2d& stretch, const std::string& file_name,
                                           std::vector<Warning>& warnings) {
@@ -140,12 +146,10 @@ Result<LensParameters> scaled_calibration(LensParameters lens, cv::Size from_px,
   if (to_px == from_px && shape_px == from_px) return lens;
   const double shape_x = static_cast<double>(to_px.width) / shape_px.width;
   const double shape_y = static_cast<double>(to_px.height) / shape_px.height;
-  if (!is_rounded(shape_px, to_px)) {
-    if (std::abs(shape_x / shape_y - 1) > kSameShape)
-      return fail(file_name, fmt::format("made for {}, which is not the shape of the footage, {}",
-                                         image_size_text(shape_px), image_size_text(to_px)));
-    warnings.push_back(squeezed(shape_px, to_px, shape_x, shape_y, file_name));
-  }
+  if (!has_shape_of(shape_px, to_px))
+    return fail(file_name, fmt::format("made for {}, which is not the shape of the footage, {}",
+                                       image_size_text(shape_px), image_size_text(to_px)));
+  if (!is_rounded(shape_px, to_px)) warnings.push_back(squeezed(shape_px, to_px, shape_x, shape_y, file_name));
   // Pixel centres are whole numbers, so the image's left edge is at -0.5 and stays there: with the scale s,
   // x' + 0.5 = (x + 0.5) s. A side that was rounded to whole pixels or blocks has its own scale.
   const double x = static_cast<double>(to_px.width) / from_px.width;

@@ -60,7 +60,8 @@ struct Fields::Group {
 
 // The camera that the fields of one describe. Parameters and errors as those of read_calibration().
 [[nodiscard]] Result<Camera> camera_of(const Fields& fields, const std::string& file_name,
-                                       std::optional<cv::Size> footage_size_px, std::optional<LensModel> wanted_model);
+                                       std::optional<cv::Size> footage_size_px, std::optional<LensModel> wanted_model,
+                                       const std::optional<ImagePart>& part = std::nullopt);
 
 // The fields of a file. Errors as those of fields_in(), and cannot_read.
 [[nodiscard]] Result<Fields> fields_of_file(const std::filesystem::path& path);
@@ -95,6 +96,9 @@ struct AssumedModel {
 // fisheye above 360.
 [[nodiscard]] std::vector<std::string> matrix_warnings(const LensParameters& lens, cv::Size size_px,
                                                        bool size_is_stated);
+
+// Whether a calibration made for made_px can be scaled to images of this size: they have the same shape.
+[[nodiscard]] bool has_shape_of(cv::Size made_px, cv::Size size_px);
 
 // The lens of a calibration for images of from_px after they are resized to to_px, each side by its own scale.
 // Shapes count as the same where they differ by at most 1 %, as with encoders that require sides of whole blocks

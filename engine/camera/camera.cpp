@@ -236,6 +236,20 @@ Result<std::size_t> chosen(const std::vector<Fields::Group>& cameras, const Cali
                                         : fmt::format("it has {}", fmt::join(names, ", "))));
 }
 
+// Whether a calibration that was made for images of this size was made for the larger ones that the footage is a part
+// of. Error: it may be either.
+Result<bool> is_made_for_whole(cv::Size made_px, cv::Size part_px, const ImagePart& part,
+                               const std::string& file_name) {
+  if (made_px == part_px) return false;
+  if (made_px == part.whole_px) return true;
+  if (!has_shape_of(made_px, part.whole_px)) return false;
+  if (!has_shape_of(made_px, part_px)) return true;
+  return fail(file_name,
+              fmt::format("made for {}, which has the shape of the whole footage, {}, and of the part that "
+                          "is left of it, {}: state the size of the one that it was made for",
+                          image_size_text(made_px), image_size_text(part.whole_px), image_size_text(part_px)));
+}
+
 // Of 360 degree footage the size says everything.
 Result<Camera> equirectangular_camera_from(const Reader& reader, std::optional<cv::Size> footage_size_px) {
   const Result<std::optional<cv::Size>> own_size_px = reader.size();
@@ -277,7 +291,7 @@ Result<Fields> fields_of_file(const std::filesystem::path& path) {
 }
 
 Result<Camera> camera_of(const Fields& fields, const std::string& file_name, std::optional<cv::Size> footage_size_px,
-                         std::optional<LensModel> wanted_model) {
+                         std::optional<LensModel> wanted_model, const std::optional<ImagePart>& part) {
   constexpr std::array<std::string_view, 2> kMirrorNames{"xi", "Xi"};
   const Reader reader{fields, file_name};
   if (const Field* mirror = found(fields, kMirrorNames))
@@ -302,8 +316,20 @@ Result<Camera> camera_of(const Fields& fields, const std::string& file_name, std
       own_size_px->value_or(divided(footage_size_px.value_or(cv::Size{}), {1 / stretch.x, 1 / stretch.y}));
   const cv::Size to_px = footage_size_px.value_or(divided(from_px, stretch));
   if (fields.kept_share != 1) crop(lens, from_px, fields.kept_share);
-  Result<LensParameters> scaled = scaled_calibration(std::move(lens), from_px, to_px, stretch, file_name, warnings);
+  const Result<bool> is_of_whole =
+      part ? is_made_for_whole(divided(from_px, stretch), to_px, *part, file_name) : Result<bool>(false);
+  if (!is_of_whole) return fail(is_of_whole.error());
+  const cv::Size image_px = *is_of_whole ? part->whole_px : to_px;
+  Result<LensParameters> scaled = scaled_calibration(std::move(lens), from_px, image_px, stretch, file_name, warnings);
   if (!scaled) return fail(scaled.error());
+  if (*is_of_whole) {
+    scaled->cx -= part->corner_px.x;
+    scaled->cy -= part->corner_px.y;
+    warnings.push_back({file_name, fmt::format("made for the whole footage, {}: its principal point is moved to the "
+                                               "part of {} from ({}, {}) on",
+                                               image_size_text(image_px), image_size_text(to_px), part->corner_px.x,
+                                               part->corner_px.y)});
+  }
   Result<Lens> made = Lens::make(*std::move(scaled));
   // The matrix was correct before it was scaled: the coefficients are wrong, or scaling made a number infinite.
   const Field* coefficients = found(fields, kCoefficientNames);
@@ -342,7 +368,7 @@ Camera equirectangular_camera(cv::Size size_px) {
 }
 
 Result<Camera> read_calibration(const std::filesystem::path& path, std::optional<cv::Size> footage_size_px,
-                                std::optional<LensModel> model) {
+                                std::optional<LensModel> model, const std::optional<ImagePart>& part) {
   const CalibrationName name = calibration_name(path);
   const std::string file_name = name.file.filename().string();
   const Result<calibration::Fields> fields = calibration::fields_of_file(name.file);
@@ -351,7 +377,7 @@ Result<Camera> read_calibration(const std::filesystem::path& path, std::optional
   if (!cameras) return fail(cameras.error());
   const Result<std::size_t> index = calibration::chosen(*cameras, name);
   if (!index) return fail(index.error());
-  Result<Camera> camera = calibration::camera_of((*cameras)[*index].fields, file_name, footage_size_px, model);
+  Result<Camera> camera = calibration::camera_of((*cameras)[*index].fields, file_name, footage_size_px, model, part);
   // The left camera of a pair is the usual one; which of others is meant has to be said.
   const std::string& first = cameras->front().name;
   if (camera && cameras->size() > 1 && name.camera.empty() && first != "left")

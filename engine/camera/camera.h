@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "base/result.h"
 #include "camera/lens.h"
 
@@ -45,12 +46,16 @@ struct CalibrationName {
 //                    the same shape; a different shape is an error that names both sizes. A file without a size is
 //                    taken to be made for the footage. If omitted, the file's own size is kept, and a file without one
 //                    is an error
+//   part             of larger images, which the images are: footage.crop. A calibration that states the larger one's
+//                    size, or has its shape and not the part's, has its principal point moved by the corner, with a
+//                    warning; one that states neither's size and has the shape of both is an error
 //   model            the lens model of the coefficients, whatever the file says. If omitted, the model that the file
 //                    states or, where it states none, the one that its coefficients suggest
 // Errors name file and field: {"gopro.xml: camera_matrix", "expected 9 numbers, found 8"}. The kind is cannot_read
 // where the file cannot be opened, else bad_data.
 [[nodiscard]] Result<Camera> read_calibration(const std::filesystem::path& path,
                                               std::optional<cv::Size> footage_size_px = std::nullopt,
-                                              std::optional<LensModel> model = std::nullopt);
+                                              std::optional<LensModel> model = std::nullopt,
+                                              const std::optional<ImagePart>& part = std::nullopt);
 
 }  // namespace sigs

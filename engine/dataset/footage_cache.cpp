@@ -80,7 +80,7 @@ class BackgroundOpener {
     Result<Camera> lens =
         settings.calibration.empty() && settings.lens_model == LensModelChoice::equirectangular
             ? equirectangular_camera(shape.size_px)
-            : read_calibration(settings.calibration, shape.size_px, lens_model_of(settings.lens_model));
+            : read_calibration(settings.calibration, shape.size_px, lens_model_of(settings.lens_model), shape.part);
     if (!lens) return fail_at(where + "calibration", lens.error());
     if (const std::string& mask = settings.own_body_mask; !mask.empty())
       if (const Result<cv::Mat> read = read_own_body_mask(mask, shape.size_px); !read)

@@ -57,7 +57,7 @@ class Estimating {
     if (!footage) return fail(error_of(project_, {"footage.video", footage.error().text(), footage.error().kind}));
     for (const Warning& warning : footage->info().warnings) found_.warnings.push_back(warning);
     const FootageShape shape = footage_shape(project_, footage->info());
-    const Result<Camera, Problem> camera = scene_camera(project_, shape.size_px, files_);
+    const Result<Camera, Problem> camera = scene_camera(project_, shape, files_);
     if (!camera) return fail(error_of(project_, camera.error()));
     for (const Warning& warning : camera->warnings) found_.warnings.push_back(warning);
     const Result<cv::Mat, Problem> own_body = scene_own_body(project_, shape.size_px, files_);

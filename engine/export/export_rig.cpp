@@ -49,7 +49,7 @@ Result<PlannedCamera> planned(Project project, std::optional<Scene>& first, cons
   if (!shape) return failed({"footage.video", shape.error().text(), shape.error().kind});
   Scene scene = bare_scene(project, in_rig_time(*std::move(shape), project));
   if (const Result<void, Problem> timed = set_range(scene, project, files); !timed) return failed(timed.error());
-  const Result<Camera, Problem> camera = scene_camera(project, scene.footage.size_px, files);
+  const Result<Camera, Problem> camera = scene_camera(project, scene.footage, files);
   if (!camera) return failed(camera.error());
   FrameRange frames{scene.first_frame, scene.last_frame};
   if (asked_for && !first) {
@@ -232,6 +232,9 @@ Result<RigReport> exported_rig(const ExportRequest& request, const ExportControl
                   lenses.error().kind);
   Result<std::vector<ExportReport>> reports = RigExport(request, control, *cameras, files, truth).run();
   if (!reports) return fail(reports.error());
+  for (std::size_t i = 0; i < truth.intruders().size(); ++i)
+    if (control.warn && truth.views(static_cast<int>(i)).empty())
+      control.warn(visible_in_no_camera(request.project, i));
   Result<void> step = write_file(*json, truth.json(request.project.name));
   if (step) step = write_file(*table, truth.csv());
   for (const TableFolder& folder : folders)

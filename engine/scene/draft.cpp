@@ -181,8 +181,8 @@ DraftScene draft_scene(const Project& project, const FootageShape& footage, Scen
   if (const Result<void, Problem> timed = set_range(scene, clean, files); !timed) note(draft.problems, timed.error());
   if (clean.rig_view && clean.rig_view->camera > 0 && !scene.timeline) scene.timeline = drafted_timeline(clean, files);
   const FrameRange range{scene.first_frame, scene.last_frame};
-  scene.camera = part_or_placeholder(scene_camera(clean, footage.size_px, files), placeholder_camera(footage.size_px),
-                                     draft.problems);
+  scene.camera =
+      part_or_placeholder(scene_camera(clean, footage, files), placeholder_camera(footage.size_px), draft.problems);
   set_camera_motion(
       scene, part_or_placeholder(camera_flight(clean, footage, range, files), steady_flight(clean), draft.problems));
   while (const std::optional<Problem> problem = panorama_problem(scene)) {

@@ -36,7 +36,7 @@ Result<Scene> open_valid_scene(const Project& project, const FootageShape& foota
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   Scene scene = bare_scene(project, footage);
   if (const Result<void, Problem> timed = set_range(scene, project, files); !timed) return failed(timed.error());
-  Result<Camera, Problem> camera = scene_camera(project, footage.size_px, files);
+  Result<Camera, Problem> camera = scene_camera(project, footage, files);
   if (!camera) return failed(camera.error());
   scene.camera = *std::move(camera);
   Result<CameraFlight, Problem> flight = camera_flight(project, footage, {scene.first_frame, scene.last_frame}, files);
@@ -233,6 +233,11 @@ std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
       add(*never);
     }
   return warnings;
+}
+
+Warning visible_in_no_camera(const Project& project, std::size_t intruder) {
+  return {fmt::format("{}: intruders[{}].trajectory", project.file.string(), intruder),
+          fmt::format("\"{}\" is visible in no camera", project.intruders.at(intruder).name)};
 }
 
 Result<FrameRange> range_in(const Scene& scene, const std::optional<FrameRange>& asked_for) {

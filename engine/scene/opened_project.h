@@ -81,6 +81,9 @@ using FootageKey = std::tuple<std::string, double, std::string, int, int, int, i
 [[nodiscard]] std::vector<Warning> warnings_of(const Project& project, const Scene& scene,
                                                const std::vector<Visibility>& visibilities);
 
+// That none of a rig's cameras shows an intruder, by its index in the project.
+[[nodiscard]] Warning visible_in_no_camera(const Project& project, std::size_t intruder);
+
 // What becomes of the footage's coding: that the codec match has to do with a default quantiser, as neither the footage
 // nor the project states one; of footage of more than 8 bits, what rounds its samples, and that there is no codec
 // match.

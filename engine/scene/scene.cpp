@@ -9,6 +9,7 @@ namespace sigs {
 
 FootageShape shape_of(const VideoInfo& video) {
   return {.size_px = video.size_px,
+          .part = video.part,
           .times_s = video.times_s,
           .frame_interval_s = double(video.frame_rate_den) / video.frame_rate_num};
 }

@@ -25,6 +25,7 @@ namespace sigs {
 // The size and the frame times of the footage: all that a scene needs to know of it.
 struct FootageShape {
   cv::Size size_px;
+  std::optional<ImagePart> part = {};  // of the footage's images, which calibrations may be made for
   std::vector<double> times_s;     // presentation time of each frame; the first is 0 but of the further cameras of a
                                    // rig, whose times are those of the rig's clock
   double frame_interval_s = 0.04;  // nominal; extrapolates the times before the first and after the last frame

@@ -176,7 +176,7 @@ FileStamp stamp_of(const std::filesystem::path& file) {
 using ModelKey =
     std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t, bool, std::optional<HeatLevels>>;
 using ImageKey = std::tuple<std::string, int, int>;
-using CameraKey = std::tuple<std::string, int, int, std::optional<LensModel>>;
+using CameraKey = std::tuple<std::string, std::array<int, 6>, std::optional<LensModel>>;
 
 std::string name_of(const std::filesystem::path& file) {
   return file.lexically_normal().string();
@@ -288,12 +288,16 @@ Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::pa
   return caches_->models.take(key_of(file, axes, heat), stamp_of(file), [&] { return read_model(file, axes, heat); });
 }
 
-Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
+Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, const FootageShape& footage,
                                   std::optional<LensModel> model) {
-  const CameraKey key{name_of(calibration), footage_size_px.width, footage_size_px.height, model};
+  const cv::Size size = footage.size_px;
+  const ImagePart part = footage.part.value_or(ImagePart{size, {0, 0}});
+  const std::array<int, 6> pixels{size.width,           size.height,      part.whole_px.width,
+                                  part.whole_px.height, part.corner_px.x, part.corner_px.y};
+  const CameraKey key{name_of(calibration), pixels, model};
   const std::lock_guard lock(caches_->mutex);
   return caches_->cameras.take(key, stamp_of(calibration_name(calibration).file),
-                               [&] { return read_calibration(calibration, footage_size_px, model); });
+                               [&] { return read_calibration(calibration, size, model, footage.part); });
 }
 
 Result<FootageShape> SceneFiles::footage_shape(const Project& project) {

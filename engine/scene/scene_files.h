@@ -60,8 +60,8 @@ class SceneFiles {
   [[nodiscard]] Result<std::shared_ptr<const Model>> model(const std::filesystem::path& file, const ModelAxes& axes,
                                                            const std::optional<HeatLevels>& heat = std::nullopt);
 
-  // read_calibration (camera/camera.h). model: none: taken from the file.
-  [[nodiscard]] Result<Camera> camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
+  // read_calibration (camera/camera.h) for footage. model: none: taken from the file.
+  [[nodiscard]] Result<Camera> camera(const std::filesystem::path& calibration, const FootageShape& footage,
                                       std::optional<LensModel> model = std::nullopt);
 
   // Size and times of a project's footage, where it is not that of the scene (open_footage, shape_of).

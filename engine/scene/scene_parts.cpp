@@ -220,11 +220,11 @@ std::optional<LensModel> lens_model_of(LensModelChoice choice) {
   return std::nullopt;
 }
 
-Result<Camera, Problem> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files) {
+Result<Camera, Problem> scene_camera(const Project& project, const FootageShape& footage, SceneFiles& files) {
   if (project.footage.calibration.empty() && project.footage.lens_model == LensModelChoice::equirectangular)
-    return equirectangular_camera(footage_size_px);
-  Result<Camera> camera = files.camera(resolved(project, project.footage.calibration), footage_size_px,
-                                       lens_model_of(project.footage.lens_model));
+    return equirectangular_camera(footage.size_px);
+  Result<Camera> camera =
+      files.camera(resolved(project, project.footage.calibration), footage, lens_model_of(project.footage.lens_model));
   if (!camera) return in_field("footage.calibration", camera.error());
   return *std::move(camera);
 }

@@ -37,8 +37,8 @@ namespace sigs {
 [[nodiscard]] Result<std::optional<Timeline>, Problem> scene_timeline(const Project& project, SceneFiles& files);
 
 // Sets first and last frame of a scene and its timeline: scene_range() and, of a further camera of a rig, of that what
-// lies between the first and the last frame of the first camera, up to half a frame beyond them; a problem where nothing
-// does.
+// lies between the first and the last frame of the first camera, up to half a frame beyond them; a problem where
+// nothing does.
 [[nodiscard]] Result<void, Problem> set_range(Scene& scene, const Project& project, SceneFiles& files);
 
 // Whether the footage's lens is stated: by a calibration file or, of 360 degree footage, by the model alone.
@@ -47,7 +47,8 @@ namespace sigs {
 }
 
 // The calibrated camera, scaled to the footage's size.
-[[nodiscard]] Result<Camera, Problem> scene_camera(const Project& project, cv::Size footage_size_px, SceneFiles& files);
+[[nodiscard]] Result<Camera, Problem> scene_camera(const Project& project, const FootageShape& footage,
+                                                   SceneFiles& files);
 
 // What 360 degree footage cannot be used with: the classic method and plain, a rolling shutter. None where all is well,
 // also for footage of any other lens.

@@ -212,6 +212,7 @@ Result<void> FrameSource::crop(const cv::Rect& part) {
   state_->crop = rect;
   state_->whole_px = whole;
   state_->info.size_px = rect.size();
+  state_->info.part = ImagePart{whole, rect.tl()};
   return {};
 }
 

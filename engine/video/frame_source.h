@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/image.h"
 #include "base/result.h"
 #include "base/threads.h"
 #include "video/frame.h"
@@ -21,6 +22,7 @@ namespace sigs {
 struct VideoInfo {
   std::filesystem::path path;
   cv::Size size_px;
+  std::optional<ImagePart> part;  // the frames are this part of the footage's images
   PixelLayout layout = PixelLayout::yuv420;
   int bit_depth = 8;  // of the frames: 8 to 16, as the footage has
   ColorInfo color;

@@ -286,6 +286,47 @@ TEST_CASE("a shape within one percent of the calibration's is scaled each side b
     CHECK_FALSE(read_calibration(folder / "lens.yml", size).has_value());
 }
 
+TEST_CASE("a calibration of a whole image has its principal point moved to the part that is left of it") {
+  const TemporaryFolder folder;
+  const auto read_part = [&](const std::string& size, cv::Size part_px, const ImagePart& part) {
+    std::ofstream(folder / "lens.yml") << "K: " << kMatrixYaml << "\nD: []\n" << size;
+    return read_calibration(folder / "lens.yml", part_px, {}, part);
+  };
+  const std::string stated = "image_size: [640, 480]\n";
+  const cv::Size quarter(320, 240);  // of the same shape as the whole, which is why the size has to decide
+  const ImagePart of_640{{640, 480}, {160, 100}};
+
+  // The same ray meets the whole image where the corner and the part's pixel add up to.
+  const auto moved = read_part(stated, quarter, of_640);
+  REQUIRE(moved.has_value());
+  CHECK(moved->size_px == quarter);
+  CHECK(moved->lens.parameters().fx == 500);
+  const auto whole = read_calibration(folder / "lens.yml");
+  for (const glm::dvec3& ray : {glm::dvec3{1, 0, 0}, glm::dvec3{1, 0.1, -0.2}})
+    CHECK(glm::distance(*moved->lens.pixel(ray) + glm::dvec2(160, 100), *whole->lens.pixel(ray)) < 1e-10);
+  REQUIRE(moved->warnings.size() == 1);
+  CHECK(moved->warnings[0].what.find("made for the whole footage, 640x480") != std::string::npos);
+
+  // At twice the size: half-pixel edges count.
+  const auto doubled = read_part(stated, {640, 960}, {{1280, 960}, {640, 0}});
+  REQUIRE(doubled.has_value());
+  CHECK(doubled->lens.parameters().fx == 1000);
+  CHECK(doubled->lens.parameters().cx == doctest::Approx(640.5 - 640).epsilon(1e-15));
+  CHECK(doubled->lens.parameters().cy == doctest::Approx(480.5).epsilon(1e-15));
+
+  // Made for the part, by size, by shape or without a size.
+  CHECK(read_part(stated, {640, 480}, {{1280, 480}, {640, 0}})->lens.parameters().cx == 320);
+  CHECK(read_part(stated, {1280, 960}, {{2560, 960}, {1280, 0}})->lens.parameters().cx == 640.5);
+  CHECK(read_part(stated, {640, 480}, {{1280, 960}, {640, 0}})->warnings.empty());
+  CHECK(read_part("", {640, 480}, {{1280, 960}, {640, 0}})->lens.parameters().cx == 320);
+
+  const auto either = read_part(stated, {160, 120}, {{320, 240}, {0, 0}});
+  REQUIRE_FALSE(either.has_value());
+  for (const char* const size : {"640x480", "320x240", "160x120"})
+    CHECK(either.error().what.find(size) != std::string::npos);
+  CHECK_FALSE(read_part(stated, {100, 300}, {{200, 300}, {0, 0}}).has_value());  // of neither shape
+}
+
 TEST_CASE("all real calibrations are read") {
   if (!has_real_data()) return;
   struct Expected {

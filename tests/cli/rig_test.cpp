@@ -173,6 +173,22 @@ TEST_CASE("two cameras in one image, as of a stereo camera, give what FFmpeg's c
     CHECK(images > 0);
   }
   CHECK(text_of(tiny.file("oneleft")) != text_of(tiny.file("oneright")));
+
+  // A calibration made for the whole image says the same once its principal point is moved.
+  write_file(tiny.file("whole.yaml"), "K: [80, 0, 99.5, 0, 80, 27.5, 0, 0, 1]\nD: []\nimage_size: [132, 52]\n");
+  write_file(tiny.file("part.yaml"), "K: [80, 0, 31.5, 0, 80, 23.5, 0, 0, 1]\nD: []\nimage_size: [64, 48]\n");
+  for (const std::string calibration : {"whole", "part"}) {
+    const Run done =
+        run_sigs("export " + in("p.json") + " --set footage.video=both.mkv --set footage.crop.left_px=68 " +
+                 "--set footage.crop.top_px=4 --set footage.calibration=" + calibration +
+                 ".yaml --progress none --out " + in(calibration));
+    CAPTURE(done.err);
+    CHECK(done.status == 0);
+    CHECK(rig_says(done.err, "made for the whole footage, 132x52") == (calibration == "whole"));
+  }
+  const std::string by_whole = text_of(tiny.file("whole/p.xml"));
+  CHECK(by_whole.substr(by_whole.find("<intruder ")) ==
+        text_of(tiny.file("part/p.xml")).substr(text_of(tiny.file("part/p.xml")).find("<intruder ")));
   const auto refused = [&](const std::string& set) {
     return run_sigs("export " + in("p.json") + " --set footage.video=both.mkv " + set + " --out " + in("none"));
   };
@@ -182,6 +198,30 @@ TEST_CASE("two cameras in one image, as of a stereo camera, give what FFmpeg's c
   CHECK(rig_says(refused("--set footage.crop.left_px=132").err, "is not within"));
   CHECK(rig_says(refused("--set footage.crop.left_px=1").err, "is not on a sample of colour"));
   CHECK(rig_says(refused("--set footage.crop.left_px=2 --set export.video.codec=source").err, "copies packets"));
+}
+
+TEST_CASE("an intruder that no camera of a rig sees gives one warning, and one that a camera sees none") {
+  const TinyProject tiny(4);
+  const std::string whole = text_of(tiny.file("p.json"));
+  const std::string intruders = whole.substr(whole.find("\"intruders\""));
+  const std::string footage = R"("footage": {"video": "clip.mkv", "calibration": "lens.xml"})";
+  for (const bool one_sees : {true, false}) {
+    CAPTURE(one_sees);
+    const std::string back = R"("mount": {"attitude_deg": {"yaw": 180}})";
+    write_file(tiny.file("rig.json"), R"({"sigs": 1, "name": "rig", "cameras": [{"name": "one", )" + footage + ", " +
+                                          back + R"(}, {"name": "two", )" + footage +
+                                          (one_sees ? std::string("}") : ", " + back + "}") + "], " + intruders);
+    const std::string name = "'" + tiny.file("rig.json").string() + "'";
+    const std::string out = " --progress none --out '" + tiny.file(one_sees ? "seen" : "unseen").string() + "'";
+    for (const Run& done : {run_sigs("check " + name), run_sigs("export " + name + out)}) {
+      CAPTURE(done.err);
+      CHECK(done.status == 0);
+      CHECK(rig_says(done.err, "visible in no camera") != one_sees);
+      CHECK_FALSE(rig_says(done.err, "never visible"));
+    }
+    const Run first = run_sigs("check " + name + " --camera one");
+    CHECK_FALSE(rig_says(first.err, "visible in no camera"));
+  }
 }
 
 }  // namespace sigs::test

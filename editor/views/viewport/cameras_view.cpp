@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "editor/document/field_edits.h"
@@ -39,29 +40,6 @@ void draw_name(const ImageCanvas& canvas, const std::string& name, const std::st
       glm::max(canvas.rect.low, canvas.image_on_screen().low) + glm::dvec2(scaled(8), scaled(8) + line);
   draw_label(canvas, at, name, is_active ? color::kAccent : color::kText);
   if (!why_still.empty()) draw_label(canvas, at + glm::dvec2(0, line + scaled(4)), why_still, color::kPartly);
-}
-
-void draw_cell(const ViewContext& context, std::size_t camera, const ScreenRect& rect, bool hovered) {
-  const PreviewOutput& shown = (*context.rig)[camera];
-  const glm::dvec2 size = size_of(shown);
-  const ImageCanvas canvas{*ImGui::GetWindowDrawList(), rect, fitted(size, rect),
-                           cv::Size(static_cast<int>(size.x), static_cast<int>(size.y))};
-  const ScreenRect whole = canvas.image_on_screen();
-  canvas.draw.PushClipRect(im(rect.low), im(rect.high), true);
-  if (shown.image && !shown.image->bgr.empty())
-    draw_image(canvas.draw, context.textures, shown.image->bgr, canvas.view, rect);
-  else
-    canvas.draw.AddRectFilled(im(whole.low), im(whole.high), IM_COL32(58, 60, 66, 255));
-  if (shown.image) {
-    LabelPlacer labels;
-    draw_boxes(canvas, seen_from(context, camera), *shown.image, labels);
-  }
-  const bool is_active = camera == context.document.active_camera();
-  draw_name(canvas, context.document.cameras()[camera].name, not_filming_text(shown, context.document.playhead()),
-            is_active);
-  if (hovered) canvas.draw.AddRect(im(whole.low), im(whole.high), color::kAccent, 0, 0, scaled(2));
-  canvas.draw.PopClipRect();
-  context.ui_probe.note(fmt::format("mosaic/{}", context.document.cameras()[camera].name), whole);
 }
 
 }  // namespace
@@ -125,7 +103,59 @@ std::vector<ScreenRect> mosaic_places(const std::vector<glm::dvec2>& sizes_px, c
   return places;
 }
 
-void draw_mosaic(const ViewContext& context, CameraTabs& tabs) {
+void Mosaic::handle_mouse(const ViewContext& context, std::size_t camera, const ToolContext* tool, CameraTabs& tabs) {
+  if (ImGui::IsItemActivated()) {
+    held_ = camera;
+    opens_tab_ = tool == nullptr || waypoint_at(*tool) == nullptr;
+    if (tool != nullptr) tool_.press(*tool);
+  }
+  if (camera != held_) return;
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    if (tool_.is_active() && tool != nullptr) tool_.drag(*tool);
+    if (tool_.has_moved()) opens_tab_ = false;
+    return;
+  }
+  tool_.release(context);
+  if (!ImGui::IsItemDeactivated() || !ImGui::IsItemHovered() || !opens_tab_) return;
+  tabs.show_all(false);
+  context.edits.activate_camera(camera);
+}
+
+void Mosaic::draw_cell(const ViewContext& whole, std::size_t camera, const ScreenRect& rect, CameraTabs& tabs) {
+  const ViewContext context = seen_from(whole, camera);
+  const PreviewOutput& shown = context.shown;
+  const std::string& name = context.document.cameras()[camera].name;
+  const std::string place = "mosaic/" + name;
+  const glm::dvec2 size = size_of(shown);
+  const ImageCanvas canvas{*ImGui::GetWindowDrawList(), rect, fitted(size, rect),
+                           cv::Size(static_cast<int>(size.x), static_cast<int>(size.y))};
+  const std::optional<FootageCamera> eye = footage_camera_at(context, frame_of_overlays(context));
+  const std::vector<WaypointMark> none;
+  const std::vector<WaypointMark>& marks = eye ? cells_[camera].marks.of(context, *eye) : none;
+  std::optional<ToolContext> tool;
+  if (eye) tool.emplace(ToolContext{context, canvas, *eye, marks, dv(ImGui::GetMousePos())});
+  handle_mouse(context, camera, tool ? &*tool : nullptr, tabs);
+
+  const ScreenRect image = canvas.image_on_screen();
+  canvas.draw.PushClipRect(im(rect.low), im(rect.high), true);
+  if (shown.image && !shown.image->bgr.empty())
+    draw_image(canvas.draw, context.textures, shown.image->bgr, canvas.view, rect);
+  else
+    canvas.draw.AddRectFilled(im(image.low), im(image.high), IM_COL32(58, 60, 66, 255));
+  LabelPlacer labels;
+  keep_waypoints_free(canvas, context, marks, labels);
+  if (eye) cells_[camera].path.draw(canvas, context, *eye);
+  if (shown.image) draw_boxes(canvas, context, *shown.image, labels);
+  if (eye) draw_waypoints(canvas, context, marks, *eye, labels, place);
+  if (tool && camera == held_) tool_.draw(*tool);
+  draw_name(canvas, name, not_filming_text(shown, context.document.playhead()),
+            camera == context.document.active_camera());
+  if (ImGui::IsItemHovered()) canvas.draw.AddRect(im(image.low), im(image.high), color::kAccent, 0, 0, scaled(2));
+  canvas.draw.PopClipRect();
+  context.ui_probe.note(place, image);
+}
+
+void Mosaic::draw(const ViewContext& context, CameraTabs& tabs) {
   context.needs.all_cameras = true;
   const glm::dvec2 low = glm::round(dv(ImGui::GetCursorScreenPos()));
   const ScreenRect rect{low, low + glm::max(glm::floor(dv(ImGui::GetContentRegionAvail())), 1.0)};
@@ -134,15 +164,14 @@ void draw_mosaic(const ViewContext& context, CameraTabs& tabs) {
   std::vector<glm::dvec2> sizes_px;
   for (std::size_t i = 0; i < count; ++i) sizes_px.push_back(size_of((*context.rig)[i]));
   const std::vector<ScreenRect> places = mosaic_places(sizes_px, rect, scaled(kGap_px));
+  cells_.resize(count);
+  tool_.select_again(context);
   for (std::size_t i = 0; i < count; ++i) {
     ImGui::SetCursorScreenPos(im(places[i].low));
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::InvisibleButton("camera", im(glm::max(places[i].size(), 1.0)))) {
-      tabs.show_all(false);
-      context.edits.activate_camera(i);
-    }
+    ImGui::InvisibleButton("camera", im(glm::max(places[i].size(), 1.0)));
+    draw_cell(context, i, places[i], tabs);
     ImGui::PopID();
-    draw_cell(context, i, places[i], ImGui::IsItemHovered());
   }
 }
 

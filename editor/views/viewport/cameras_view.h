@@ -3,9 +3,12 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "editor/geometry/image_view.h"
 #include "editor/views/context.h"
+#include "editor/views/viewport/overlays.h"
+#include "editor/views/viewport/waypoint_tool.h"
 
 namespace sigs::editor {
 
@@ -31,9 +34,27 @@ class CameraTabs {
 [[nodiscard]] std::vector<ScreenRect> mosaic_places(const std::vector<glm::dvec2>& sizes_px, const ScreenRect& rect,
                                                     double gap_px);
 
-// The composited images of all cameras side by side, at the playhead, with the intruders' boxes and the cameras' names.
-// A click on one asks for its tab. Fills the current ImGui window.
-void draw_mosaic(const ViewContext& context, CameraTabs& tabs);
+// The composited images of all cameras side by side, at the playhead, with the cameras' names and the intruders' boxes,
+// paths and waypoints, which are dragged in any of them. A click on one asks for its tab.
+class Mosaic {
+ public:
+  // Fills the current ImGui window.
+  void draw(const ViewContext& context, CameraTabs& tabs);
+
+ private:
+  struct Cell {
+    WaypointMarks marks;
+    PathOverlay path;
+  };
+  void draw_cell(const ViewContext& context, std::size_t camera, const ScreenRect& rect, CameraTabs& tabs);
+  // What a press, a drag and a click on an image do. tool: null while no scene is open.
+  void handle_mouse(const ViewContext& context, std::size_t camera, const ToolContext* tool, CameraTabs& tabs);
+
+  std::vector<Cell> cells_;  // by camera
+  WaypointTool tool_;
+  std::size_t held_ = 0;    // camera in whose image the mouse was pressed
+  bool opens_tab_ = false;  // when that press ends as a click
+};
 
 // Asks for a video, and adds a camera that took it, which is active then.
 void ask_add_camera(const ViewContext& context);

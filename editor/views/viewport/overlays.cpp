@@ -195,7 +195,7 @@ void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, 
 }
 
 void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
-                    const FootageCamera& eye, LabelPlacer& labels) {
+                    const FootageCamera& eye, LabelPlacer& labels, const std::string& place) {
   const Selection& selection = context.document.selection();
   const std::optional<int> current = current_intruder(context);
   const double radius = scaled(kMark_px);
@@ -207,7 +207,7 @@ void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::
     if (!ScreenRect{canvas.rect.low - radius, canvas.rect.high + radius}.contains(at)) continue;
     const bool is_selected = selection == Selection{Selected::waypoint, mark.intruder, mark.waypoint};
     if (thinning.leaves_out(at) && !is_selected) continue;
-    context.ui_probe.note(fmt::format("viewport/waypoint/{}/{}", mark.intruder, mark.waypoint),
+    context.ui_probe.note(fmt::format("{}/waypoint/{}/{}", place, mark.intruder, mark.waypoint),
                           {at - radius, at + radius});
     const bool is_here = is_in_frame(mark, eye.frame);
     const MarkStyle style{.around_px = is_here ? around_intruder_px(canvas, context, mark.intruder) : 0,

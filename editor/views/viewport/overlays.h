@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "editor/views/viewport/waypoint_tool.h"
@@ -55,8 +56,9 @@ void keep_waypoints_free(const ImageCanvas& canvas, const ViewContext& context, 
 
 // Diamonds with the number of their frame, open where the waypoint is of the frame that is shown; those of the intruder
 // that is worked on larger. Marks less than 3 px apart are thinned out, except for the selected one.
+//   place  of the image, for the probe: "viewport"
 void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::span<const WaypointMark> marks,
-                    const FootageCamera& eye, LabelPlacer& labels);
+                    const FootageCamera& eye, LabelPlacer& labels, const std::string& place);
 
 // The paths of all intruders over the scene's range, projected with the camera of one frame: pale before that frame,
 // bright after it. The polylines are computed again only when the scene or the frame has changed.

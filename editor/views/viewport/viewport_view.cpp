@@ -21,13 +21,6 @@ cv::Size image_size(const ViewContext& context) {
 }
 
 // Overlays lie on what is seen: while it plays that may be a frame behind.
-int frame_of_overlays(const ViewContext& context) {
-  if (!context.playing || !context.shown.image) return context.document.playhead();
-  const Scene* const scene = shown_scene(context);
-  const int frame = context.shown.image->frame;
-  return scene != nullptr ? counted_frame_at(*scene, frame) : frame;
-}
-
 }  // namespace
 
 void ViewportView::draw(const ViewContext& context) {
@@ -130,7 +123,7 @@ void ViewportView::draw_overlays(const ViewContext& context, const ImageCanvas& 
       draw_result_legend(canvas, context, image->frame);
     }
   }
-  if (eye != nullptr) draw_waypoints(canvas, context, marks, *eye, labels);
+  if (eye != nullptr) draw_waypoints(canvas, context, marks, *eye, labels, "viewport");
 }
 
 void ViewportView::handle_press(const ImageCanvas& canvas, const ToolContext* tool) {

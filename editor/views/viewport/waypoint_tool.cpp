@@ -55,6 +55,13 @@ std::optional<FootageCamera> footage_camera_at(const ViewContext& context, int f
   return FootageCamera{frame, camera_at(scene.motion, time_s), lens_of(scene)};
 }
 
+int frame_of_overlays(const ViewContext& context) {
+  if (!context.playing || !context.shown.image) return context.document.playhead();
+  const Scene* const scene = shown_scene(context);
+  const int frame = context.shown.image->frame;
+  return scene != nullptr ? counted_frame_at(*scene, frame) : frame;
+}
+
 const std::vector<WaypointMark>& WaypointMarks::of(const ViewContext& context, const FootageCamera& eye) {
   const MadeFor wanted{context.document.revision().number, context.shown.scene ? context.shown.scene->revision : 0,
                        eye.frame};

@@ -30,6 +30,9 @@ struct FootageCamera {
 // the `plain` method, which ignores the lens, it is a pinhole camera with the same intrinsics.
 [[nodiscard]] std::optional<FootageCamera> footage_camera_at(const ViewContext& context, int frame);
 
+// The frame whose camera overlays are drawn for: the playhead, or while it plays the one that is shown.
+[[nodiscard]] int frame_of_overlays(const ViewContext& context);
+
 // A waypoint projected into the image of that camera. In the waypoint's own frame its pixel is where the intruder is.
 // The indices count in the project.
 struct WaypointMark {
@@ -94,6 +97,8 @@ class WaypointTool {
   void select_again(const ViewContext& context);
   // Between a press on a waypoint or an intruder and its release, Escape or loss.
   [[nodiscard]] bool is_active() const { return taken_.has_value(); }
+  // Whether the mouse has gone far enough since to move it.
+  [[nodiscard]] bool has_moved() const { return taken_ && taken_->gesture.is_moving; }
 
   // While something is dragged: its distance from the camera and how far it was moved, beside the mouse.
   void draw(const ToolContext& tool) const;

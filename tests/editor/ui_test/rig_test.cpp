@@ -102,6 +102,36 @@ TEST_CASE("all cameras are shown side by side at the playhead, and a click on on
   CHECK_FALSE(is_unsaved(editor.state()));
 }
 
+TEST_CASE("a waypoint dragged in one of the images side by side moves in all of them") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("rig-mosaic-drag");
+  EditorDriver& editor = ui_test.editor();
+  const fs::path project = put(rig_project(), ui_test.folder() / "rig.json");
+  editor.start({project.string()});
+  editor.wait_for_image();
+  ui_test.scrub_to(150);
+  editor.key("a");
+  wait_for_tab(ui_test, true);
+  ui_test.wait_for_place("mosaic/side/waypoint/0/1");
+  const ScreenPlace in_front = editor.place("mosaic/front/waypoint/0/1");
+  const ScreenPlace from_side = editor.place("mosaic/side/waypoint/0/1");
+  const std::vector<glm::dvec3> before = waypoints_m(json_of(project));
+  ui_test.edit([&] {
+    editor.drag(from_side.center_x(), from_side.center_y(), from_side.center_x() + 30, from_side.center_y());
+  });
+  ui_test.image("dragged");
+  CHECK(shows(editor.state(), "mosaic"));  // the end of a drag opens no tab
+  CHECK(editor.state()["camera"].get<int>() == 0);
+  CHECK(editor.place("mosaic/side/waypoint/0/1").center_x() ==
+        doctest::Approx(from_side.center_x() + 30).epsilon(0.01));
+  // The cameras look almost the same way and are of one kind.
+  CHECK(editor.place("mosaic/front/waypoint/0/1").center_x() ==
+        doctest::Approx(in_front.center_x() + 30).epsilon(0.01));
+  CHECK(waypoints_m(ui_test.saved(project))[1].y > before[1].y + 1);
+  ui_test.edit([&] { editor.key("ctrl+z"); });
+  CHECK(waypoints_m(ui_test.saved(project))[1] == before[1]);
+}
+
 TEST_CASE("a camera of a rig is taken out by the menu, and undo brings it back") {
   if (!can_drive_windows()) return;
   UiTest ui_test("rig-remove");
