@@ -14,7 +14,7 @@
 #include "cli/performance_inputs.h"
 #include "cli/process.h"
 #include "performance/performance_report.h"
-#include "performance/risk_report.h"
+#include "performance/risk.h"
 
 namespace sigs::cli {
 
