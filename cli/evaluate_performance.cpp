@@ -8,6 +8,7 @@
 
 #include "base/json.h"
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/evaluation_folder.h"
 #include "cli/options.h"
