@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 84> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 88> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
@@ -28,6 +28,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 84> kNames{{
     {"camera.exposure_s", "Exposure time"},
     {"light.sun.azimuth_deg", "Sun azimuth"},
     {"light.sun.elevation_deg", "Sun elevation"},
+    {"footage.crop.left_px", "Crop, left"},
+    {"footage.crop.top_px", "Crop, top"},
+    {"footage.crop.width_px", "Crop, width"},
+    {"footage.crop.height_px", "Crop, height"},
     {"footage.occluder_mask", "Occluder"},
     {"footage.occluder_frame", "Occluder frame"},
     {"footage.occluder_distance_m", "Its distance"},

@@ -51,6 +51,10 @@ FootageId footage_id_of(const std::shared_ptr<const Project>& project) {
   ContentId id = id_of(footage_stamp_of(*project));
   if (quantisers_for(*project) == Quantisers::read) id = combined_id(id, id);
   if (timing.frame_rate_hz > 0) id = combined_id(id, id_of(FileStamp{.path = exact_text(timing.frame_rate_hz)}));
+  if (const CropSettings& crop = project->footage.crop; crop != CropSettings{})
+    id = combined_id(
+        id,
+        id_of(FileStamp{.path = fmt::format("{} {} {} {}", crop.left_px, crop.top_px, crop.width_px, crop.height_px)}));
   if (!timing.times_file.empty()) id = combined_id(id, id_of(stamp_of(timing.times_file)));
   return {id, project};
 }

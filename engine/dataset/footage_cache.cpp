@@ -26,9 +26,11 @@ tl::unexpected<Error> fail_at(const std::string& where, Error error) {
   return fail(where, error.text(), error.kind);
 }
 
-// What the shape of a footage depends on, by absolute paths.
-std::string footage_key(const FootageSettings& footage) {
-  return fmt::format("{}\n{}\n{}", footage.video, footage.frame_rate_hz.value_or(0), footage.timestamps);
+// A project of footage alone, whose paths are absolute.
+Project project_of(const FootageSettings& footage) {
+  Project project;
+  project.footage = footage;
+  return project;
 }
 
 // The footage of a project, by absolute paths.
@@ -40,9 +42,7 @@ FootageSettings footage_of(const Project& project) {
 }
 
 Result<FootageShape> opened_shape(const FootageSettings& footage, const std::atomic<bool>* cancel = nullptr) {
-  Project project;
-  project.footage = footage;
-  const Result<FrameSource> source = open_footage(project, cancel);
+  const Result<FrameSource> source = open_footage(project_of(footage), cancel);
   if (!source) return fail(source.error());
   return shape_of(source->info());
 }
@@ -120,7 +120,7 @@ class BackgroundOpener {
   }
 
   Result<FootageShape> shape_of_footage(const FootageSettings& footage) {
-    const std::string key = footage_key(footage);
+    const FootageKey key = footage_key(project_of(footage));
     if (const auto known = shapes_.find(key); known != shapes_.end()) return known->second;
     Result<FootageShape> shape = opened_shape(footage);
     if (shape) shapes_.emplace(key, *shape);
@@ -128,7 +128,7 @@ class BackgroundOpener {
   }
 
   const Recipe& recipe_;
-  std::map<std::string, FootageShape> shapes_;
+  std::map<FootageKey, FootageShape> shapes_;
 };
 
 }  // namespace
@@ -153,7 +153,7 @@ Result<std::vector<Result<OpenedBackground>>> opened_backgrounds(const Recipe& r
 }
 
 void VideoVisibility::remember(const FootageSettings& footage, const FootageShape& shape) {
-  shapes_[footage_key(footage)] = shape;
+  shapes_[footage_key(project_of(footage))] = shape;
 }
 
 std::optional<Scene> VideoVisibility::scene_of(const Project& project) {
@@ -190,16 +190,14 @@ std::optional<VisibilityEstimate> VideoVisibility::last_intruder_at(const Projec
 
 Result<void> VideoVisibility::look_for_sky(const FootageSettings& footage, const std::set<int>& frames,
                                            const std::atomic<bool>* cancel) {
-  Project project;
-  project.footage = footage;
-  Result<FrameSource> source = open_footage(project, cancel);
+  Result<FrameSource> source = open_footage(project_of(footage), cancel);
   if (!source) return fail(source.error());
   for (const int number : frames) {
     if (const Result<void> on = check_interrupt(cancel); !on) return on;
     const Result<Frame> frame = source->read(number);
     if (!frame) return fail(frame.error());
     const ReducedLuma reduced = reduced_luma(luma_of(*frame));
-    skies_[{footage_key(footage), number}] = {sky_map_of(reduced.luma), reduced.scale};
+    skies_[{footage_key(project_of(footage)), number}] = {sky_map_of(reduced.luma), reduced.scale};
   }
   return {};
 }
@@ -219,7 +217,7 @@ int land_from(const SkyMap& map, int column) {
 
 std::optional<VideoVisibility::Behind> VideoVisibility::behind(const FootageSettings& footage, int frame,
                                                                const Box& box) const {
-  const auto there = skies_.find({footage_key(footage), frame});
+  const auto there = skies_.find({footage_key(project_of(footage)), frame});
   if (there == skies_.end() || there->second.map.empty()) return std::nullopt;
   const auto& [map, scale] = there->second;
   constexpr int kPlaces = 8;  // along each side
@@ -238,7 +236,7 @@ std::optional<VideoVisibility::Behind> VideoVisibility::behind(const FootageSett
 }
 
 std::optional<FootageShape> VideoVisibility::shape_of_footage(const FootageSettings& footage) {
-  const std::string key = footage_key(footage);
+  const FootageKey key = footage_key(project_of(footage));
   if (const auto known = shapes_.find(key); known != shapes_.end()) return known->second;
   const Result<FootageShape> shape = opened_shape(footage);
   return shapes_[key] = shape ? std::optional(*shape) : std::nullopt;
@@ -265,7 +263,7 @@ Result<int> frames_of(const Project& project, const FootageShape& footage) {
 
 Result<ExportExtent> ExportExtents::of(const Project& project) {
   const FootageSettings settings = footage_of(project);
-  const std::string key = footage_key(settings);
+  const FootageKey key = footage_key(project_of(settings));
   std::unique_lock lock(mutex_);
   auto known = shapes_.find(key);
   if (known == shapes_.end()) {

@@ -16,6 +16,7 @@
 #include "dataset/recipe.h"
 #include "horizon/sky_map.h"
 #include "project/project.h"
+#include "scene/opened_project.h"
 #include "scene/scene.h"
 #include "scene/scene_files.h"
 #include "scene/visibility.h"
@@ -76,12 +77,12 @@ class VideoVisibility {
   [[nodiscard]] std::optional<FootageShape> shape_of_footage(const FootageSettings& footage);
 
   SceneFiles files_;
-  std::map<std::string, std::optional<FootageShape>> shapes_;  // by video and its times; none: it cannot be opened
+  std::map<FootageKey, std::optional<FootageShape>> shapes_;  // by what decides its frames; none: it cannot be opened
   struct Sky {
     SkyMap map;
     double scale = 1;  // of the reduced image in which it was found
   };
-  std::map<std::pair<std::string, int>, Sky> skies_;  // by footage and frame
+  std::map<std::pair<FootageKey, int>, Sky> skies_;  // by footage and frame
 };
 
 // Number of frames of an export of the project from this footage. Error bad_project: the footage has not the frames
@@ -104,7 +105,7 @@ class ExportExtents {
 
  private:
   std::mutex mutex_;
-  std::map<std::string, Result<FootageShape>> shapes_;  // by video and its times
+  std::map<FootageKey, Result<FootageShape>> shapes_;  // by what decides its frames
   const std::atomic<bool>* cancel_;
 };
 

@@ -45,7 +45,7 @@ FrameRange frames_at(const Scene& scene, const Scene& first, const FrameRange& o
 Result<PlannedCamera> planned(Project project, std::optional<Scene>& first, const std::optional<FrameRange>& asked_for,
                               SceneFiles& files) {
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
-  Result<FootageShape> shape = files.footage_shape(resolved(project, project.footage.video), timing_of(project));
+  Result<FootageShape> shape = files.footage_shape(project);
   if (!shape) return failed({"footage.video", shape.error().text(), shape.error().kind});
   Scene scene = bare_scene(project, in_rig_time(*std::move(shape), project));
   if (const Result<void, Problem> timed = set_range(scene, project, files); !timed) return failed(timed.error());

@@ -17,17 +17,14 @@ FrameRenderer::FrameRenderer() : context_(std::make_unique<ComposeContext>()) {}
 FrameRenderer::~FrameRenderer() = default;
 
 Result<void> FrameRenderer::open_footage(const Project& project, const std::atomic<bool>* cancel) {
-  const std::filesystem::path path = resolved(project, project.footage.video);
-  const SequenceTiming timing = timing_of(project);
+  const FootageKey key = footage_key(project);
   const Quantisers quantisers = quantisers_for(project);
-  if (footage_ && footage_->path == path && footage_->timing.frame_rate_hz == timing.frame_rate_hz &&
-      footage_->timing.times_file == timing.times_file && footage_->quantisers == quantisers)
-    return {};
+  if (footage_ && footage_->key == key && footage_->quantisers == quantisers) return {};
   Result<FrameSource> source = sigs::open_footage(project, cancel, quantisers);
   if (const Result<void> on = check_interrupt(cancel); !on) return on;
   if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
   project_.reset();  // the scene, if any, is that of other footage
-  footage_.emplace(OpenedFootage{path, timing, quantisers, std::move(*source)});
+  footage_.emplace(OpenedFootage{key, quantisers, std::move(*source)});
   return {};
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "base/result.h"
 #include "frame/composed_frame.h"
 #include "project/project.h"
+#include "scene/opened_project.h"
 #include "scene/posed_intruder.h"
 #include "scene/scene.h"
 #include "scene/scene_files.h"
@@ -48,8 +48,7 @@ class FrameRenderer {
 
  private:
   struct OpenedFootage {
-    std::filesystem::path path;
-    SequenceTiming timing;
+    FootageKey key;
     Quantisers quantisers = Quantisers::leave_out;
     FrameSource source;
   };

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <tuple>
 #include <utility>
 
 #include "base/threads.h"
@@ -20,13 +19,16 @@ namespace {
 
 constexpr std::size_t kImagesOfABatch = 50;
 
-// What a decoder depends on; all that have the same can share it.
-using FootageKey = std::tuple<std::string, double, std::string, Quantisers>;
+Project without_crop(Project project) {
+  project.footage.crop = {};
+  return project;
+}
 
-FootageKey key_of(const Project& project) {
-  const SequenceTiming timing = timing_of(project);
-  return {resolved(project, project.footage.video).string(), timing.frame_rate_hz, timing.times_file.string(),
-          quantisers_for(project)};
+// What a decoder depends on; all that have the same can share it.
+using DecoderKey = std::pair<FootageKey, Quantisers>;
+
+DecoderKey key_of(const Project& project) {
+  return {footage_key(without_crop(project)), quantisers_for(project)};
 }
 
 int count_of(const FrameRange& frames) {
@@ -68,7 +70,7 @@ std::vector<std::vector<std::size_t>> pieces_of(const std::vector<std::size_t>& 
 
 void append_videos(const std::vector<PendingVideo>& videos, int most, std::vector<Batch>& batches) {
   std::vector<std::vector<std::size_t>> groups;
-  std::map<FootageKey, std::vector<std::size_t>> groups_of_footage;  // places in `groups`
+  std::map<DecoderKey, std::vector<std::size_t>> groups_of_footage;  // places in `groups`
   for (std::size_t i = 0; i < videos.size(); ++i) {
     if (is_image(videos[i])) continue;
     std::vector<std::size_t>& candidates = groups_of_footage[key_of(*videos[i].project)];
@@ -90,7 +92,7 @@ void append_videos(const std::vector<PendingVideo>& videos, int most, std::vecto
 }
 
 void append_images(const std::vector<PendingVideo>& videos, std::vector<Batch>& batches) {
-  std::map<FootageKey, std::vector<std::size_t>> images;
+  std::map<DecoderKey, std::vector<std::size_t>> images;
   for (std::size_t i = 0; i < videos.size(); ++i)
     if (is_image(videos[i])) images[key_of(*videos[i].project)].push_back(i);
   for (auto& [footage, all] : images) {
@@ -129,17 +131,23 @@ Schedule schedule_of(const std::vector<PendingVideo>& videos, int jobs, int core
 
 namespace {
 
-// One source for each video of the batch; none where the clip cannot be opened.
+// One source for each video of the batch; none where the clip cannot be opened or cropped.
 std::vector<FrameSource> shared_sources(const Batch& batch, const std::vector<PendingVideo>& videos,
                                         const std::atomic<bool>* cancel) {
   constexpr int kAhead = 4;  // frames: exports have queues of their own
   const Project& project = *videos[batch.videos.front()].project;
-  Result<FrameSource> footage = open_footage(project, cancel, quantisers_for(project));
+  Result<FrameSource> footage = open_footage(without_crop(project), cancel, quantisers_for(project));
   if (!footage) return {};
   std::vector<FrameSteps> frames;
   for (const std::size_t video : batch.videos)
     frames.push_back({.first = videos[video].frames.first, .count = count_of(videos[video].frames)});
-  return FrameSource::shared(std::move(*footage), frames, kAhead);
+  std::vector<FrameSource> sources = FrameSource::shared(std::move(*footage), frames, kAhead);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    Result<FrameSource> cropped = cropped_footage(std::move(sources[i]), *videos[batch.videos[i]].project);
+    if (!cropped) return {};
+    sources[i] = *std::move(cropped);
+  }
+  return sources;
 }
 
 // What threads throw: the first of it is kept.

@@ -22,6 +22,17 @@ enum class LensModelChoice { automatic, brown_conrady, fisheye, equirectangular 
 // What the camera's sensor responds to: light, or the heat that things send out (long-wave infrared).
 enum class Spectrum { visible, thermal };
 
+// The part of the footage's image that is the camera's: one eye of a stereo camera that stores both side by side, one
+// circle of two fisheye lenses, an image between black bars. The upper left pixel is (left_px, top_px).
+struct CropSettings {
+  int left_px = 0;
+  int top_px = 0;
+  int width_px = 0;   // 0: to the right edge
+  int height_px = 0;  // 0: to the lower edge
+
+  [[nodiscard]] bool operator==(const CropSettings&) const = default;
+};
+
 // The background: which video, which of its frames, and the camera that took it.
 struct FootageSettings {
   std::string video;                    // a file, a folder of images, or a pattern such as images/%06d.png
@@ -29,6 +40,7 @@ struct FootageSettings {
   std::string timestamps;               // file with the time of each image; empty: evenly spaced
   int first_frame = 0;
   std::optional<int> last_frame;  // the last one used; none: the footage's last
+  CropSettings crop;              // pixels, calibration and masks are those of what is left
   std::string calibration;
   std::string own_body_mask;  // empty: none
   // What stands in the world nearer than the intruders, such as trees: a mask of one frame. Empty: nothing.

@@ -27,6 +27,11 @@ void add_footage(FieldList list, FootageSettings& footage) {
             "of footage in images: text file with a line for each, its time in seconds; empty: evenly spaced");
   list.number("first_frame", &footage.first_frame, "frame", 0, 1e9, "first frame that is used, counted from 0");
   list.number("last_frame", &footage.last_frame, "frame", 0, 1e9, "last frame that is used; null: the footage's last");
+  list.number("crop.left_px", &footage.crop.left_px, "px", 0, 1e5,
+              "the camera's image begins at this column of the footage's; the rest is not used");
+  list.number("crop.top_px", &footage.crop.top_px, "px", 0, 1e5, "and at this row");
+  list.number("crop.width_px", &footage.crop.width_px, "px", 0, 1e5, "and has so many columns; 0: all to the right");
+  list.number("crop.height_px", &footage.crop.height_px, "px", 0, 1e5, "and so many rows; 0: all below");
   list.path("calibration", footage.calibration, footage.lens_model != LensModelChoice::equirectangular,
             "the camera's calibration file; of equirectangular footage none is needed");
   list.add("spectrum", choice_of(footage.spectrum, {"visible", "thermal"}), "",

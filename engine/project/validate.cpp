@@ -137,6 +137,14 @@ void check_frames(const FootageSettings& footage, const std::string& prefix, Pro
     problems.push_back({prefix + "footage.last_frame", "lies before footage.first_frame"});
 }
 
+// Packets are copied as they are.
+void check_crop(const FootageSettings& footage, VideoCodec codec, Problems& problems) {
+  if (codec == VideoCodec::source && footage.crop != CropSettings())
+    problems.push_back({"export.video.codec",
+                        "source copies packets, which have the footage's whole image; with "
+                        "footage.crop use another codec"});
+}
+
 // Names that tell the cameras apart, also in file names; one clock for all.
 void check_cameras(const std::vector<RigCamera>& cameras, Problems& problems) {
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -219,6 +227,8 @@ std::vector<Problem> validate(const Project& project) {
   check_name(project, problems);
   check_frames(project.footage, "", problems);
   check_cameras(project.cameras, problems);
+  check_crop(project.footage, project.output.codec, problems);
+  for (const RigCamera& camera : project.cameras) check_crop(camera.footage, project.output.codec, problems);
   check_output(project.output, problems);
   check_names(project.output.labels, kLabelNames, "export.labels", "format", problems);
   check_names(project.output.rig, kRigTableNames, "export.rig", "table", problems);

@@ -112,7 +112,30 @@ SequenceTiming timing_of(const Project& project) {
 }
 
 Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel, Quantisers quantisers) {
-  return FrameSource::open(resolved(project, project.footage.video), cancel, quantisers, timing_of(project));
+  Result<FrameSource> whole =
+      FrameSource::open(resolved(project, project.footage.video), cancel, quantisers, timing_of(project));
+  if (!whole) return whole;
+  return cropped_footage(*std::move(whole), project);
+}
+
+Result<FrameSource> cropped_footage(FrameSource whole, const Project& project) {
+  const CropSettings& crop = project.footage.crop;
+  if (crop == CropSettings{}) return whole;
+  if (const Result<void> done = whole.crop({crop.left_px, crop.top_px, crop.width_px, crop.height_px}); !done)
+    return fail("footage.crop", done.error().what);
+  return whole;
+}
+
+FootageKey footage_key(const Project& project) {
+  const SequenceTiming timing = timing_of(project);
+  const CropSettings& crop = project.footage.crop;
+  return {resolved(project, project.footage.video).string(),
+          timing.frame_rate_hz,
+          timing.times_file.string(),
+          crop.left_px,
+          crop.top_px,
+          crop.width_px,
+          crop.height_px};
 }
 
 FootageShape in_rig_time(FootageShape shape, const Project& project) {

@@ -4,7 +4,9 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "base/result.h"
@@ -51,10 +53,17 @@ struct OpenedProject {
 // and where groups of its pictures are encoded as the others are (codec source).
 [[nodiscard]] Quantisers quantisers_for(const Project& project);
 
-// The footage of a project: a video, or images with the times that the project states. Errors and arguments are those
-// of FrameSource::open(); they do not name the project.
+// The footage of a project: a video, or images with the times that the project states, of which footage.crop leaves a
+// part. Errors and arguments are those of FrameSource::open() and crop(); they do not name the project.
 [[nodiscard]] Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel = nullptr,
                                                Quantisers quantisers = Quantisers::leave_out);
+
+// The footage that was opened for a project whose crop leaves all of it, as this project crops it.
+[[nodiscard]] Result<FrameSource> cropped_footage(FrameSource whole, const Project& project);
+
+// What decides which frames the footage of a project has: its file, times stated, crop.
+using FootageKey = std::tuple<std::string, double, std::string, int, int, int, int>;
+[[nodiscard]] FootageKey footage_key(const Project& project);
 
 // The times that settings state of footage in images; the file of times is the project's.
 [[nodiscard]] SequenceTiming timing_of(const Project& project);

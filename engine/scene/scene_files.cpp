@@ -25,6 +25,7 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "camera/camera.h"
+#include "scene/opened_project.h"
 #include "telemetry/read_track.h"
 
 namespace sigs {
@@ -269,7 +270,7 @@ struct SceneFiles::Caches {
   FileCache<ModelKey, std::shared_ptr<const Model>> models;
   FileCache<CameraKey, Camera> cameras;
   FileCache<ImageKey, cv::Mat> masks;
-  FileCache<std::tuple<std::string, double, std::string>, FootageShape> footage;
+  FileCache<FootageKey, FootageShape> footage;
   FileCache<std::string, std::vector<AttitudeAtFrame>> attitudes;
   FileCache<std::string, BoxesByFrame> boxes;
   FileCache<std::string, std::shared_ptr<const Track>> tracks;
@@ -295,15 +296,14 @@ Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cv::
                                [&] { return read_calibration(calibration, footage_size_px, model); });
 }
 
-Result<FootageShape> SceneFiles::footage_shape(const std::filesystem::path& video, const SequenceTiming& timing) {
+Result<FootageShape> SceneFiles::footage_shape(const Project& project) {
   const auto read = [&]() -> Result<FootageShape> {
-    const Result<FrameSource> source = FrameSource::open(video, nullptr, Quantisers::leave_out, timing);
+    const Result<FrameSource> source = open_footage(project);
     if (!source) return fail(source.error());
     return shape_of(source->info());
   };
   const std::lock_guard lock(caches_->mutex);
-  return caches_->footage.take({name_of(video), timing.frame_rate_hz, name_of(timing.times_file)}, stamp_of(video),
-                               read);
+  return caches_->footage.take(footage_key(project), stamp_of(resolved(project, project.footage.video)), read);
 }
 
 Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {

@@ -12,11 +12,11 @@
 #include "base/result.h"
 #include "camera/camera.h"
 #include "mesh/mesh.h"
+#include "project/project.h"
 #include "scene/heat.h"
 #include "scene/model.h"
 #include "scene/scene.h"
 #include "telemetry/track.h"
-#include "video/frame_source.h"
 
 namespace sigs {
 
@@ -64,8 +64,8 @@ class SceneFiles {
   [[nodiscard]] Result<Camera> camera(const std::filesystem::path& calibration, cv::Size footage_size_px,
                                       std::optional<LensModel> model = std::nullopt);
 
-  // Size and times of other footage than that of the scene (FrameSource::open, shape_of).
-  [[nodiscard]] Result<FootageShape> footage_shape(const std::filesystem::path& video, const SequenceTiming& timing);
+  // Size and times of a project's footage, where it is not that of the scene (open_footage, shape_of).
+  [[nodiscard]] Result<FootageShape> footage_shape(const Project& project);
 
   // read_attitude_file
   [[nodiscard]] Result<std::vector<AttitudeAtFrame>> attitudes(const std::filesystem::path& file);

@@ -165,7 +165,7 @@ Result<std::optional<Timeline>, Problem> scene_timeline(const Project& project, 
   Project first = project;
   first.footage = project.rig_view->reference;
   first.rig_view->camera = 0;
-  Result<FootageShape> footage = files.footage_shape(resolved(first, first.footage.video), timing_of(first));
+  Result<FootageShape> footage = files.footage_shape(first);
   if (!footage) return problem("cameras[0].footage.video", footage.error().text(), footage.error().kind);
   const Result<FrameRange, Problem> range = scene_range(first.footage, *footage);
   if (!range) return problem("cameras[0]." + range.error().field, range.error().what);

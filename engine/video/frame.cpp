@@ -7,6 +7,7 @@
 
 #include "base/ensure.h"
 #include "video/chroma.h"
+#include "video/frame_quantisers.h"
 
 namespace sigs {
 
@@ -270,6 +271,21 @@ Frame cloned(const Frame& frame) {
   Frame copy = frame;
   for (cv::Mat& plane : copy.planes) plane = plane.clone();
   return copy;
+}
+
+Frame part_of(const Frame& frame, const cv::Rect& part) {
+  const cv::Size step = chroma_step(frame.layout);
+  Frame out = frame;
+  out.coded.reset();
+  for (std::size_t i = 0; i < out.planes.size(); ++i) {
+    cv::Mat& plane = out.planes[i];
+    if (plane.empty()) continue;
+    const cv::Rect here =
+        i == 0 ? part : cv::Rect({part.x / step.width, part.y / step.height}, chroma_size(frame.layout, part.size()));
+    plane = plane(here).clone();
+  }
+  out.quantisers = part_of(frame.quantisers, part);
+  return out;
 }
 
 Frame blank_frame(PixelLayout layout, cv::Size size_px, const ColorInfo& color, int bit_depth) {

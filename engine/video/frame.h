@@ -71,6 +71,10 @@ struct Frame {
 // A deep copy: copies of a cv::Mat share their samples, those of this frame are its own.
 [[nodiscard]] Frame cloned(const Frame& frame);
 
+// Part of a frame, with samples of its own. The part lies within the frame, and its corner on a chroma sample (see
+// chroma_step()).
+[[nodiscard]] Frame part_of(const Frame& frame, const cv::Rect& part);
+
 // A frame whose samples are all 0.
 [[nodiscard]] Frame blank_frame(PixelLayout layout, cv::Size size_px, const ColorInfo& color, int bit_depth = 8);
 

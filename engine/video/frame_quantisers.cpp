@@ -116,6 +116,25 @@ int FrameQuantisers::at(int column, int row) const {
   return blocks.at<short>(std::clamp(row, 0, blocks.rows - 1), std::clamp(column, 0, blocks.cols - 1));
 }
 
+std::shared_ptr<const FrameQuantisers> part_of(const std::shared_ptr<const FrameQuantisers>& quantisers,
+                                               const cv::Rect& part) {
+  if (!quantisers || quantisers->blocks.empty()) return quantisers;
+  constexpr int kBlock_px = FrameQuantisers::kBlock_px;
+  const auto whole = [&](int first, int length, int origin, int count) {
+    const int from = std::clamp((first - origin) / kBlock_px, 0, count - 1);
+    const int to = std::clamp((first + length - 1 - origin) / kBlock_px + 1, from + 1, count);
+    return cv::Range(from, to);
+  };
+  const cv::Point origin = quantisers->origin_px;
+  const cv::Range columns = whole(part.x, part.width, origin.x, quantisers->blocks.cols);
+  const cv::Range rows = whole(part.y, part.height, origin.y, quantisers->blocks.rows);
+  auto here = std::make_shared<FrameQuantisers>(*quantisers);
+  here->blocks = quantisers->blocks(rows, columns).clone();
+  here->origin_px = {origin.x + columns.start * kBlock_px - part.x, origin.y + rows.start * kBlock_px - part.y};
+  here->mean = cv::mean(here->blocks)[0];
+  return here;
+}
+
 bool states_quantisers(std::string_view codec) {
   return codec == "h264" || codec == "mpeg4" || codec == "mpeg2video" || codec == "mpeg1video" || codec == "mjpeg";
 }

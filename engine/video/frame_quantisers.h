@@ -67,6 +67,10 @@ struct FrameQuantisers {
   [[nodiscard]] int at(int column, int row) const;
 };
 
+// Those of a part of the image. Null of null.
+[[nodiscard]] std::shared_ptr<const FrameQuantisers> part_of(const std::shared_ptr<const FrameQuantisers>& quantisers,
+                                                             const cv::Rect& part);
+
 // Whether FrameSource finds the quantisers of a codec's images in their stream: H.264, MPEG-1, -2, -4 part 2, MJPEG.
 //   codec  VideoInfo::codec
 [[nodiscard]] bool states_quantisers(std::string_view codec);

@@ -74,6 +74,9 @@ struct FrameSource::State {
   libav::Orientation orientation;
   bool quantisers = false;  // frames have their quantisers
 
+  std::optional<cv::Rect> crop;  // of the image; none: all of it
+  cv::Size whole_px;             // with a crop: of the image before
+
   std::shared_ptr<SharedFootage> shared;  // frames come from there, and of the rest only `info` is used; null: no
   std::size_t reader = 0;                 // of these
   ~State() {
@@ -191,6 +194,27 @@ const VideoInfo& FrameSource::info() const {
   return state_->info;
 }
 
+Result<void> FrameSource::crop(const cv::Rect& part) {
+  ENSURE(!state_->crop);
+  const cv::Size whole = state_->info.size_px;
+  const cv::Rect rect(part.x, part.y, part.width > 0 ? part.width : whole.width - part.x,
+                      part.height > 0 ? part.height : whole.height - part.y);
+  const bool is_within = rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
+                         rect.width <= whole.width - rect.x && rect.height <= whole.height - rect.y;
+  if (!is_within)
+    return fail("", fmt::format("{} from ({}, {}) on is not within the footage's {}", image_size_text(rect.size()),
+                                rect.x, rect.y, image_size_text(whole)));
+  const cv::Size step = chroma_step(state_->info.layout);
+  if (rect.x % step.width != 0 || rect.y % step.height != 0)
+    return fail("", fmt::format("its corner ({}, {}) is not on a sample of colour, of which this footage has one in "
+                                "{} columns and {} rows",
+                                rect.x, rect.y, step.width, step.height));
+  state_->crop = rect;
+  state_->whole_px = whole;
+  state_->info.size_px = rect.size();
+  return {};
+}
+
 Result<FrameSource::State::Shown> FrameSource::State::show(int n) {
   if (stills) {
     const Result<libav::StillFrames::Found> found = stills->find(n);
@@ -214,8 +238,9 @@ Result<Frame> FrameSource::State::read(int n, bool luma_alone) {
   const AVFrame& image = *shown->image;
   const cv::Size stored_px(image.width, image.height);
   const cv::Size size = libav::oriented(stored_px, shown->orientation);
-  if (size != info.size_px)
-    return fail(where, fmt::format("the image's size changes from {} to {}", image_size_text(info.size_px),
+  const cv::Size expected_px = crop ? whole_px : info.size_px;
+  if (size != expected_px)
+    return fail(where, fmt::format("the image's size changes from {} to {}", image_size_text(expected_px),
                                    image_size_text(size)));
   const libav::Conversion wanted{.layout = info.layout, .bit_depth = info.bit_depth};
   Result<Frame> frame =
@@ -240,8 +265,12 @@ Result<LumaFrame> FrameSource::read_luma(int n) {
 
 Result<Frame> FrameSource::read(int n, bool luma_alone) {
   ENSURE(n >= 0 && n < state_->info.frame_count());
-  if (state_->shared) return state_->shared->read(state_->reader, n);
-  Result<Frame> frame = guarded([&] { return state_->read(n, luma_alone); });
+  const auto cropped = [&](Result<Frame> whole) -> Result<Frame> {
+    if (!whole || !state_->crop) return whole;
+    return part_of(*whole, *state_->crop);
+  };
+  if (state_->shared) return guarded([&] { return cropped(state_->shared->read(state_->reader, n)); });
+  Result<Frame> frame = guarded([&] { return cropped(state_->read(n, luma_alone)); });
   // After a cancellation the result may be incomplete.
   if (state_->cancel != nullptr && state_->cancel->load()) return libav::interrupted();
   // Checked after reading: the result may mix the old and the new file.

@@ -94,6 +94,11 @@ class FrameSource {
 
   [[nodiscard]] const VideoInfo& info() const;
 
+  // From now on the frames are this part of the image, with VideoInfo::size_px; before any is read. Width or height 0:
+  // all to the right or lower edge. Error bad_data, with what is wrong alone: it is not within the image, or its corner
+  // not on a chroma sample.
+  [[nodiscard]] Result<void> crop(const cv::Rect& part);
+
   // Frame n, 0 <= n < frame_count(). It depends on the file and n alone. Where the frame itself is damaged, the result
   // is the last intact frame before it or, if there is none, the first intact one, with `damaged` set.
   // Errors: bad_data (the image's size changes), cannot_read (the file has changed since it was opened), interrupted.

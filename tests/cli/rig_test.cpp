@@ -3,9 +3,13 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
+#include "cli/program.h"
+#include "cli/tiny_project.h"
 #include "project/json.h"
+#include "support/files.h"
 #include "support/process.h"
 #include "support/test_data.h"
 
@@ -114,6 +118,70 @@ TEST_CASE("the clocks of the sample rig are found by its cameras' turns, with an
       CHECK(std::abs(error_s) < 0.005);
     }
   }
+}
+
+TEST_CASE("two cameras in one image, as of a stereo camera, give what FFmpeg's crop of each gives") {
+  const TinyProject tiny(10);
+  const auto in = [&](const std::string& name) { return "'" + tiny.file(name).string() + "'"; };
+  const auto ffmpeg = [](const std::string& arguments) {
+    return std::system(("ffmpeg -v error -y " + arguments + " </dev/null >/dev/null 2>&1").c_str()) == 0;
+  };
+  const std::string lossless = " -c:v ffv1 -level 3 ";
+  if (!ffmpeg("-f lavfi -i testsrc2=size=132x52:rate=25:duration=0.4 -pix_fmt yuv420p" + lossless + in("both.mkv")))
+    return say_skipped("ffmpeg is not installed");
+  for (const char* const folder : {"left", "right"}) std::filesystem::create_directory(tiny.file(folder));
+  REQUIRE(ffmpeg("-i " + in("both.mkv") + " -vf crop=64:48:2:4:exact=1" + lossless + in("left/both.mkv")));
+  REQUIRE(ffmpeg("-i " + in("both.mkv") + " -vf crop=64:48:68:4:exact=1" + lossless + in("right/both.mkv")));
+  const std::string intruders = text_of(tiny.file("p.json")).substr(text_of(tiny.file("p.json")).find("\"intruders\""));
+  const auto project = [&](const std::string& left, const std::string& right) {
+    return R"({"sigs": 1, "name": "pair", "export": {"video": {"codec": "ffv1"}, "labels": ["csv"]}, "cameras": [
+      {"name": "left", "footage": {)" +
+           left + R"(, "calibration": "lens.xml"}},
+      {"name": "right", "footage": {)" +
+           right + R"(, "calibration": "lens.xml"}, "mount": {"position_m": [0, 1, 0]}}],
+      )" + intruders;
+  };
+  const std::string size = R"("width_px": 64, "height_px": 48)";
+  write_file(tiny.file("one.json"),
+             project(R"("video": "both.mkv", "crop": {"left_px": 2, "top_px": 4, )" + size + "}",
+                     R"("video": "both.mkv", "crop": {"left_px": 68, "top_px": 4, "height_px": 48})"));
+  write_file(tiny.file("two.json"), project(R"("video": "left/both.mkv")", R"("video": "right/both.mkv")"));
+  for (const std::string name : {"one", "two"}) {
+    const Run done = run_sigs("export " + in(name + ".json") + " --progress none --out " + in(name));
+    CAPTURE(done.err);
+    REQUIRE(done.status == 0);
+    for (const std::string camera : {"left", "right"}) {
+      REQUIRE(ffmpeg("-i " + in(name + "/pair." + camera + ".mkv") + " -f framemd5 " + in(name + camera)));
+      const Run frame = run_sigs("frame " + in(name + ".json") + " --camera " + camera + " --frame 5 --out " +
+                                 in(name + camera + "_frame"));
+      CAPTURE(frame.err);
+      CHECK(frame.status == 0);
+    }
+  }
+  for (const std::string camera : {"left", "right"}) {
+    CAPTURE(camera);
+    CHECK(rig_says(text_of(tiny.file("one" + camera)), "64x48"));
+    CHECK(text_of(tiny.file("one" + camera)) == text_of(tiny.file("two" + camera)));
+    CHECK(text_of(tiny.file("one/pair." + camera + ".csv")) == text_of(tiny.file("two/pair." + camera + ".csv")));
+    int images = 0;
+    for (const auto& image : std::filesystem::recursive_directory_iterator(tiny.file("one" + camera + "_frame"))) {
+      if (image.path().extension() != ".png") continue;
+      const auto twin = tiny.file("two" + camera + "_frame") / image.path().filename();
+      CHECK(text_of(image.path()) == text_of(twin));
+      ++images;
+    }
+    CHECK(images > 0);
+  }
+  CHECK(text_of(tiny.file("oneleft")) != text_of(tiny.file("oneright")));
+  const auto refused = [&](const std::string& set) {
+    return run_sigs("export " + in("p.json") + " --set footage.video=both.mkv " + set + " --out " + in("none"));
+  };
+  const Run beyond = refused("--set footage.crop.left_px=100 --set footage.crop.width_px=64");
+  CHECK(beyond.status == 65);
+  CHECK_MESSAGE(rig_says(beyond.err, "64x52 from (100, 0) on is not within the footage's 132x52"), beyond.err);
+  CHECK(rig_says(refused("--set footage.crop.left_px=132").err, "is not within"));
+  CHECK(rig_says(refused("--set footage.crop.left_px=1").err, "is not on a sample of colour"));
+  CHECK(rig_says(refused("--set footage.crop.left_px=2 --set export.video.codec=source").err, "copies packets"));
 }
 
 }  // namespace sigs::test

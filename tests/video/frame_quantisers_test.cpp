@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
@@ -191,4 +192,28 @@ TEST_CASE("a damaged frame has the quantisers of the frame that stands in for it
   CHECK(frame->damaged);
   REQUIRE(frame->quantisers != nullptr);
   CHECK(cv::norm(frame->quantisers->blocks, intact.read(11)->quantisers->blocks, cv::NORM_INF) == 0);
+}
+
+TEST_CASE("the quantisers of a part are those that the whole has at its pixels") {
+  auto whole = std::make_shared<FrameQuantisers>();
+  whole->blocks.create(5, 7, CV_16SC1);
+  for (int i = 0; i < 35; ++i) whole->blocks.at<short>(i / 7, i % 7) = static_cast<short>(i);
+  whole->origin_px = {-6, -15};
+  const auto at_pixel = [](const FrameQuantisers& quantisers, int x, int y) {
+    return quantisers.at((x - quantisers.origin_px.x) / 16, (y - quantisers.origin_px.y) / 16);
+  };
+  for (const cv::Rect part : {cv::Rect(0, 0, 106, 65), cv::Rect(0, 0, 1, 1), cv::Rect(9, 0, 3, 3),
+                              cv::Rect(10, 1, 64, 32), cv::Rect(50, 31, 56, 34), cv::Rect(105, 64, 1, 1)}) {
+    const auto here = part_of(whole, part);
+    CHECK(here->origin_px.x <= 0);
+    CHECK(here->origin_px.x > -16);
+    CHECK(here->origin_px.y <= 0);
+    CHECK(here->origin_px.y > -16);
+    int wrong = 0;
+    for (int y = 0; y < part.height; ++y)
+      for (int x = 0; x < part.width; ++x)
+        wrong += at_pixel(*here, x, y) != at_pixel(*whole, part.x + x, part.y + y) ? 1 : 0;
+    CHECK(wrong == 0);
+  }
+  CHECK(part_of(std::shared_ptr<const FrameQuantisers>(), cv::Rect(0, 0, 4, 4)) == nullptr);
 }
