@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/preview/preview_state.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <deque>
