@@ -16,7 +16,6 @@
 #include "base/stopwatch.h"
 #include "calibration/board.h"
 #include "calibration/board_calibration.h"
-#include "calibration/board_footage.h"
 #include "calibration_cases/case_score.h"
 #include "made_boards/board_cases.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/statistics.h"
-#include "export/encounter_files.h"
+#include "export/export_files.h"
 #include "labels/labels.h"
 #include "project/json.h"
 #include "scene/opened_project.h"

@@ -9,7 +9,6 @@
 
 #include "base/stopwatch.h"
 #include "encounter_model/model_flight.h"
-#include "encounter_model/placement.h"
 
 namespace {
 

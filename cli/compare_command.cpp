@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "appearance/target_silhouette.h"
+#include "appearance/target_look.h"
 #include "base/csv.h"
 #include "base/text.h"
 #include "cli/commands.h"

@@ -16,8 +16,7 @@
 #include "base/allocator.h"
 #include "base/paths.h"
 #include "base/text.h"
-#include "cli/dataset_domain.h"
-#include "cli/dataset_table.h"
+#include "cli/dataset_command.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
@@ -266,7 +265,7 @@ Result<void> check_modes(const DatasetOptions& options) {
     return fail(options.recipe.string(),
                 "is a folder: a dataset that was made goes with --coverage, --domain or --data-sheet, without --out; "
                 "give the recipe's file for all else",
-                fs::exists(options.recipe / kIndexName, code) ? ErrorKind::usage : ErrorKind::cannot_read);
+                std::filesystem::exists(options.recipe / kIndexName, code) ? ErrorKind::usage : ErrorKind::cannot_read);
   if (!fill.empty() && (options.domain.empty() || is_made))
     return fail("--fill",
                 is_made ? "needs the recipe, in whose folder its paths start: sigs dataset RECIPE --out DIR --coverage "

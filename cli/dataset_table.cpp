@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/dataset_table.h"
+#include "cli/dataset_command.h"
 
 #include <fmt/format.h>
 

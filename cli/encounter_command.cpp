@@ -18,7 +18,7 @@
 #include "cli/path_project.h"
 #include "cli/process.h"
 #include "encounter/daa_file.h"
-#include "encounter/encounter_report.h"
+#include "encounter/encounter.h"
 #include "encounter/well_clear.h"
 #include "scene/flight.h"
 #include "scene/opened_project.h"

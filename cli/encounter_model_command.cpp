@@ -15,7 +15,7 @@
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
-#include "encounter_model/model_report.h"
+#include "encounter_model/model_flight.h"
 
 namespace sigs::cli {
 

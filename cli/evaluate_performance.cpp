@@ -8,13 +8,14 @@
 
 #include "base/json.h"
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/evaluation_folder.h"
 #include "cli/options.h"
 #include "cli/performance_inputs.h"
 #include "cli/process.h"
 #include "performance/performance_report.h"
-#include "performance/risk_report.h"
+#include "performance/risk.h"
 
 namespace sigs::cli {
 

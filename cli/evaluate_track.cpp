@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "cli/detect_inputs.h"
-#include "cli/evaluate_track_set.h"
 #include "cli/evaluation_folder.h"
 #include "cli/process.h"
 #include "cli/tracked_clip.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/evaluate_track_set.h"
+#include "cli/tracked_clip.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@
 #include "cli/detect_inputs.h"
 #include "cli/evaluation_folder.h"
 #include "cli/process.h"
-#include "evaluation/readers/sequence_truth.h"
+#include "evaluation/readers/truth_files.h"
 #include "evaluation/reports/report.h"
 
 namespace sigs::cli {

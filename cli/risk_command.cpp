@@ -20,7 +20,7 @@
 #include "cli/process.h"
 #include "encounter/daa_file.h"
 #include "encounter_model/model_flight.h"
-#include "performance/risk_report.h"
+#include "performance/risk.h"
 #include "plot/plot.h"
 
 namespace sigs::cli {

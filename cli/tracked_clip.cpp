@@ -23,7 +23,7 @@
 #include "cli/process.h"
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/readers/clip_truth.h"
-#include "evaluation/readers/sequence_truth.h"
+#include "evaluation/readers/truth_files.h"
 #include "export/frame_stream.h"
 #include "labels/labels.h"
 

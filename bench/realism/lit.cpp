@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "accuracy/csv.h"
-#include "appearance/target_silhouette.h"
+#include "appearance/target_look.h"
 #include "base/statistics.h"
 #include "base/threads.h"
 #include "comparison/inserted_target.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "accuracy/csv.h"
-#include "appearance/target_silhouette.h"
+#include "appearance/target_look.h"
 #include "comparison/inserted_target.h"
 #include "scene/opened_project.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "appearance/target_silhouette.h"
+#include "appearance/target_look.h"
 #include "base/statistics.h"
 #include "realism/samples.h"
 #include "scene/opened_project.h"

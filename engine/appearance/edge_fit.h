@@ -1,14 +1,59 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <glm/glm.hpp>
+#include <opencv2/core.hpp>
 #include <span>
 #include <vector>
 
 #include "appearance/estimate.h"
-#include "appearance/straight_edges.h"
 #include "video/color_space.h"
 
 namespace sigs {
+
+// Straight, strong, isolated edges of an image, and the profile across each of them, sampled finer than the pixels as
+// in ISO 12233 (slanted-edge method): an edge that lies oblique to the rows passes them at every fraction of a pixel.
+
+// A piece of a straight line. Positions are of samples: (0, 0) is the centre of the first pixel.
+struct EdgeLine {
+  glm::dvec2 at_px{0, 0};   // its middle
+  glm::dvec2 normal{1, 0};  // unit vector, from the dark side to the bright one
+  double half_length_px = 0;
+};
+
+// Where the samples of a plane lie among the luma samples: at step * index + offset.
+struct PlaneGrid {
+  glm::dvec2 step_px{1, 1};
+  glm::dvec2 offset_px{0, 0};
+};
+
+// The mean code value by distance from a line; distances beyond 0 lie on the normal's side.
+struct EdgeBins {
+  std::vector<double> distance_px;  // mean distance of the samples of each bin, rising; luma samples
+  std::vector<double> code;         // mean of the samples
+  std::vector<double> count;        // number of samples, at least 1
+  double noise = 0;                 // standard deviation of a sample about the profile
+};
+
+struct StraightEdge {
+  EdgeLine line;
+  EdgeBins bins;
+  double dark = 0;  // code values of the two sides
+  double bright = 0;
+  double steepness = 0;  // largest slope over the contrast, 1/px: the sharper the greater
+};
+
+// The samples of a plane within half_width_px of a line, in bins of bin_px.
+[[nodiscard]] EdgeBins binned(const cv::Mat& plane, const PlaneGrid& grid, const EdgeLine& line, double half_width_px,
+                              double bin_px);
+
+inline constexpr double kEdgeHalfWidth_px = 8;  // of the profiles
+
+// Up to max_count edges of a luma plane, CV_8UC1, the steepest first. Each has an even dark and an even bright side
+// whose difference is at least 30 codes and 12 times the noise, is straight within 0.15 px over at least 24 px, and
+// meets the pixels at enough fractions of a pixel to be sampled every quarter of one.
+//   lowest, highest  code values of black and white: edges that are clipped there are left out
+[[nodiscard]] std::vector<StraightEdge> straight_edges(const cv::Mat& luma, int lowest, int highest, int max_count);
 
 // How a camera shows a perfect edge, and the fit of that to measured profiles.
 

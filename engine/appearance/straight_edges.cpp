@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "appearance/straight_edges.h"
+#include "appearance/edge_fit.h"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "appearance/sun.h"
-#include "appearance/target_silhouette.h"
+#include "appearance/target_look.h"
 #include "base/pose.h"
 
 namespace sigs {

@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "appearance/target_silhouette.h"
 #include "base/statistics.h"
 
 namespace sigs {

@@ -9,7 +9,6 @@
 
 #include "base/least_squares.h"
 #include "ego_motion/attitudes.h"
-#include "ego_motion/gyro_fusion.h"
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
 

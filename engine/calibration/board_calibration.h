@@ -8,7 +8,7 @@
 #include "base/result.h"
 #include "calibration/board.h"
 #include "calibration/calibration_file.h"
-#include "calibration/lens_projection.h"
+#include "calibration/lens_fit.h"
 #include "camera/lens.h"
 
 namespace sigs {

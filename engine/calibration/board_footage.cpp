@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/board_footage.h"
+#include "calibration/board.h"
 
 #include <fmt/format.h>
 

@@ -1,16 +1,59 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "calibration/board.h"
-#include "calibration/lens_projection.h"
+#include "camera/lens.h"
 
 namespace sigs {
+
+// The lens models that are fitted, and their projection with derivatives. Points are in OpenCV's optical frame: x
+// right, y down, z forward.
+
+// From the simplest to the most flexible.
+enum class FitModel {
+  pinhole,          // fx fy cx cy
+  brown_conrady_5,  // and k1 k2 p1 p2 k3
+  kannala_brandt,   // and k1 k2 k3 k4 of the angle
+  brown_conrady_8,  // and k1 k2 p1 p2 k3 k4 k5 k6: a quotient of two polynomials
+};
+
+// "pinhole", "Brown-Conrady 5", "Kannala-Brandt", "Brown-Conrady 8".
+[[nodiscard]] const char* name_of(FitModel model);
+
+// Number of intrinsics with fx fy cx cy: 4, 9, 8, 12.
+[[nodiscard]] int intrinsic_count(FitModel model);
+
+constexpr int kMaxIntrinsics = 12;
+
+// fx fy cx cy, then the coefficients in OpenCV's order.
+using Intrinsics = std::vector<double>;
+
+[[nodiscard]] LensParameters lens_of(FitModel model, const Intrinsics& intrinsics);
+
+// A pixel and how it moves with the point and with the intrinsics.
+struct ProjectedPoint {
+  glm::dvec2 at_px;
+  std::array<glm::dvec3, 2> by_point;                               // of x, of y
+  std::array<std::array<double, kMaxIntrinsics>, 2> by_intrinsics;  // beyond intrinsic_count() they are 0
+};
+
+// The pixel of a point by the model's formula (OpenCV's projectPoints and fisheye::projectPoints), also beyond the
+// field in which it is one to one. Nothing where the formula has no value: behind a pinhole, at the camera, at a
+// denominator of 0.
+[[nodiscard]] std::optional<ProjectedPoint> projected(FitModel model, const Intrinsics& intrinsics,
+                                                      const glm::dvec3& p_in_optical);
+
+// The pixel alone.
+[[nodiscard]] std::optional<glm::dvec2> pixel_of(FitModel model, const Intrinsics& intrinsics,
+                                                 const glm::dvec3& p_in_optical);
 
 // Fits a lens and the board's poses to the corners seen: least squares of the distances in the image (Zhang 2000) by
 // the method of Levenberg and Marquardt. The poses are eliminated from the equations (Triggs et al. 1999, section 6).

@@ -79,7 +79,7 @@ struct InsertedView {
 class Insertion {
  public:
   // Chooses the attitude and finds the distance. The project's footage and camera give way to the clip's frames.
-  //   middle_px  where, in the middle frame (similar_place() in appearance/target_silhouette.h)
+  //   middle_px  where, in the middle frame (similar_place() in appearance/target_look.h)
   // The stretch, files and context must outlive this object. Errors: as posed_scene and compose_frame.
   [[nodiscard]] static Result<Insertion> make(const Project& project, const Stretch& stretch, const FootageShape& shape,
                                               const MeasuredTarget& real, cv::Point2d middle_px,

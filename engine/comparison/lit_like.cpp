@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "appearance/target_silhouette.h"
+#include "appearance/target_look.h"
 #include "base/statistics.h"
 #include "base/threads.h"
 #include "comparison/inserted_target.h"

@@ -27,7 +27,7 @@ struct LitLikeControl {
 };
 
 // Looks at a target in `box` of a frame: an aircraft before the sky, or anything else that the sun lights and that
-// differs from what is around it (appearance/target_silhouette.h). The project's intruder is drawn beside it, at a
+// differs from what is around it (appearance/target_look.h). The project's intruder is drawn beside it, at a
 // place with a like background, as large and about as wide for its height, in eight views, under the project's own
 // light; a point light becomes the sun first. The logarithm of the luminance at five quantiles, from the darkest to the
 // brightest parts, is compared: the exposure is multiplied by the median ratio, and the drawing done again, as what is

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compositor/h264_residual.h"
+#include "compositor/recompression.h"
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "base/ensure.h"
-#include "compositor/h264_residual.h"
 #include "video/frame_quantisers.h"
 
 namespace sigs {

@@ -107,7 +107,7 @@ struct RelativePath {
                                                                         double fixed_share);
 
 // Plans a flight of kind encounter_model or recorded: a flight that was drawn or recorded is turned about the vertical
-// and moved as a whole, so that its closest approach to the camera is as asked (encounter_model/placement.h):
+// and moved as a whole, so that its closest approach to the camera is as asked (encounter_model/model_flight.h):
 //   - at time_of_closest_approach_s the horizontal offset is |hmd_m|, at right angles to the horizontal relative
 //     velocity, so that the horizontal range has a minimum there, and the intruder is vmd_m above the camera
 //   - it comes from bearing_deg

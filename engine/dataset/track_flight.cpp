@@ -14,7 +14,6 @@
 #include "base/ensure.h"
 #include "base/text.h"
 #include "encounter_model/model_flight.h"
-#include "encounter_model/placement.h"
 #include "spline/trajectory.h"
 
 namespace sigs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ego_motion/gyro_fusion.h"
+#include "ego_motion/attitudes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "encounter/encounter_report.h"
+#include "encounter/encounter.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "encounter_model/placement.h"
+#include "encounter_model/model_flight.h"
 
 #include <fmt/format.h>
 

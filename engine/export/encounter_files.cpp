@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "export/encounter_files.h"
+#include "export/export_files.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "base/xml_text.h"
-#include "encounter/encounter_report.h"
+#include "encounter/encounter.h"
 #include "labels/label_files.h"
 #include "scene/flight.h"
 

@@ -20,7 +20,7 @@
 
 namespace sigs {
 
-// What follows the project's name in the file that sums its encounters up (engine/export/encounter_files.h).
+// What follows the project's name in the file that sums its encounters up (engine/export/export_files.h).
 inline constexpr std::string_view kEncounterSuffix = ".encounter.json";
 
 struct ExportRequest {

@@ -8,7 +8,7 @@
 #include "base/ensure.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
-#include "export/encounter_files.h"
+#include "export/export_files.h"
 #include "scene/opened_project.h"
 #include "scene/visibility.h"
 

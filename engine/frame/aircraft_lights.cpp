@@ -10,7 +10,7 @@
 #include "base/pose.h"
 #include "compositor/haze.h"
 #include "frame/render_plan.h"
-#include "render/rotor_view.h"
+#include "render/renderer.h"
 
 namespace sigs {
 

@@ -20,7 +20,6 @@
 #include "base/pose.h"
 #include "compositor/blend.h"
 #include "compositor/classic.h"
-#include "frame/post_blend_stages.h"
 #include "frame/render_plan.h"
 #include "video/color_space.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/post_blend_stages.h"
+#include "frame/composite.h"
 
 #include <algorithm>
 #include <cstdint>

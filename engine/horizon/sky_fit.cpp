@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "horizon/sky_fit.h"
+#include "horizon/cloud_map.h"
 
 namespace sigs {
 

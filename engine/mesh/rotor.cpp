@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/rotor.h"
+#include "mesh/mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "model_import/found_rotors.h"
+#include "model_import/scene_file.h"
 
 #include <fmt/format.h>
 

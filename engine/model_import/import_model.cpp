@@ -10,7 +10,6 @@
 
 #include "first_project/first_model.h"
 #include "mesh/geometry.h"
-#include "model_import/found_rotors.h"
 #include "model_import/scene_file.h"
 
 namespace sigs {

@@ -9,7 +9,7 @@
 #include "base/pose.h"
 #include "base/text.h"
 #include "labels/label_text.h"
-#include "performance/risk_report.h"
+#include "performance/risk.h"
 
 namespace sigs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "performance/risk_report.h"
+#include "performance/risk.h"
 
 #include <fmt/format.h>
 

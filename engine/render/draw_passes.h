@@ -2,14 +2,18 @@
 #pragma once
 
 #include <functional>
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
+#include "base/pose.h"
 #include "base/result.h"
+#include "camera/virtual_camera.h"
 #include "mesh/mesh.h"
 #include "render/draw_list.h"
 #include "render/gl_objects.h"
 #include "render/gpu_mesh.h"
+#include "render/renderer.h"
 
 namespace sigs {
 
@@ -44,5 +48,11 @@ using SetRotor = std::function<void(const Program&, int material)>;
 // Draws glass and the other texels of cutouts, blended in the order of the list.
 PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted,
                             const SetRotor& set_rotor);
+
+// The turn of the blades and where they are, for the program in use.
+//   piece  of the view, which is drawn
+void set_rotor_uniforms(const Program& program, const Rotor& rotor,
+                        const Pose<frame::View, frame::Body>& view_from_body, const VirtualCamera& view,
+                        const cv::Rect& piece, const Shutter& shutter);
 
 }  // namespace sigs

@@ -15,9 +15,20 @@
 #include "camera/virtual_camera.h"
 #include "mesh/mesh.h"
 #include "render/light.h"
-#include "render/rotor_view.h"
 
 namespace sigs {
+
+// When the shutter is open, in which rotors turn. The rows of a rolling shutter are exposed one after the other, so the
+// time changes over a view.
+struct Shutter {
+  // A guess for footage that does not tell: between a bright day (1/1000 s and less) and a dull one (1/200 s).
+  static constexpr double kAssumedExposure_s = 1.0 / 500;
+
+  double time_s = 0;                       // the middle of the exposure, of the whole image's middle row
+  double exposure_s = kAssumedExposure_s;  // 0 or more
+  double center_s = 0;                     // how much later the view's centre is exposed
+  glm::dvec2 s_per_px{0, 0};               // how much later each pixel to the right and down
+};
 
 // Counts of a renderer's operations since its creation.
 struct RenderCounts {

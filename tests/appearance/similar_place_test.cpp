@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "appearance/target_silhouette.h"
+#include "appearance/target_look.h"
 
 #include <doctest/doctest.h>
 

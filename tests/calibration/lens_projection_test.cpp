@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/lens_projection.h"
+#include "calibration/lens_fit.h"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calibration/board.h"
-#include "calibration/lens_projection.h"
+#include "calibration/lens_fit.h"
 #include "camera/lens.h"
 #include "made_boards/board_cases.h"
 

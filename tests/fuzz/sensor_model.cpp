@@ -6,8 +6,8 @@
 #include "base/ensure.h"
 #include "base/json.h"
 #include "fuzz/fuzz_input.h"
+#include "performance/risk.h"
 #include "performance/risk_flight.h"
-#include "performance/risk_report.h"
 
 namespace sigs::fuzz {
 

@@ -4,7 +4,6 @@
 #include "base/ensure.h"
 #include "evaluation/readers/aot_files.h"
 #include "evaluation/readers/clip_truth.h"
-#include "evaluation/readers/sequence_truth.h"
 #include "evaluation/readers/truth_files.h"
 #include "fuzz/fuzz_input.h"
 

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "performance/risk_flight.h"
-#include "performance/risk_report.h"
 
 namespace sigs::test {
 namespace {

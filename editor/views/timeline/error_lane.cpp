@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "editor/views/timeline/lane_marks.h"
+#include "editor/views/timeline/lanes.h"
 
 namespace sigs::editor {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "editor/document/waypoint_edits.h"
-#include "editor/views/timeline/lane_marks.h"
+#include "editor/views/timeline/lanes.h"
 #include "editor/views/waypoint_actions.h"
 
 namespace sigs::editor {

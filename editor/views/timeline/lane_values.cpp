@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/lane_values.h"
+#include "editor/views/timeline/lanes.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 
 #include "base/ensure.h"
 #include "base/pose.h"
-#include "editor/views/timeline/lane_marks.h"
 
 namespace sigs::editor {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "editor/document/field_edits.h"
-#include "editor/views/timeline/lane_marks.h"
+#include "editor/views/timeline/lanes.h"
 #include "editor/views/waypoint_actions.h"
 
 namespace sigs::editor {

@@ -12,7 +12,7 @@
 #include "editor/preview/scoring.h"
 #include "editor/views/context.h"
 #include "editor/views/results/results_view.h"
-#include "editor/views/timeline/lane_values.h"
+#include "editor/views/timeline/lanes.h"
 #include "editor/views/timeline/ruler.h"
 
 namespace sigs::editor {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/world/picks.h"
+#include "editor/views/world/world_view.h"
 
 #include <fmt/format.h>
 

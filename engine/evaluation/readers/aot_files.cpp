@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "evaluation/readers/json_fields.h"
+#include "evaluation/readers/json_reading.h"
 #include "evaluation/readers/results_formats.h"
 #include "evaluation/readers/truth_builder.h"
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <span>
 
-#include "evaluation/readers/json_entries.h"
+#include "evaluation/readers/json_reading.h"
 #include "evaluation/readers/text_parsing.h"
 
 namespace sigs {

@@ -12,7 +12,7 @@
 #include "base/csv.h"
 #include "base/input_file.h"
 #include "base/text.h"
-#include "evaluation/readers/json_fields.h"
+#include "evaluation/readers/json_reading.h"
 #include "evaluation/readers/text_parsing.h"
 
 namespace sigs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "evaluation/readers/sequence_truth.h"
+#include "evaluation/readers/truth_files.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/views/timeline/lane_marks.h"
+#include "editor/views/timeline/lanes.h"
 
 #include <doctest/doctest.h>
 #include <imgui.h>

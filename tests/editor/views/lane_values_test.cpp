@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "editor/views/timeline/lane_values.h"
+#include "editor/views/timeline/lanes.h"
 
 using namespace sigs;
 using namespace sigs::editor;

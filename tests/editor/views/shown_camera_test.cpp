@@ -8,7 +8,7 @@
 #include "base/pose.h"
 #include "editor/views/inspector/inspector_view.h"
 #include "editor/views/view_fixture.h"
-#include "editor/views/world/picks.h"
+#include "editor/views/world/world_view.h"
 #include "scene/scene_parts.h"
 #include "spline/piecewise_cubic.h"
 
