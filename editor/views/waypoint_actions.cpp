@@ -76,6 +76,20 @@ std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder
                          context.document.last_frame());
 }
 
+bool has_headings(const ViewContext& context, int intruder) {
+  return plan_of(context, intruder).attitude != AttitudeKind::path;
+}
+
+void turn_waypoint(const ViewContext& context, int intruder, int waypoint, std::optional<double> heading_deg,
+                   const std::string& gesture) {
+  context.edits.change(
+      "turn waypoint",
+      [=](Project& project) {
+        plan_of(project, intruder).waypoints[static_cast<std::size_t>(waypoint)].heading_deg = heading_deg;
+      },
+      gesture);
+}
+
 std::optional<glm::dvec3> position_of(const ViewContext& context, int intruder, double frame) {
   if (!context.shown.scene) return std::nullopt;
   const DraftScene& draft = context.shown.scene->draft;

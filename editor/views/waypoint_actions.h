@@ -30,6 +30,12 @@ namespace sigs::editor {
 // The moment of each of an intruder's waypoints, in frames of the footage; not whole where frames are spread evenly.
 [[nodiscard]] std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder);
 
+// Whether its waypoints have headings of their own: what flies along its nose has none.
+[[nodiscard]] bool has_headings(const ViewContext& context, int intruder);
+// Turns the nose at a waypoint, in degrees from world X to the right; none: as the other waypoints or the path have it.
+void turn_waypoint(const ViewContext& context, int intruder, int waypoint, std::optional<double> heading_deg,
+                   const std::string& gesture);
+
 // Where an intruder is in a frame (world, metres), by the newest scene that is open; nothing where no scene is open or
 // the intruder is not in it.
 [[nodiscard]] std::optional<glm::dvec3> position_of(const ViewContext& context, int intruder, double frame);

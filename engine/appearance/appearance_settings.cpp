@@ -279,7 +279,7 @@ Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footag
   if (!range) return failed(range.error());
   SceneFiles files;
   if (states_lens(project.footage)) {
-    Result<Camera, Problem> camera = scene_camera(project, footage, files);
+    Result<Camera, Problem> camera = scene_camera(project, scene.footage, files);
     if (!camera) return failed(camera.error());
     scene.camera = *std::move(camera);
     known->has_calibration = true;

@@ -203,7 +203,7 @@ std::vector<MeasuredLayers> measured_layers(const Scene& scene, const std::vecto
                    .name = intruder.name,
                    .camera_from_body = layers.placed.camera_from_body,
                    .world_from_body = layers.placed.world_from_body,
-                   .silhouette = layers.silhouette,
+                   .silhouette = layers.body ? layers.body : layers.silhouette,
                    .outermost_m = intruder.model->outermost_m,
                    .whole_area_px = layers.whole_area_px,
                    .inside = clipped(layers.warped, layers.window),

@@ -140,7 +140,7 @@ Box coarse_box(const Box& box_px, double step) {
 // When the pixels of a view are exposed, which only a model with rotors asks for. Over a view, rows of the image are
 // taken to follow each other evenly.
 Shutter shutter_of(const RenderPlan& plan, const VirtualCamera& view, const Scene& scene) {
-  Shutter shutter{.time_s = plan.time_s};
+  Shutter shutter{.time_s = plan.time_s, .rotors_cover = scene.rotors_count};
   if (plan.exposure_s > 0) shutter.exposure_s = plan.exposure_s;
   const double last_row = scene.footage.size_px.height - 1;
   if (!(scene.motion.readout_s > 0) || !(last_row > 0)) return shutter;
@@ -224,11 +224,14 @@ IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, cons
   if (scene.motion.readout_s > 0) {
     const auto pose_at = [&](double since_s) { return camera_from_body_at(scene, id, moment.time_s + since_s); };
     layers.row_motion.emplace(pose_at, scene.footage.size_px.height, scene.motion.readout_s);
-    layers.silhouette = silhouette_of(model.points_m, *layers.row_motion, camera.lens);
-  } else {
-    layers.silhouette = with_covered_poles(silhouette_of(model.points_m, placed.camera_from_body, camera.lens),
-                                           model.mesh, placed.camera_from_body, camera.lens, camera.size_px);
   }
+  const auto seen = [&](const std::vector<glm::vec3>& points_m) {
+    if (layers.row_motion) return silhouette_of(points_m, *layers.row_motion, camera.lens);
+    return with_covered_poles(silhouette_of(points_m, placed.camera_from_body, camera.lens), model.mesh,
+                              placed.camera_from_body, camera.lens, camera.size_px);
+  };
+  layers.silhouette = seen(model.points_m);
+  if (!scene.rotors_count && !model.body_m.empty()) layers.body = seen(model.body_m);
   if (!camera.lens.is_pinhole() && layers.silhouette) layers.op_counts.lens_evaluations = std::ssize(model.points_m);
   layers.sigma_px = sigma_px_of(scene, placed.distance_m());
   if (scene.compositing.method == MethodChoice::direct && moment.exposure_s > 0) {
@@ -294,8 +297,11 @@ constexpr double kMaxBend_codes = 2;  // of what is interpolated: a tenth of it 
 bool may_be_sparing(const RenderPlan& plan, const Scene& scene, const Renderer& renderer) {
   double pixels = 0;
   for (const VirtualCamera& view : plan.views) pixels += view.size_px.area();
-  return scene.compositing.quality == QualityChoice::automatic && scene.compositing.method == MethodChoice::direct &&
-         scene.compositing.supersampling > 1 && !renderer.is_multisampled() && pixels >= kLeastForTwo_px;
+  // Where a cell has something is told by its coverage.
+  const bool covers_all = scene.rotors_count;
+  return covers_all && scene.compositing.quality == QualityChoice::automatic &&
+         scene.compositing.method == MethodChoice::direct && scene.compositing.supersampling > 1 &&
+         !renderer.is_multisampled() && pixels >= kLeastForTwo_px;
 }
 
 Result<std::vector<RenderedView>> coarse_views(const RenderPlan& plan, const Scene& scene, IntruderLayers& layers,

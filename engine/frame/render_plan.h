@@ -42,16 +42,17 @@ struct IntruderLayers {
   Pose<frame::World, frame::Camera> world_from_camera;
   std::optional<RowMotion> row_motion;   // of a rolling shutter; none where all rows are read at once
   std::optional<Silhouette> silhouette;  // of the model's points through the lens
-  cv::Rect window;                       // the image or, of a 360 degree one, as many columns around the intruder
-  double sigma_px = 0;                   // of the blur: the lens' own, and that at this distance
-  MotionKernel motion;                   // in the image, during the exposure; empty: none
-  double motion_px = 0;                  // its length; 0: none
-  std::vector<RenderedView> views;       // empty where no part of it can be in the image
-  std::vector<RenderedView> given_up;    // coarse views that tell too little; their memory serves the next frame's
-  Layer warped;                          // through the lens, with the margin beyond the window that the blurs need
-  Layer hazed;                           // in the footage's tones, behind haze; shares its samples where both are off
-  Layer motion_blurred;                  // blurred by its motion; likewise
-  Layer blurred;                         // clipped to the window; empty where too faint to change any sample
+  std::optional<Silhouette> body;      // the same without rotors; only where those do not count and the model has some
+  cv::Rect window;                     // the image or, of a 360 degree one, as many columns around the intruder
+  double sigma_px = 0;                 // of the blur: the lens' own, and that at this distance
+  MotionKernel motion;                 // in the image, during the exposure; empty: none
+  double motion_px = 0;                // its length; 0: none
+  std::vector<RenderedView> views;     // empty where no part of it can be in the image
+  std::vector<RenderedView> given_up;  // coarse views that tell too little; their memory serves the next frame's
+  Layer warped;                        // through the lens, with the margin beyond the window that the blurs need
+  Layer hazed;                         // in the footage's tones, behind haze; shares its samples where both are off
+  Layer motion_blurred;                // blurred by its motion; likewise
+  Layer blurred;                       // clipped to the window; empty where too faint to change any sample
   Layer occluded;  // without what own body, occluder and clouds hide; shares its samples where they hide nothing
   Layer contrail;  // clipped to the window, without what is hidden; empty: none
   bool contrail_is_nearer = false;     // than the aircraft

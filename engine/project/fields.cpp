@@ -168,6 +168,8 @@ void add_output(FieldList list, ExportSettings& output) {
               "boxes of coco, yolo and voc: so many times as wide and high as what is visible");
   list.number("label_box_margin_px", &output.label_box_margin_px, "px", 0, 1000,
               "and so much more on each side; annotators often leave 4 to 10");
+  list.add("label_rotors", choice_of(output.label_rotors, {"seen", "none"}), "",
+           "whether boxes, areas and visible shares hold the blades that can be seen, or the aircraft without rotors");
   list.add("categories", &output.categories, "",
            "categories that labels count, in this order; empty: those of the intruders");
   static const std::string rig_help = "of several cameras, tables for all of them: " + listed(kRigTableNames);

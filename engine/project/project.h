@@ -164,6 +164,9 @@ struct IntruderSettings {
 enum class ContainerChoice { automatic, mkv, mp4, avi, nut, y4m };
 enum class MasksChoice { none, video, png };
 
+// Whether blades that can be seen, or nothing of a rotor, count in an intruder's boxes, area and visible share.
+enum class LabelRotorsChoice { seen, none };
+
 // The label formats that export.labels may contain: the names of the table in engine/labels/labels.cpp, in its order.
 // They are repeated because this module may not include labels; tests/labels/labels_test.cpp compares them.
 inline constexpr auto kLabelNames = std::to_array<std::string_view>(
@@ -193,6 +196,7 @@ struct ExportSettings {
   double label_min_visible_fraction = 0;
   double label_box_scale = 1;   // boxes of coco, yolo and voc: so much wider and higher than what is visible ...
   int label_box_margin_px = 0;  // ... and so much more on each side, as annotators draw them
+  LabelRotorsChoice label_rotors = LabelRotorsChoice::seen;
   std::vector<std::string> categories;  // empty: those of the intruders, in their order
   std::vector<std::string> rig;         // tables of the whole of several cameras
   std::vector<std::string> encounter;   // volumes of well clear; empty: no truth of the encounter is written

@@ -21,7 +21,7 @@ Programs::Kind kind_of(const Run& run) {
 }
 
 PassCounts draw_runs(const Programs& programs, const GpuMesh& gpu, const std::vector<Run>& runs, bool is_solid_pass,
-                     bool from_outside, const SetRotor& set_rotor) {
+                     bool from_outside, const SetRotor& set_rotor, bool rotors_cover = true) {
   PassCounts counts;
   for (const Run& run : runs) {
     const Programs::Kind kind = kind_of(run);
@@ -35,7 +35,10 @@ PassCounts draw_runs(const Programs& programs, const GpuMesh& gpu, const std::ve
     if (kind == Programs::kRotor) set_rotor(program, run.rotor);
     gpu.bind_texture(run.texture);
     leave_out(from_outside ? run.hidden : CullFace::none);
+    const bool covers = kind != Programs::kRotor || rotors_cover;
+    if (!covers) glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     gpu.draw(run);
+    if (!covers) glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     counts.triangles += run.count / 3;
     ++counts.draw_calls;
   }
@@ -84,7 +87,7 @@ PassCounts draw_solid(const Programs& programs, const GpuMesh& gpu, bool from_ou
 }
 
 PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted,
-                            const SetRotor& set_rotor) {
+                            const SetRotor& set_rotor, bool rotors_cover) {
   if (sorted.runs.empty()) return {};
   glEnablei(GL_BLEND, 0);
   glDisablei(GL_BLEND, 1);  // coverage is replaced, not blended: glass counts as covering
@@ -92,7 +95,7 @@ PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const 
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   gpu.bind_sorted(sorted);
-  return draw_runs(programs, gpu, sorted.runs, false, false, set_rotor);
+  return draw_runs(programs, gpu, sorted.runs, false, false, set_rotor, rotors_cover);
 }
 
 void set_rotor_uniforms(const Program& program, const Rotor& rotor,

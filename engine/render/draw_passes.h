@@ -45,9 +45,9 @@ PassCounts draw_solid(const Programs& programs, const GpuMesh& gpu, bool from_ou
 // Gives the program in use what it needs of the rotor of a material.
 using SetRotor = std::function<void(const Program&, int material)>;
 
-// Draws glass and the other texels of cutouts, blended in the order of the list.
+// Draws glass, rotors and the other texels of cutouts, blended in the order of the list.
 PassCounts draw_transparent(const Programs& programs, const GpuMesh& gpu, const DrawList& sorted,
-                            const SetRotor& set_rotor);
+                            const SetRotor& set_rotor, bool rotors_cover);
 
 // The turn of the blades and where they are, for the program in use.
 //   piece  of the view, which is drawn

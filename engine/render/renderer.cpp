@@ -284,7 +284,7 @@ Result<void> Renderer::State::draw_piece(const Task& task, const Programs& lit, 
   };
   if (depth_first) draw_depth(gpu, from_outside);
   count(draw_solid(lit, gpu, from_outside), counts);
-  count(draw_transparent(lit, gpu, sorted, set_rotor), counts);
+  count(draw_transparent(lit, gpu, sorted, set_rotor, task.shutter.rotors_cover), counts);
   for (const cv::Rect& part :
        task.cells ? copied_in(*task.cells, piece) : std::vector<cv::Rect>{{{0, 0}, piece.size()}}) {
     const cv::Rect in_view = part + piece.tl();

@@ -18,8 +18,8 @@
 
 namespace sigs {
 
-// When the shutter is open, in which rotors turn. The rows of a rolling shutter are exposed one after the other, so the
-// time changes over a view.
+// How rotors are drawn: when the shutter is open, in which they turn. The rows of a rolling shutter are exposed one
+// after the other, so the time changes over a view.
 struct Shutter {
   // A guess for footage that does not tell: between a bright day (1/1000 s and less) and a dull one (1/200 s).
   static constexpr double kAssumedExposure_s = 1.0 / 500;
@@ -28,6 +28,7 @@ struct Shutter {
   double exposure_s = kAssumedExposure_s;  // 0 or more
   double center_s = 0;                     // how much later the view's centre is exposed
   glm::dvec2 s_per_px{0, 0};               // how much later each pixel to the right and down
+  bool rotors_cover = true;                // false: the layer's coverage is that of the body without them
 };
 
 // Counts of a renderer's operations since its creation.

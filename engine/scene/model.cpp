@@ -82,17 +82,30 @@ void add_beam(Mesh& mesh, const glm::vec3& half_m) {
   }
 }
 
+// Of the triangles that are of no rotor.
+std::vector<std::uint32_t> indices_without_rotors(const Mesh& mesh) {
+  std::vector<std::uint32_t> indices;
+  for (const MeshPart& part : mesh.parts)
+    if (!mesh.materials[static_cast<std::size_t>(part.material)].rotor)
+      for (std::uint32_t i = 0; i < part.index_count; ++i) indices.push_back(mesh.indices[part.first_index + i]);
+  return indices;
+}
+
 }  // namespace
 
-std::vector<glm::vec3> measuring_points(const Mesh& mesh) {
+std::vector<glm::vec3> measuring_points(const Mesh& mesh, bool with_rotors) {
   std::vector<glm::vec3> points;
+  const std::vector<std::uint32_t> indices = with_rotors ? mesh.indices : indices_without_rotors(mesh);
   points.reserve(mesh.vertices.size());
-  for (const Vertex& vertex : mesh.vertices) points.push_back(vertex.position_m);
+  if (with_rotors)
+    for (const Vertex& vertex : mesh.vertices) points.push_back(vertex.position_m);
+  else
+    for (const std::uint32_t index : indices) points.push_back(mesh.vertices[index].position_m);
   const double gap_m = glm::length(glm::dvec3(mesh.high_m) - glm::dvec3(mesh.low_m)) / kGapsAlongDiagonal;
-  for (std::size_t i = 0; gap_m > 0 && i + 2 < mesh.indices.size(); i += 3)
+  for (std::size_t i = 0; gap_m > 0 && i + 2 < indices.size(); i += 3)
     for (std::size_t side = 0; side < 3; ++side)
-      add_between(mesh.vertices[mesh.indices[i + side]].position_m,
-                  mesh.vertices[mesh.indices[i + (side + 1) % 3]].position_m, gap_m, points);
+      add_between(mesh.vertices[indices[i + side]].position_m, mesh.vertices[indices[i + (side + 1) % 3]].position_m,
+                  gap_m, points);
   std::sort(points.begin(), points.end(), before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
@@ -147,6 +160,7 @@ LampPlaces lamp_places(const Mesh& mesh) {
 Model model_of(Mesh mesh) {
   Model model{.mesh = std::move(mesh)};
   model.points_m = measuring_points(model.mesh);
+  if (has_rotors(model.mesh)) model.body_m = measuring_points(model.mesh, false);
   model.outermost_m = outermost_points(model.points_m);
   model.shape = shape_of(model.mesh);
   model.lamps = lamp_places(model.mesh);

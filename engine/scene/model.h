@@ -19,6 +19,7 @@ struct LampPlaces {
 struct Model {
   Mesh mesh;
   std::vector<glm::vec3> points_m;     // measuring_points(mesh)
+  std::vector<glm::vec3> body_m;       // the same without rotors; empty: it has none, or nothing else
   std::vector<glm::vec3> outermost_m;  // outermost_points(points_m)
   ModelShape shape;                    // shape_of(mesh)
   LampPlaces lamps;                    // lamp_places(mesh)
@@ -30,7 +31,8 @@ struct Model {
 // The points by which a mesh is measured, each once: its vertices, and points along its edges at most a hundredth of
 // the diagonal of its bounding box apart. The latter are needed because a lens images a straight edge as a curve that
 // the images of its ends do not bound.
-[[nodiscard]] std::vector<glm::vec3> measuring_points(const Mesh& mesh);
+//   with_rotors  false: those of the other parts alone
+[[nodiscard]] std::vector<glm::vec3> measuring_points(const Mesh& mesh, bool with_rotors = true);
 
 // At most 200 of the points that bound the others: for 100 directions the point farthest along the direction, and the
 // one that a paraboloid with the body's diagonal as its radius of curvature touches first, which finds the middles of

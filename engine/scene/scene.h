@@ -151,6 +151,7 @@ struct Scene {
   std::optional<Clouds> clouds = {};
   BoxesByFrame real_aircraft = {};  // that the footage itself shows
   CompositingSettings compositing;
+  bool rotors_count = true;  // in boxes, areas and visible shares; false: the aircraft is measured without them
   AppearanceSettings appearance;
   FootageShape footage;
   int first_frame = 0;                          // of the footage, from 0

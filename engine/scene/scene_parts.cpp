@@ -142,6 +142,7 @@ Scene bare_scene(const Project& project, const FootageShape& footage) {
               .motion = steady_motion(project),
               .light = light_of(project.light),
               .compositing = project.compositing,
+              .rotors_count = project.output.label_rotors != LabelRotorsChoice::none,
               .appearance = project.appearance,
               .footage = footage,
               .horizon_is_known = knows_horizon(project.camera)};

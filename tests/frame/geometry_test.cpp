@@ -291,4 +291,45 @@ TEST_CASE("a real airliner lies where OpenCV projects it through every real cali
   }
 }
 
+TEST_CASE("boxes and areas without rotors are those of the aircraft whose rotors are taken off; images stay") {
+  const std::filesystem::path model = source_dir() / "assets" / "models" / "helicopter";
+  Scenario scenario;
+  // The helicopter's file without the faces of its rotors.
+  std::ifstream whole(model / "helicopter.obj");
+  std::ofstream bare(scenario.path("bare.obj"));
+  bool is_rotor = false;
+  int rotors = 0;
+  for (std::string line; std::getline(whole, line);) {
+    if (line.starts_with("usemtl")) rotors += (is_rotor = line.ends_with("_rotor")) ? 1 : 0;
+    if (!is_rotor || !line.starts_with("f ")) bare << line << '\n';
+  }
+  bare.close();
+  REQUIRE(rotors >= 2);
+  for (const auto& entry : std::filesystem::directory_iterator(model))
+    if (entry.path().extension() != ".obj")
+      std::filesystem::copy_file(entry.path(), scenario.path(entry.path().filename().string()));
+
+  scenario.add((model / "helicopter.obj").string(), {45, 4, -151});
+  const ComposedFrame seen = composed(scenario);
+  scenario.project.output.label_rotors = LabelRotorsChoice::none;
+  const ComposedFrame body = composed(scenario);
+  scenario.project.intruders[0].model.file = scenario.path("bare.obj").string();
+  const ComposedFrame taken_off = composed(scenario);
+
+  for (std::size_t i = 0; i < seen.image.planes.size(); ++i)
+    CHECK(cv::norm(seen.image.planes[i], body.image.planes[i], cv::NORM_INF) == 0);
+  CHECK(cv::norm(seen.mask, body.mask, cv::NORM_INF) == 0);
+  const IntruderTruth& with = seen.truth.intruders.at(0);
+  const IntruderTruth& without = body.truth.intruders.at(0);
+  const IntruderTruth& expected = taken_off.truth.intruders.at(0);
+  REQUIRE((with.visible_box && without.visible_box && expected.visible_box));
+  CHECK(*without.visible_box == *expected.visible_box);
+  CHECK(*without.amodal_box == *expected.amodal_box);
+  CHECK(without.visible_fraction == doctest::Approx(expected.visible_fraction).epsilon(1e-6));
+  CHECK(without.visible_pixels == expected.visible_pixels);
+  CHECK(with.amodal_box->width > without.amodal_box->width + 5);  // the disc is wider than the fuselage is long
+  CHECK(with.visible_box->width > without.visible_box->width);
+  CHECK(without.position_m == with.position_m);
+}
+
 }  // namespace sigs::test

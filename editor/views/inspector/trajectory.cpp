@@ -36,12 +36,6 @@ bool has_problem(const ProblemsByField& problems, const std::string& key) {
   return found != problems.end() && found->first.starts_with(key);
 }
 
-// What flies along its nose has no heading of its own.
-bool has_headings(const ViewContext& context, int intruder) {
-  const TrajectoryPlan& plan = context.project().intruders[static_cast<std::size_t>(intruder)].trajectory;
-  return plan.attitude != AttitudeKind::path;
-}
-
 constexpr int kHeadingColumn = 5;
 
 // Column titles in the colours of the axes.
@@ -160,13 +154,7 @@ void WaypointTable::draw_position(const ViewContext& context, int intruder, int 
 void WaypointTable::draw_heading(const ViewContext& context, int intruder, int waypoint) {
   const std::optional<double> given = waypoints_of(context, intruder)[static_cast<std::size_t>(waypoint)].heading_deg;
   const auto turn = [&](std::optional<double> heading_deg) {
-    context.edits.change(
-        "turn waypoint",
-        [=](Project& project) {
-          TrajectoryPlan& plan = project.intruders[static_cast<std::size_t>(intruder)].trajectory;
-          plan.waypoints[static_cast<std::size_t>(waypoint)].heading_deg = heading_deg;
-        },
-        "inspector heading " + waypoint_key(intruder, waypoint));
+    turn_waypoint(context, intruder, waypoint, heading_deg, "inspector heading " + waypoint_key(intruder, waypoint));
   };
   ImGui::TableSetColumnIndex(kHeadingColumn);
   Field field = *heading_field_;

@@ -144,6 +144,8 @@ std::optional<Selection> WorldMenu::draw(const WorldContext& world) {
 void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, WorldViewState& look) {
   const bool over = ImGui::IsItemHovered();
   hovered_ = {};
+  move_heading(world, canvas, look);
+  if (heading_.is_dragging()) return;
   move_handle(world, canvas, look);
   if (handle_.dragging()) return;
   if (over && holding_ == Holding::nothing && handle_.part() == GizmoPart::none)
@@ -163,12 +165,18 @@ void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, Wo
   if (may_type && pressed(Key::n)) enter_position(world, world.context.document.selection());
 }
 
+void WorldTools::move_heading(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look) {
+  const bool is_free = ImGui::IsItemHovered() && holding_ == Holding::nothing && !handle_.dragging() &&
+                       handle_.part() == GizmoPart::none && !approach_.is_dragging();
+  heading_.update(world, canvas, is_free, look.snap != ImGui::GetIO().KeyCtrl);
+}
+
 void WorldTools::move_approach(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look) {
   const bool is_free = ImGui::IsItemHovered() && holding_ == Holding::nothing && handle_.part() == GizmoPart::none &&
-                       hovered_.what.kind != Selected::waypoint;
+                       hovered_.what.kind != Selected::waypoint && !heading_.has_mouse();
   const double snap_m = snap_now_m(canvas, look, look.eye.target_m);
   approach_.update(world, canvas, is_free, snap_m);
-  if (approach_.has_mouse()) hovered_ = {};
+  if (approach_.has_mouse() || heading_.has_mouse()) hovered_ = {};
 }
 
 void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look) {
@@ -177,10 +185,11 @@ void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canva
   const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
   if (!target) return handle_.abandon_drag();
   const bool was_dragging = handle_.dragging();
-  const GizmoInput input{.camera = canvas.eye(),
-                         .rect = canvas.rect(),
-                         .mouse_is_free = ImGui::IsItemHovered() && holding_ == Holding::nothing,
-                         .snap_m = snap_now_m(canvas, look, target->at_m)};
+  const GizmoInput input{
+      .camera = canvas.eye(),
+      .rect = canvas.rect(),
+      .mouse_is_free = ImGui::IsItemHovered() && holding_ == Holding::nothing && !heading_.has_mouse(),
+      .snap_m = snap_now_m(canvas, look, target->at_m)};
   const GizmoResult answer = handle_.update(target->at_m, input);
   if (!was_dragging && handle_.dragging()) begin_drag(world, *target);
   if (answer.moved_to) {
@@ -205,7 +214,8 @@ void WorldTools::press(const WorldContext& world, const WorldCanvas& canvas) {
   const bool left = ImGui::IsMouseClicked(ImGuiMouseButton_Left);
   const bool middle = ImGui::IsMouseClicked(ImGuiMouseButton_Middle);
   const bool right = ImGui::IsMouseClicked(ImGuiMouseButton_Right);
-  if ((handle_.part() != GizmoPart::none || approach_.has_mouse()) && left) return;  // a handle has had it
+  const bool a_handle_has_it = handle_.part() != GizmoPart::none || approach_.has_mouse() || heading_.has_mouse();
+  if (a_handle_has_it && left) return;
   if (holding_ != Holding::nothing || !(left || middle || right)) return;
   held_px_ = 0;
   hovered_ = pick_at(canvas, world, dv(ImGui::GetMousePos()));
@@ -310,6 +320,8 @@ void WorldTools::draw(WorldCanvas& canvas, const WorldContext& world, const Worl
     if (handle_.dragging() && moved_to_) draw_readout(canvas, *target, snap_now_m(canvas, look, at_m));
   }
   approach_.draw(canvas, world);
+  heading_.draw(canvas, world);
+  if (const std::vector<std::string> lines = heading_.readout(world); !lines.empty()) draw_plate(canvas, lines);
   if (const std::vector<std::string> lines = approach_.readout(); !lines.empty()) draw_plate(canvas, lines);
   draw_entry(world);
   if (const std::optional<Selection> what = menu_.draw(world)) enter_position(world, *what);

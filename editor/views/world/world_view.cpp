@@ -171,7 +171,9 @@ WorldToolbarResult draw_world_toolbar(WorldViewState& look, UiProbe& ui_probe) {
   WorldToolbarResult answer;
   const auto preset = [&](ToolButton button, WorldViewPreset wanted) {
     button.on = look.preset == wanted;
-    return ToolbarItem{.button = button, .clicked = [&answer, wanted] { answer.preset = wanted; }};
+    ToolbarItem item{.button = button, .clicked = [&answer, wanted] { answer.preset = wanted; }};
+    item.drawn = [&ui_probe, id = std::string(button.id)] { ui_probe.note_item("world/" + id); };
+    return item;
   };
   ToolbarItem volumes = toggle_item(
       {"volumes", Icon::cylinder, "", "Volumes of well clear around the camera: export.encounter, else small-uas"},

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "editor/geometry/gizmo.h"
 #include "editor/geometry/lens_projection.h"
@@ -119,6 +120,43 @@ class ApproachHandle {
   std::optional<PresentApproach> left_;
 };
 
+// A level ring around the selected waypoint of an aircraft that has headings of its own (trajectory.attitude), with a
+// knob where its nose points; hollow where the other waypoints or the path decide. Dragged, it gives the waypoint a
+// heading: one undo step; Escape takes it back. Where the ring is seen nearly edge on there is none.
+class HeadingRing {
+ public:
+  // Once per update, before anything is picked.
+  //   mouse_is_free  over the canvas, nothing else has it
+  //   snaps          headings are rounded to 5 degrees, else to a tenth
+  void update(const WorldContext& world, const WorldCanvas& canvas, bool mouse_is_free, bool snaps);
+  // The mouse is over its knob, or drags it: presses are its own.
+  [[nodiscard]] bool has_mouse() const { return is_hovered_ || is_dragging(); }
+  [[nodiscard]] bool is_dragging() const { return dragged_.has_value(); }
+  // While it is dragged, under the view.
+  [[nodiscard]] std::vector<std::string> readout(const WorldContext& world) const;
+  void draw(WorldCanvas& canvas, const WorldContext& world) const;
+
+ private:
+  struct Target {
+    Selection waypoint;
+    glm::dvec3 center_m{0, 0, 0};
+    double heading_rad = 0;  // from world X to the right
+    bool is_given = false;   // the waypoint has it
+  };
+  struct Shape {
+    std::vector<glm::dvec3> ring_m;
+    glm::dvec2 knob{0, 0};  // on the screen
+  };
+  [[nodiscard]] std::optional<Target> target_of(const WorldContext& world) const;
+  [[nodiscard]] static std::optional<Shape> shape_of(const Target& target, const WorldCanvas& canvas);
+  void drag(const WorldContext& world, const WorldCanvas& canvas, bool snaps);
+
+  bool is_hovered_ = false;
+  std::optional<Selection> dragged_;
+  DragGesture gesture_;
+  int gestures_ = 0;
+};
+
 // The menu of the right button, for what was under the mouse when it was clicked.
 class WorldMenu {
  public:
@@ -160,7 +198,8 @@ class WorldTools {
   // What a press beside the handle has become: orbiting or panning the view, or a menu when it is let go.
   enum class Holding { nothing, orbit, pan, menu };
 
-  // The closest approach takes the mouse where no waypoint is nearer.
+  // The heading's knob, then the closest approach, take the mouse where nothing nearer has it.
+  void move_heading(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
   void move_approach(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
   // Lets the handle of what is selected take the mouse, and moves that point.
   void move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
@@ -179,6 +218,7 @@ class WorldTools {
 
   GizmoHandle handle_;
   ApproachHandle approach_;
+  HeadingRing heading_;
   // What the handle moves while it is dragged.
   Selection dragged_;
   DragGesture gesture_;

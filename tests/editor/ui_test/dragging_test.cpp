@@ -187,4 +187,39 @@ TEST_CASE("a project that begins later opens at its first frame") {
   CHECK(editor.state()["frame"] == 100);
 }
 
+TEST_CASE("the ring around a waypoint of a helicopter turns its nose; along its nose flies what has none") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("heading-ring");
+  EditorDriver& editor = ui_test.editor();
+  Json helicopter = sample_project("head-on");
+  helicopter["intruders"][0]["trajectory"]["attitude"] = "helicopter";
+  const fs::path project = put(helicopter, ui_test.folder() / "mine.json");
+  editor.start({project.string()});
+  editor.wait_for("the project", [](const Json& now) { return now.value("page", "") == "project"; });
+  editor.wait_for_image();
+  go_to_waypoint(ui_test);
+  editor.click("world/top");  // world X is up on the screen, Y to the right
+  ui_test.wait_for_place("world/heading");
+  const ScreenPlace knob = editor.place("world/heading");
+  const ScreenPlace center = editor.place("world/waypoint/0/1");
+  const double radius = std::hypot(knob.center_x() - center.center_x(), knob.center_y() - center.center_y());
+  CHECK(radius > 40);
+  for (const double heading_deg : {90.0, -30.0}) {
+    CAPTURE(heading_deg);
+    const double rad = heading_deg * M_PI / 180;
+    const ScreenPlace from = editor.place("world/heading");
+    ui_test.edit([&] {
+      editor.drag(from.center_x(), from.center_y(), center.center_x() + radius * std::sin(rad),
+                  center.center_y() - radius * std::cos(rad));
+    });
+    ui_test.image("turned");
+    const Json waypoint = ui_test.saved(project)["intruders"][0]["trajectory"]["waypoints"][1];
+    CHECK(waypoint["heading_deg"].get<double>() == doctest::Approx(heading_deg).epsilon(0.02));
+    CHECK_FALSE(json_of(project)["intruders"][0]["trajectory"]["waypoints"][0].contains("heading_deg"));
+  }
+  ui_test.edit([&] { editor.key("ctrl+z"); });
+  CHECK(ui_test.saved(project)["intruders"][0]["trajectory"]["waypoints"][1]["heading_deg"].get<double>() ==
+        doctest::Approx(90).epsilon(0.02));
+}
+
 }  // namespace sigs::test
