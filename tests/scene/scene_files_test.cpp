@@ -108,7 +108,7 @@ TEST_CASE("a camera is scaled to each footage and a mask belongs to one size") {
   for (int round = 0; round < 2; ++round) {
     for (const cv::Size size : {cv::Size(1280, 960), cv::Size(640, 480)}) {
       const LensParameters expected = read_calibration(calibration, size).value().lens.parameters();
-      const Camera camera = files.camera(calibration, size).value();
+      const Camera camera = files.camera(calibration, {.size_px = size}).value();
       CHECK(camera.lens.parameters().fx == expected.fx);
       CHECK(camera.size_px == size);
     }
