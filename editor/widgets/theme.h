@@ -28,6 +28,8 @@ inline constexpr ImU32 kWaypoint = IM_COL32(255, 255, 255, 255);
 inline constexpr ImU32 kHorizon = IM_COL32(120, 220, 200, 200);
 inline constexpr ImU32 kOwnBody = IM_COL32(210, 90, 220, 90);
 inline constexpr ImU32 kLight = IM_COL32(255, 236, 150, 255);
+// Aircraft that the footage itself shows.
+inline constexpr ImU32 kRealAircraft = IM_COL32(255, 84, 170, 255);
 // How well something is: an intruder in view, partly occluded, a fault or an error.
 inline constexpr ImU32 kGood = IM_COL32(96, 200, 120, 255);
 inline constexpr ImU32 kPartly = IM_COL32(240, 190, 70, 255);

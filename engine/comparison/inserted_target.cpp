@@ -60,6 +60,7 @@ std::optional<MeasuredTarget> measured_target(std::span<const Frame> frames, std
 Result<std::vector<std::optional<Box>>> read_target_boxes(const std::filesystem::path& csv) {
   const auto by_frame = read_boxes_by_frame(csv);
   if (!by_frame) return fail(by_frame.error());
+  if (by_frame->empty()) return fail(csv.string(), "has no box");
   std::vector<std::optional<Box>> boxes(static_cast<std::size_t>(by_frame->rbegin()->first) + 1);
   for (const auto& [frame, there] : *by_frame) boxes[static_cast<std::size_t>(frame)] = there.front();
   return boxes;

@@ -18,6 +18,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/ensure.h"
 #include "base/image.h"
 #include "base/image_file.h"
 #include "base/input_file.h"
@@ -71,13 +72,8 @@ Result<AttitudeAtFrame> attitude_in(std::string_view line, const std::string& wh
 constexpr double kMaxBoxFrame = 1e7;
 constexpr double kMaxPixel = 1e6;
 
-struct BoxLine {
-  int frame = 0;
-  Box box;
-};
-
 // What a line of boxes says, or what is wrong with it.
-Result<BoxLine> box_in(std::string_view line, const std::string& where) {
+Result<RealAircraftBox> box_in(std::string_view line, const std::string& where) {
   const std::vector<std::string_view> cells = cells_of(line);
   if (cells.size() < 6) return fail(where, fmt::format("expected frame,label,x,y,w,h, found {} fields", cells.size()));
   std::array<double, 6> numbers{};
@@ -89,7 +85,10 @@ Result<BoxLine> box_in(std::string_view line, const std::string& where) {
   }
   if (numbers[0] < 0 || numbers[0] != std::floor(numbers[0])) return fail(where, "the frame is no whole number from 0");
   // From the centre of the first pixel at (1, 1) to its edge at (-0.5, -0.5).
-  return BoxLine{static_cast<int>(numbers[0]), {numbers[2] - 1.5, numbers[3] - 1.5, numbers[4], numbers[5]}};
+  return RealAircraftBox{.frame = static_cast<int>(numbers[0]),
+                         .label = std::string(cells[1]),
+                         .box = {numbers[2] - 1.5, numbers[3] - 1.5, numbers[4], numbers[5]},
+                         .line = std::string(line)};
 }
 
 cv::Mat gray_of(const cv::Mat& image) {
@@ -228,20 +227,37 @@ Result<std::vector<AttitudeAtFrame>> read_attitude_file(const std::filesystem::p
   return attitudes;
 }
 
-Result<BoxesByFrame> read_boxes_by_frame(const std::filesystem::path& csv) {
+Result<RealAircraftFile> read_real_aircraft(const std::filesystem::path& csv) {
   const Result<std::string> text = read_text(csv);
   if (!text) return fail(text.error());
   std::string_view rest = *text;
-  static_cast<void>(next_line(rest));
-  BoxesByFrame boxes;
+  RealAircraftFile file{.header = std::string(trimmed(next_line(rest))), .boxes = {}};
   for (int line_number = 2; !rest.empty(); ++line_number) {
     const std::string_view line = trimmed(next_line(rest));
     if (line.empty()) continue;
-    const Result<BoxLine> read = box_in(line, fmt::format("{}: line {}", csv.string(), line_number));
-    if (!read) return fail(read.error());
-    if (read->box.width > 0 && read->box.height > 0) boxes[read->frame].push_back(read->box);
+    Result<RealAircraftBox> box = box_in(line, fmt::format("{}: line {}", csv.string(), line_number));
+    if (!box) return fail(box.error());
+    file.boxes.push_back(*std::move(box));
   }
-  if (boxes.empty()) return fail(csv.string(), "has no box");
+  return file;
+}
+
+RealAircraftBox real_aircraft_box(int frame, std::string label, const Box& box) {
+  std::string line = fmt::format("{},{},{},{},{},{}", frame, label, fixed_text(box.x + 1.5, 4),
+                                 fixed_text(box.y + 1.5, 4), fixed_text(box.width, 4), fixed_text(box.height, 4));
+  Result<RealAircraftBox> read = box_in(line, line);
+  ENSURE(read && read->label == label);
+  return *std::move(read);
+}
+
+Result<BoxesByFrame> read_boxes_by_frame(const std::filesystem::path& csv) {
+  const Result<RealAircraftFile> file = read_real_aircraft(csv);
+  if (!file) return fail(file.error());
+  BoxesByFrame boxes;
+  for (const auto& [frame, label, box, line] : file->boxes)
+    if (box.width > 0 && box.height > 0) boxes[frame].push_back(box);
+  const bool says_none = file->boxes.empty() && file->header == kRealAircraftHeader;
+  if (boxes.empty() && !says_none) return fail(csv.string(), "has no box");
   return boxes;
 }
 

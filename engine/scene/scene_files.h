@@ -37,10 +37,35 @@ struct AttitudeAtFrame {
 // named).
 [[nodiscard]] Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size footage_size_px);
 
-// Reads boxes of aircraft that footage shows (footage.real_aircraft): CSV with the header line frame,label,x,y,w,h,
-// then one line for each box; frames from 0, x and y in pixels of which the first one has the centre (1, 1), as in the
-// published boxes of the Svanstrom data set (doi:10.5281/zenodo.5500576). A box without area is left out. Errors:
-// cannot_read; bad_data (file and line) for what is no number, a frame beyond 10 million, no box at all.
+// A line of a file with boxes of aircraft that footage shows (footage.real_aircraft).
+struct RealAircraftBox {
+  int frame = 0;      // of the footage, from 0
+  std::string label;  // of the aircraft, or of its kind: nothing keeps it from being in several lines of a frame
+  Box box;
+  std::string line;  // as it stands in the file, without a line feed
+
+  [[nodiscard]] bool operator==(const RealAircraftBox&) const = default;
+};
+
+// The first line of such a file, and the lines below it in their order.
+struct RealAircraftFile {
+  std::string header;
+  std::vector<RealAircraftBox> boxes;
+};
+inline constexpr const char* kRealAircraftHeader = "frame,label,x,y,w,h";
+
+// Reads CSV with a header line (kRealAircraftHeader), then one line for each box; frames from 0, x and y in pixels of
+// which the first one has the centre (1, 1), as in the published boxes of the Svanstrom data set
+// (doi:10.5281/zenodo.5500576). Columns beyond these are kept in the line. Errors: cannot_read; bad_data (file and
+// line) for what is no number, a frame beyond 10 million.
+[[nodiscard]] Result<RealAircraftFile> read_real_aircraft(const std::filesystem::path& csv);
+
+// The box as a line of such a file, which has 4 decimals: the result has the box that is read from that line.
+//   label  without comma and line feed
+[[nodiscard]] RealAircraftBox real_aircraft_box(int frame, std::string label, const Box& box);
+
+// The boxes of read_real_aircraft(). One without area is left out. Errors as there; bad_data too where there is no
+// box at all, unless the file is kRealAircraftHeader alone.
 [[nodiscard]] Result<BoxesByFrame> read_boxes_by_frame(const std::filesystem::path& csv);
 
 // A cache of the files that scenes are made from: a scene that is opened again after an edit reads only what has

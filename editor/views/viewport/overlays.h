@@ -22,6 +22,7 @@ struct OverlayChoice {
   bool waypoints = true;
   bool horizon = false;
   bool own_body = false;
+  bool real_aircraft = true;
   ImageGrid grid = ImageGrid::none;
   int doublings = 0;  // of the image's brightness, for the eye alone; up to kMaxDoublings
 

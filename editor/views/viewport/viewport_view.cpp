@@ -27,6 +27,8 @@ void ViewportView::draw(const ViewContext& context) {
   ImGui::PushID("viewport");
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   tool_.select_again(context);
+  boxes_.follow(context);
+  if (boxes_.is_marking()) overlays_.real_aircraft = true;
   const ImVec2 all = ImGui::GetContentRegionAvail();
   const glm::dvec2 room(all.x, std::max(1.0F, all.y - toolbar_height() - readout_height()));
   draw_viewport_toolbar({overlays_, wipe_, look_});
@@ -72,7 +74,7 @@ void ViewportView::draw_canvas(const ViewContext& context, const ScreenRect& rec
   draw_image_layers(context, canvas);
   draw_overlays(context, canvas, tools, marks);
   if (tools != nullptr) tool_.draw(*tools);
-  draw_lit_box(context, canvas);
+  boxes_.draw(context, canvas);
   wipe_.draw_line(canvas, grip_ == Grip::line || (hovered_ && wipe_.is_at(canvas, dv(ImGui::GetMousePos()))));
   banner_.draw(canvas.draw);
 }
@@ -123,6 +125,7 @@ void ViewportView::draw_overlays(const ViewContext& context, const ImageCanvas& 
       draw_result_legend(canvas, context, image->frame);
     }
   }
+  if (overlays_.real_aircraft) boxes_.draw_real_aircraft(context, canvas, labels);
   if (eye != nullptr) draw_waypoints(canvas, context, marks, *eye, labels, "viewport");
 }
 
@@ -134,9 +137,9 @@ void ViewportView::handle_press(const ImageCanvas& canvas, const ToolContext* to
     grip_ = Grip::ground;
   } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     const bool on_waypoint = tool != nullptr && waypoint_at(*tool) != nullptr;
-    if (lit_box_) {
-      grip_ = Grip::lit_box;
-      lit_box_->from_px = lit_box_->to_px = canvas.view.image_of(mouse);
+    if (boxes_.is_wanted()) {
+      grip_ = Grip::box;
+      boxes_.press(canvas, mouse);
     } else if (!on_waypoint && wipe_.is_at(canvas, mouse))
       grip_ = Grip::line;
     else
@@ -165,7 +168,7 @@ void ViewportView::handle_mouse(const ViewContext& context, const ImageCanvas& c
   if (tool_.is_active() && tool != nullptr && down) tool_.drag(*tool);
   if (horizon_.is_active() && tool != nullptr && down) horizon_.drag(*tool);
   if (grip_ == Grip::line) wipe_.drag_to(canvas, mouse);
-  if (lit_box_) drag_lit_box(context, canvas, down);
+  if (boxes_.is_wanted()) boxes_.drag(context, canvas, hovered_, down);
   const bool drags = glm::distance(mouse, grip_mouse_) >= scaled(3) || !look_.is_fitted();
   if (grip_ == Grip::ground && down && drags && mouse != grip_mouse_) look_.pan(mouse - grip_mouse_);
   if (down) return;
@@ -174,34 +177,9 @@ void ViewportView::handle_mouse(const ViewContext& context, const ImageCanvas& c
   grip_ = Grip::nothing;
 }
 
-void ViewportView::drag_lit_box(const ViewContext& context, const ImageCanvas& canvas, bool down) {
-  context.needs.own_escape = true;
-  if (hovered_) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-  if (pressed(Key::escape)) return lit_box_.reset();
-  if (grip_ != Grip::lit_box) return;
-  lit_box_->to_px = canvas.view.image_of(dv(ImGui::GetMousePos()));
-  if (down) return;
-  const glm::dvec2 low = glm::min(*lit_box_->from_px, *lit_box_->to_px);
-  const glm::dvec2 size = glm::abs(*lit_box_->to_px - *lit_box_->from_px);
-  lit_box_.reset();
-  if (size.x >= 3 && size.y >= 3) context.edits.ask(LightLike{footage_frame(context), {low.x, low.y, size.x, size.y}});
-}
-
-void ViewportView::draw_lit_box(const ViewContext& context, const ImageCanvas& canvas) const {
-  if (!lit_box_) return;
-  const glm::dvec2 at = canvas.rect.low + glm::dvec2(scaled(12), scaled(12) + label_size("A").y);
-  draw_label(canvas, at, "Drag a box around something lit in the footage, such as a real aircraft; Esc ends this",
-             color::kText);
-  context.ui_probe.note("viewport/lit box", canvas.rect);
-  if (!lit_box_->from_px) return;
-  const glm::dvec2 a = canvas.view.screen_of(*lit_box_->from_px), b = canvas.view.screen_of(*lit_box_->to_px);
-  canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
-  canvas.draw.AddRect(im(glm::min(a, b)), im(glm::max(a, b)), color::kAccent, 0, 0, scaled(1.5F));
-  canvas.draw.PopClipRect();
-}
-
 void ViewportView::handle_double_click(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool) {
-  if (lit_box_ || grip_ == Grip::line || grip_ == Grip::horizon || (tool != nullptr && waypoint_at(*tool) != nullptr))
+  if (boxes_.is_wanted() || grip_ == Grip::line || grip_ == Grip::horizon ||
+      (tool != nullptr && waypoint_at(*tool) != nullptr))
     return;
   const glm::dvec2 mouse = dv(ImGui::GetMousePos());
   if (tool == nullptr || !overlays_.waypoints || !current_intruder(context) || !canvas.pixel_at(mouse))
@@ -231,6 +209,7 @@ void ViewportView::draw_menu(const ViewContext& context, const ImageCanvas& canv
       menu_intruder_ = intruder_at(*tool);
     }
     menu_pixel_ = canvas.view.image_of(dv(ImGui::GetMousePos()));
+    boxes_.open_menu(context, canvas, menu_pixel_, overlays_.real_aircraft);
     ImGui::OpenPopup("image menu");
   }
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled(8), scaled(6)});
@@ -247,6 +226,7 @@ void ViewportView::draw_menu(const ViewContext& context, const ImageCanvas& canv
 
 void ViewportView::draw_image_menu(const ViewContext& context, const ToolContext* tool) {
   const std::vector<IntruderSettings>& intruders = context.project().intruders;
+  boxes_.draw_menu(context);
   if (menu_intruder_ && static_cast<std::size_t>(*menu_intruder_) < intruders.size()) {
     const std::string text = "Select " + shortened(intruders[static_cast<std::size_t>(*menu_intruder_)].name, 60);
     if (ImGui::MenuItem(text.c_str())) context.edits.select({Selected::intruder, *menu_intruder_, 0});
@@ -258,6 +238,8 @@ void ViewportView::draw_image_menu(const ViewContext& context, const ToolContext
   ImGui::Separator();
   if (context.ui_probe.noted(ImGui::MenuItem("Lit like something here..."), "viewport/menu/lit like"))
     ask_for_lit_box();
+  if (context.ui_probe.noted(ImGui::MenuItem("Mark a real aircraft here..."), "viewport/menu/mark real aircraft"))
+    boxes_.ask_for_real_aircraft(context);
   if (ImGui::MenuItem("Wipe against the footage", nullptr, wipe_.is_on())) wipe_.toggle();
   if (ImGui::MenuItem("Fit", "F")) look_.fit();
 }
@@ -357,6 +339,11 @@ void draw_viewport_toolbar(const ViewportSwitches& switches) {
                    "What hides intruders: the mask of the aircraft that carries the camera, and clouds where the "
                    "project says how far they are"},
                   overlays.own_body),
+      toggle_item(
+          {"real aircraft", Icon::aircraft, "Real aircraft",
+           "Boxes of aircraft that the footage itself shows: solid where they were drawn, dashed where they are "
+           "filled in between. The right button marks and deletes them"},
+          overlays.real_aircraft),
       {.button = {.id = "grid",
                   .icon = Icon::grid,
                   .label = label_of(overlays.grid),

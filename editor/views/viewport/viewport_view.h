@@ -7,6 +7,7 @@
 
 #include "editor/geometry/image_view.h"
 #include "editor/views/context.h"
+#include "editor/views/viewport/box_tool.h"
 #include "editor/views/viewport/horizon_tool.h"
 #include "editor/views/viewport/overlays.h"
 #include "editor/views/viewport/waypoint_tool.h"
@@ -102,20 +103,15 @@ class ViewportView {
   void draw(const ViewContext& context);
 
   // The next drag over the image is a box around something lit (LightLike); Escape and a click end that.
-  void ask_for_lit_box() { lit_box_ = LitBox{}; }
+  void ask_for_lit_box() { boxes_.ask_for_lit_box(); }
 
   // Switches the horizon's line on, so that it can be dragged.
   void show_horizon() { overlays_.horizon = true; }
 
  private:
-  // What the mouse holds since its press: nothing, the wipe's line, a waypoint or intruder, the horizon, a corner of
-  // the box around something lit, or the image itself, which is panned.
-  enum class Grip { nothing, line, waypoint, horizon, lit_box, ground };
-
-  // Where the box around something lit begins and ends, pixels of the image; before the press they are not there.
-  struct LitBox {
-    std::optional<glm::dvec2> from_px, to_px;
-  };
+  // What the mouse holds since its press: nothing, the wipe's line, a waypoint or intruder, the horizon, a corner of a
+  // box, or the image itself, which is panned.
+  enum class Grip { nothing, line, waypoint, horizon, box, ground };
 
   // The image and all over it, in `rect` of the screen. `tool` below is null while no scene is open.
   void draw_canvas(const ViewContext& context, const ScreenRect& rect);
@@ -126,9 +122,6 @@ class ViewportView {
   // What a press of the left button takes, save for the wipe's line; the tool that it belongs to begins its drag.
   [[nodiscard]] Grip grip_of_press(const ToolContext* tool);
   void handle_press(const ImageCanvas& canvas, const ToolContext* tool);
-  // Lets the box follow the mouse, and asks for the light when the mouse is let go.
-  void drag_lit_box(const ViewContext& context, const ImageCanvas& canvas, bool down);
-  void draw_lit_box(const ViewContext& context, const ImageCanvas& canvas) const;
   // Adds a waypoint where that is possible, else fits the image.
   void handle_double_click(const ViewContext& context, const ImageCanvas& canvas, const ToolContext* tool);
   // The menu of the right button, for what was under the mouse when it opened.
@@ -149,6 +142,7 @@ class ViewportView {
   WaypointMarks marks_;
   WaypointTool tool_;
   HorizonTool horizon_;
+  BoxTool boxes_;
   ViewportWipe wipe_;
   ProblemBanner banner_;
 
@@ -157,7 +151,6 @@ class ViewportView {
   // What the mouse is at is the untouched footage.
   bool over_footage_ = false;
   Grip grip_ = Grip::nothing;
-  std::optional<LitBox> lit_box_;   // while one is asked for
   glm::dvec2 grip_mouse_{0, 0};     // where the mouse was pressed, on the screen
   std::optional<cv::Point> pixel_;  // under the mouse; none: beside the image
   // What the menu was opened on: a waypoint, an intruder by its index in the project, and the pixel of the image.

@@ -136,6 +136,21 @@ TEST_CASE("another lens after the first warps as by itself") {
                       bgr_of(Engine(other).composed(kFrame).image)));
 }
 
+TEST_CASE("boxes of real aircraft that are written anew reach the truth of the frame that is shown") {
+  const TemporaryFolder folder;
+  Project project = sample("head-on");
+  project.footage.real_aircraft = (folder / "real.csv").string();
+  REQUIRE(write_text(folder / "real.csv", "frame,label,x,y,w,h\n120,A,11,21,6,5\n", true));
+  PreviewClient preview_client({.ahead = 0});
+  const PreviewRequest wanted = frame_of(revision(1, project), kFrame);
+  CHECK(preview_client.show(wanted).image->truth.real_aircraft == std::vector<cv::Rect>{{10, 20, 6, 5}});
+  REQUIRE(write_text(folder / "real.csv", "frame,label,x,y,w,h\n120,A,111,21,60,50\n", true));
+  preview_client.want(wanted);
+  const std::vector<cv::Rect> moved_boxes{{110, 20, 60, 50}};
+  preview_client.wait(
+      [&](const PreviewOutput& s) { return s.image_is_current && s.image->truth.real_aircraft == moved_boxes; });
+}
+
 TEST_CASE("the next frames are composed ahead and a cached frame is shown at once") {
   PreviewClient preview_client({.cache_bytes = std::size_t(1) << 30, .ahead = 12});
   PreviewRequest wanted = frame_of(revision(1, sample("head-on")), 10);
