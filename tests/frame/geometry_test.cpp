@@ -309,6 +309,7 @@ TEST_CASE("boxes and areas without rotors are those of the aircraft whose rotors
     if (entry.path().extension() != ".obj")
       std::filesystem::copy_file(entry.path(), scenario.path(entry.path().filename().string()));
 
+  scenario.project.compositing.supersampling = 8;  // views with and without rotors have other samples
   scenario.add((model / "helicopter.obj").string(), {45, 4, -151});
   const ComposedFrame seen = composed(scenario);
   scenario.project.output.label_rotors = LabelRotorsChoice::none;
