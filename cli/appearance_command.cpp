@@ -19,8 +19,9 @@
 #include "cli/process.h"
 #include "comparison/lit_like.h"
 #include "first_project/first_project.h"
+#include "project/fields.h"
 #include "project/json.h"
-#include "scene/opened_project.h"
+#include "video/frame_source.h"
 
 namespace sigs::cli {
 
@@ -72,32 +73,21 @@ Result<AppearanceFrames> frames_of(const AppearanceOptions& options, const std::
 
 Result<Appearance> found_in(const AppearanceFrames& frames, const std::optional<Project>& project,
                             const AppearanceOptions& options) {
-  Result<FrameSource> footage =
-      project ? open_footage(*project, &interrupt_flag(), Quantisers::read)
-              : FrameSource::open(options.file, &interrupt_flag(), Quantisers::read, options.timing);
-  if (!footage) return fail(footage.error());
-  for (const Warning& warning : footage->info().warnings) print_warning(warning);
-  AppearanceHints hints;
-  if (project) {
-    Result<AppearanceHints> known =
-        hints_of(*project, footage->info(), is_still_guessed(*project, "camera.position_m"), print_warning);
-    if (!known) return fail(known.error());
-    hints = std::move(*known);
-  }
   Progress progress(progress_style(options.progress));
   const AppearanceControl control{.progress = [&](int done, int total) { progress.update(done, total); },
-                                  .cancel = &interrupt_flag()};
-  Result<Appearance> found = estimate_appearance(*footage, frames, hints, control);
+                                  .cancel = &interrupt_flag(),
+                                  .warn = print_warning};
+  const auto found = [&]() -> Result<Appearance> {
+    if (project)
+      return appearance_of_footage(*project, frames, is_still_guessed(*project, "camera.position_m"), control);
+    Result<FrameSource> footage = FrameSource::open(options.file, &interrupt_flag(), Quantisers::read, options.timing);
+    if (!footage) return fail(footage.error());
+    for (const Warning& warning : footage->info().warnings) print_warning(warning);
+    return estimate_appearance(*footage, frames, {}, control);
+  };
+  Result<Appearance> appearance = found();
   progress.end();
-  return found;
-}
-
-// "a.b" in nested objects.
-Json::json_pointer place_of(const std::string& key) {
-  std::string pointer = "/" + key;
-  for (char& letter : pointer)
-    if (letter == '.') letter = '/';
-  return Json::json_pointer(pointer);
+  return appearance;
 }
 
 // What apply() sets, by its keys, nested as in a project file.
@@ -105,18 +95,12 @@ template <class Found>
 Json settings_of(const Found& found) {
   Project project;
   apply(found, project);
-  const Json all = Json::parse(text_of(project));
-  Json settings;
-  for (const std::string& key : applied_settings(found)) {
-    const Json::json_pointer at = place_of(key);
-    settings[at] = all.at(at);
-  }
-  return settings;
+  return settings_json(std::move(project), applied_settings(found));
 }
 
 std::string settings_lines(const Json& settings, const std::vector<std::string>& keys) {
   std::string text = "\nsettings:\n";
-  for (const std::string& key : keys) text += fmt::format("{} = {}\n", key, settings.at(place_of(key)).dump());
+  for (const std::string& key : keys) text += fmt::format("{} = {}\n", key, settings.at(pointer_of(key)).dump());
   return text;
 }
 

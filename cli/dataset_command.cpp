@@ -84,12 +84,18 @@ Result<Shard> shard_of(const std::string& text) {
 // What several videos have in common is printed once.
 class ConsoleReporter {
  public:
-  explicit ConsoleReporter(ProgressStyle style) : progress_(style) {}
+  explicit ConsoleReporter(ProgressStyle style) : style_(style), progress_(style) {}
 
   [[nodiscard]] DatasetControl control() {
     return {.progress =
                 [this](int done, int total) {
+                  begin("videos");
                   if (done > 0) progress_.update(done, total);
+                },
+            .measuring =
+                [this](int done, int total, const std::string& clip) {
+                  begin("measuring");
+                  progress_.update(done, total, "measuring how " + clip + " looks");
                 },
             .warn =
                 [this](const Warning& warning) {
@@ -102,7 +108,18 @@ class ConsoleReporter {
   void end() { progress_.end(); }
 
  private:
+  // What has a bar and a clock of its own.
+  void begin(const std::string& part) {
+    if (!part_.empty() && part != part_) {
+      progress_.end();
+      progress_ = Progress(style_);
+    }
+    part_ = part;
+  }
+
+  ProgressStyle style_;
   Progress progress_;
+  std::string part_;
   std::set<std::string> printed_;
 };
 

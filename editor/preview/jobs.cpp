@@ -15,13 +15,9 @@ namespace sigs::editor {
 
 Result<Appearance> estimated_appearance(const AppearanceRequest& request, const JobControl& control) {
   const FootageSettings& settings = request.project.footage;
-  Result<FrameSource> footage = open_footage(request.project, control.cancel, Quantisers::read);
-  if (!footage) return fail(footage.error());
-  const Result<AppearanceHints> hints =
-      hints_of(request.project, footage->info(), is_still_guessed(request.project, "camera.position_m"), control.warn);
-  if (!hints) return fail(hints.error());
-  return estimate_appearance(*footage, {.first = settings.first_frame, .last = settings.last_frame}, *hints,
-                             {.progress = control.progress, .cancel = control.cancel});
+  return appearance_of_footage(request.project, {.first = settings.first_frame, .last = settings.last_frame},
+                               is_still_guessed(request.project, "camera.position_m"),
+                               {.progress = control.progress, .cancel = control.cancel, .warn = control.warn});
 }
 
 Result<LitLike> found_light(const LightRequest& request, const JobControl& control) {

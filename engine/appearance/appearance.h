@@ -37,6 +37,7 @@ struct AppearanceHints {
 struct AppearanceControl {
   std::function<void(int done, int total)> progress;  // frames; called on the calling thread
   const std::atomic<bool>* cancel = nullptr;          // set to true: ends soon with the error `interrupted`
+  std::function<void(const Warning&)> warn;           // of the files that are read; may be empty
 };
 
 // How footage looks. Each estimator has a class in a header of its own; add its findings here, call it in
@@ -84,6 +85,10 @@ void apply(const Appearance& appearance, Project& project);
 // The keys of the settings that apply() writes, in the order of the project file.
 [[nodiscard]] std::vector<std::string> applied_settings(const Appearance& appearance);
 
+// The names of the quantities with a setting that the footage does not tell, so that the setting has its default or
+// stays: "point spread". The parts of a colour are named once.
+[[nodiscard]] std::vector<std::string> names_of_unknown(const Appearance& appearance);
+
 // What a project knows of its camera at each frame, for estimate_appearance(): the calibration, attitude and height
 // where they are stated, the own body's mask, the sun's direction where the camera's log has UTC and place. Intruders
 // and their models are not looked at, and may be missing. Errors name the project file and the field.
@@ -96,5 +101,10 @@ void apply(const Appearance& appearance, Project& project);
 // The same by a scene of which no project file is written yet: its camera, its attitude where that is known, and the
 // sun by time and place. The height counts as not known: that of a project which is being made is a guess.
 [[nodiscard]] AppearanceHints hints_of(const Scene& scene);
+
+// How the footage of a project looks: opens it, and estimates with what the project knows of its camera. Errors: those
+// of open_footage(), hints_of() and estimate_appearance().
+[[nodiscard]] Result<Appearance> appearance_of_footage(const Project& project, const AppearanceFrames& frames,
+                                                       bool height_is_guess, const AppearanceControl& control);
 
 }  // namespace sigs

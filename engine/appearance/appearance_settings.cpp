@@ -197,6 +197,16 @@ std::vector<std::string> applied_settings(const Appearance& appearance) {
   return keys;
 }
 
+std::vector<std::string> names_of_unknown(const Appearance& appearance) {
+  std::vector<std::string> names;
+  for (const AppearanceQuantity& quantity : quantities_of(appearance)) {
+    if (quantity.setting.empty() || quantity.estimate.is_known) continue;
+    const std::string name = quantity.name.substr(0, quantity.name.find(','));
+    if (names.empty() || names.back() != name) names.push_back(name);
+  }
+  return names;
+}
+
 namespace {
 
 // To a thermal camera nothing is lit or hazy, and where its blur is not seen, that of other thermal cameras stays.
@@ -292,6 +302,19 @@ Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footag
   if (!own_body->empty()) own_body->convertTo(known->own_body, CV_8U, 255);
   for (const Warning& warning : scene.warnings) warn(warning);
   return hints_by(known);
+}
+
+Result<Appearance> appearance_of_footage(const Project& project, const AppearanceFrames& frames, bool height_is_guess,
+                                         const AppearanceControl& control) {
+  const auto warn = [&](const Warning& warning) {
+    if (control.warn) control.warn(warning);
+  };
+  Result<FrameSource> footage = open_footage(project, control.cancel, Quantisers::read);
+  if (!footage) return fail(footage.error());
+  for (const Warning& warning : footage->info().warnings) warn(warning);
+  const Result<AppearanceHints> hints = hints_of(project, footage->info(), height_is_guess, warn);
+  if (!hints) return fail(hints.error());
+  return estimate_appearance(*footage, frames, *hints, control);
 }
 
 }  // namespace sigs

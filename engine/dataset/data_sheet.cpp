@@ -204,7 +204,7 @@ Json attitude_source(const CameraSettings& camera) {
 }
 
 Json footage_json(const std::string& name, const Json& background, const SheetFacts& facts,
-                  const GuessesByBackground& guesses, SheetChecksums& checksums) {
+                  const GuessesByBackground& guesses, const Json& measured, SheetChecksums& checksums) {
   Json json{{"background", name}, {"licence", member(background, "licence")}, {"source", member(background, "source")}};
   if (const auto seen = facts.footage.find(name); seen != facts.footage.end()) {
     const SheetFootage& footage = seen->second;
@@ -229,6 +229,7 @@ Json footage_json(const std::string& name, const Json& background, const SheetFa
   json["made_by_init"] = background.is_object() && background.contains("project");
   const auto guessed = guesses.find(name);
   json["guessed"] = guessed == guesses.end() ? Json(nullptr) : Json(guessed->second);
+  if (const Json look = member(measured, name.c_str()); !look.is_null()) json["measured"] = look;
   return json;
 }
 
@@ -302,7 +303,8 @@ Result<Json> data_sheet_of(const fs::path& dataset, const GuessesByBackground& g
   SheetChecksums checksums(cancel);
   sheet["footage"] = Json::array();
   for (const Json& background : named_in(recipe, "backgrounds"))
-    sheet["footage"].push_back(footage_json(background.at("name"), background, facts, guesses, checksums));
+    sheet["footage"].push_back(
+        footage_json(background.at("name"), background, facts, guesses, member(*index, "measured"), checksums));
   sheet["aircraft"] = Json::array();
   for (const Json& aircraft : named_in(recipe, "aircraft"))
     sheet["aircraft"].push_back(aircraft_json(aircraft, facts, checksums));

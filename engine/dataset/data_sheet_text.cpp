@@ -132,6 +132,12 @@ std::string assumed_part(const Json& sheet) {
       text += fmt::format(
           "- {}: the camera's attitude is not known in {} of {} frames; they tell no side of the horizon.\n", name,
           one["frames_without_horizon"].dump(), one["frames"].dump());
+    if (const Json look = known(one, "measured"); !look.is_null()) {
+      std::vector<std::string> not_shown;
+      for (const Json& quantity : known(look, "not_shown")) not_shown.push_back(shown_value(quantity));
+      text += fmt::format("- {}: appearance and light were measured in its frames{}.\n", name,
+                          not_shown.empty() ? "" : "; not shown there, so left at defaults: " + listed(not_shown));
+    }
     const Json& guessed = one.at("guessed");
     if (guessed.is_array())
       for (const Json& guess : guessed) text += fmt::format("- {}: guessed: {}\n", name, shown_value(guess));

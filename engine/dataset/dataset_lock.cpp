@@ -13,6 +13,7 @@
 #include <cstring>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -23,6 +24,7 @@
 #include "base/file_lock.h"
 #include "base/paths.h"
 #include "dataset/index.h"
+#include "dataset/video_name.h"
 
 namespace sigs {
 
@@ -142,6 +144,30 @@ fs::path staging_folder_of(const fs::path& dataset) {
   return dataset / kStagingName;
 }
 
+Result<void> clear_staging_folder(const fs::path& dataset, bool is_shared) {
+  for (const char* const name : {"new", "old", "labels", "splits"}) {
+    std::error_code code;
+    if (is_shared) {
+      fs::remove(staging_folder_of(dataset) / name, code);
+      continue;
+    }
+    fs::remove_all(staging_folder_of(dataset) / name, code);
+    if (code)
+      return fail((staging_folder_of(dataset) / name).string(), "cannot be removed: " + code.message(),
+                  ErrorKind::cannot_create);
+  }
+  return {};
+}
+
+Error with_final_names(Error error, const fs::path& dataset) {
+  const std::string staging = staging_folder_of(dataset).string() + "/";
+  for (std::string* const text : {&error.where, &error.what})
+    for (const std::string& part : {staging + "new/", staging})
+      for (std::size_t at = text->find(part); at != std::string::npos; at = text->find(part))
+        text->replace(at, part.size(), dataset.string() + "/");
+  return error;
+}
+
 Result<void> make_empty(const fs::path& folder) {
   std::error_code code;
   for (int tries = 0; tries < 10; ++tries) {  // another run may clean up the staging folder between two steps
@@ -194,6 +220,20 @@ std::optional<std::string> video_there(const Plan& plan, const std::optional<Sha
 }
 
 }  // namespace
+
+Result<void> check_folder_names(const Plan& plan) {
+  if (const std::string wrong = file_name_error(plan.name); !wrong.empty())
+    return fail(fmt::format("dataset \"{}\"", plan.name), wrong);
+  std::set<std::string> names;
+  for (const PlannedVideo& video : plan.videos) {
+    if (const std::string wrong = wrong_with_video_name(video.name); !wrong.empty())
+      return fail(fmt::format("video \"{}\"", video.name), wrong);
+    if (!names.insert(video.name).second) return fail(fmt::format("video \"{}\"", video.name), "is planned twice");
+    if (const std::string wrong = file_name_error(split_of(video)); !wrong.empty())
+      return fail(fmt::format("split \"{}\"", video.split), wrong);
+  }
+  return {};
+}
 
 Result<void> check_folder_is_free(const Plan& plan, const std::filesystem::path& dataset,
                                   const std::optional<Shard>& shard, bool goes_on) {

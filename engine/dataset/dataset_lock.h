@@ -27,8 +27,17 @@ struct Shard {
 // one run each. It holds new/, old/, labels/, splits/ and a lock file for each run.
 [[nodiscard]] std::filesystem::path staging_folder_of(const std::filesystem::path& dataset);
 
+// The error with final paths in place of those in the staging folder, which the user does not know.
+[[nodiscard]] Error with_final_names(Error error, const std::filesystem::path& dataset);
+
 // Makes a folder in the staging folder and removes what is in it. Error cannot_create.
 [[nodiscard]] Result<void> make_empty(const std::filesystem::path& folder);
+
+// Removes what killed runs have left in it; where other runs may share it, only empty folders. Error cannot_create.
+[[nodiscard]] Result<void> clear_staging_folder(const std::filesystem::path& dataset, bool is_shared);
+
+// Whether the names of the plan, its videos and its splits can be names of files, each once. Error bad_data.
+[[nodiscard]] Result<void> check_folder_names(const Plan& plan);
 
 // Whether the folder has either a dataset that may be continued (goes_on), or nothing that prevents a new one: error
 // cannot_create. shard: of whose videos the folders must not be there; none: of all.

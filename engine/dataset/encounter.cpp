@@ -27,13 +27,13 @@ CosSin series(double x) {
 }
 
 // Unit vectors in world axes, for a viewer who looks in the direction from which the intruder comes (`toward`).
-struct View {
+struct SideAxes {
   glm::dvec3 toward{1, 0, 0};
   glm::dvec3 right{0, 1, 0};
   glm::dvec3 above{0, 0, -1};
 };
 
-View view_along(double bearing_deg, double elevation_deg) {
+SideAxes view_along(double bearing_deg, double elevation_deg) {
   const CosSin bearing = cos_sin_of_deg(bearing_deg);
   const CosSin elevation = cos_sin_of_deg(elevation_deg);
   return {.toward = {elevation.cos * bearing.cos, elevation.cos * bearing.sin, -elevation.sin},
@@ -62,7 +62,7 @@ double min_range_m(const RelativeMotion& motion, double length_s) {
 }
 
 RelativeMotion relative_motion(const Encounter& encounter) {
-  const View view = view_along(encounter.bearing_deg, encounter.elevation_deg);
+  const SideAxes view = view_along(encounter.bearing_deg, encounter.elevation_deg);
   const CosSin side = cos_sin_of_deg(encounter.miss_angle_deg);
   const glm::dvec3 miss_m = encounter.miss_distance_m * (side.cos * view.right + side.sin * view.above);
   const double path_length_m = encounter.closing_speed_mps * encounter.time_of_closest_approach_s;

@@ -105,6 +105,7 @@ VideoEntry entry_of(const Json& json) {
     entry.files.push_back({.path = file.at("path").get<std::string>(),
                            .bytes = file.at("bytes").get<std::uintmax_t>(),
                            .sha256 = file.at("sha256").get<std::string>()});
+  if (json.contains("measured")) entry.look = look_of(json.at("measured"));
   return entry;
 }
 
@@ -133,6 +134,7 @@ std::string entry_text(const PlannedVideo& video, const VideoEntry& entry) {
   Json json;
   json["sigs_dataset_entry"] = 1;
   json.update(described(video));
+  if (video.look) json["measured"] = described(*video.look);
   json["frames"] = entry.frames;
   json["planned"] = entry.planned;
   json["files"] = described(entry.files, "");

@@ -70,14 +70,15 @@ struct DatasetFile {
 
 // What FOLDER/NAME/entry.json says of one finished video. It is written last, so a folder that has it is whole.
 struct VideoEntry {
-  std::string planned;             // fingerprint_of() the planned project
-  int frames = 0;                  // number of frames exported
-  std::vector<DatasetFile> files;  // of the video's folder, by path, without the project and the entry itself
+  std::string planned;                    // fingerprint_of() the planned project
+  int frames = 0;                         // number of frames exported
+  std::vector<DatasetFile> files;         // of the video's folder, by path, without the project and the entry itself
+  std::optional<MeasuredLook> look = {};  // of a matched background
 };
 
 inline constexpr const char* kEntryName = "entry.json";
 
-// The text of entry.json, which describes the planned video too.
+// The text of entry.json, which describes the planned video too, and has its look.
 [[nodiscard]] std::string entry_text(const PlannedVideo& video, const VideoEntry& entry);
 
 // Errors cannot_read, bad_data.

@@ -195,6 +195,8 @@ Json index_of(const Plan& plan, const DatasetSource& source, const std::vector<F
   int frames = 0;
   for (const FinishedVideo& one : videos) frames += one.entry.frames;
   json["frames"] = frames;
+  for (const FinishedVideo& one : videos)  // all of a background have the same look
+    if (one.video->look) json["measured"][one.video->tags.at("background")] = described(*one.video->look);
   json["videos"] = Json::array();
   for (const FinishedVideo& one : videos) {
     Json video = described(*one.video);

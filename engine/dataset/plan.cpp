@@ -110,6 +110,33 @@ std::vector<PlannedVideo> videos_of_cameras(PlannedVideo sampled, const std::vec
   return videos;
 }
 
+// What is measured in the footage of a matched background: all that its videos share.
+ClipToMeasure clip_of(const Recipe& recipe, std::size_t index) {
+  const Background& background = recipe.backgrounds[index];
+  ClipToMeasure clip{.project = recipe.base,
+                     .height_is_guess = background.height_is_guess,
+                     .where = fmt::format("{}: backgrounds[{}].appearance", recipe.file.string(), index)};
+  clip.project.footage = background.footage;
+  clip.project.camera = background.camera;
+  clip.project.light = background.light;
+  clip.project.appearance = background.appearance;
+  clip.project.intruders.clear();
+  clip.project.output = {};
+  return clip;
+}
+
+// The clips of matched backgrounds, and which of them each video has.
+void add_clips(const Recipe& recipe, Plan& plan) {
+  std::map<std::size_t, std::size_t> clip_of_background;
+  for (PlannedVideo& video : plan.videos) {
+    const std::size_t background = index_of(recipe.backgrounds, video.tags.at("background"));
+    if (!recipe.backgrounds[background].is_matched) continue;
+    const auto [place, is_new] = clip_of_background.emplace(background, plan.clips.size());
+    if (is_new) plan.clips.push_back(clip_of(recipe, background));
+    video.clip = place->second;
+  }
+}
+
 // Samples the recipe's videos one by one.
 class Planner {
  public:
@@ -213,6 +240,7 @@ Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
     for (PlannedVideo& of_camera : videos_of_cameras(std::move(video), cameras)) videos.push_back(std::move(of_camera));
   }
   plan.videos = std::move(videos);
+  add_clips(recipe, plan);
   if (const Result<void> step = check_projects(recipe, plan); !step) return fail(step.error());
   return plan;
 }

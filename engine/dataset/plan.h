@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "dataset/matched_look.h"
 #include "dataset/recipe.h"
 #include "project/project.h"
 
@@ -26,6 +28,9 @@ struct PlannedVideo {
   std::map<std::string, std::string> tags;  // background, aircraft, flight and those of the recipe
   std::map<std::string, double> sampled;    // what was sampled or fixed for it: "miss_distance_m", ...
   std::map<std::string, int> resamples;     // how often it was sampled again, by the reason
+  std::optional<std::size_t> clip = {};     // its footage's look is to be measured: place in Plan::clips
+  std::set<std::string> stated = {};        // with `clip`: settings that the measured look does not replace
+  std::optional<MeasuredLook> look = {};    // what was measured, and is in the project
 };
 
 // A video for which there is no flight: the intruder is underground, the closing speed does not fit the miss distance,
@@ -46,6 +51,7 @@ struct Plan {
   std::vector<PlannedVideo> videos;  // in the recipe's order
   std::vector<ImpossibleVideo> impossible;
   std::vector<UnopenedVideo> unopened;
+  std::vector<ClipToMeasure> clips = {};  // whose look the run measures before it makes videos of them
 };
 
 // Makes the plan of a recipe. Samples depend on seed, video and quantity alone, not on the order or number of videos.

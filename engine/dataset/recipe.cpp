@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
 #include "base/paths.h"
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "dataset/recipe_reading.h"
 #include "dataset/video_name.h"
 #include "project/fields.h"
@@ -28,14 +30,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kPerVideo
      {"intruders[0].name", "aircraft[].name"},
      {"intruders[0].role", "aircraft[].distractor"},
      {"intruders[0].model.", "aircraft[].model"}}};
-
-void make_paths_absolute(Project& project) {
-  std::error_code code;
-  const std::filesystem::path folder = std::filesystem::absolute(project.file, code).parent_path();
-  for (const Field& field : fields_of(project))
-    if (auto* const text = std::get_if<std::string*>(&field.value); field.is_path && text && !(*text)->empty())
-      **text = (folder / **text).lexically_normal().string();
-}
 
 // Of the keys that remain once all fields are removed.
 void warn_of_unknown_keys(const Json& rest, const std::string& key, RecipeLog& log) {
@@ -73,6 +67,41 @@ void put_section(Json section, const std::string& project_key, const std::string
   warn_of_unknown_keys(rest, key, log);
 }
 
+}  // namespace
+
+void make_paths_absolute(Project& project) {
+  std::error_code code;
+  const std::filesystem::path folder = std::filesystem::absolute(project.file, code).parent_path();
+  for (const Field& field : fields_of(project))
+    if (auto* const text = std::get_if<std::string*>(&field.value); field.is_path && text && !(*text)->empty())
+      **text = (folder / **text).lexically_normal().string();
+}
+
+void read_section(RecipeNode& node, const std::string& name, const std::string& project_key, Project& project) {
+  const std::string key = node.key_of(name);
+  if (const Json* const section = node.value(name); section != nullptr) {
+    if (!section->is_object()) return node.log().wrong(key, "expected { ... }");
+    put_section(*section, project_key, key, project, node.log());
+  }
+  make_paths_absolute(project);
+  for (const Problem& problem : validate(project))
+    if (problem.field.starts_with(project_key + "."))
+      node.log().wrong(key + problem.field.substr(project_key.size()), problem.what,
+                       problem.kind == ErrorKind::cannot_read ? problem.kind : ErrorKind::bad_data);
+}
+
+void apply_settings(const std::vector<std::string>& settings, Project& project) {
+  for (const std::string& setting : settings)
+    if (!set_field(project, setting)) return;  // add_settings() has reported it
+  make_paths_absolute(project);
+}
+
+void read_origin(RecipeNode& node) {
+  for (const char* const key : {"licence", "source"}) static_cast<void>(node.text(key));
+}
+
+namespace {
+
 // What is wrong with a setting for all videos; empty: nothing, and the project has it.
 std::string put_setting(const std::string& assignment, Project& base) {
   const std::string key = assignment.substr(0, assignment.find('='));
@@ -85,22 +114,6 @@ std::string put_setting(const std::string& assignment, Project& base) {
   for (const Problem& problem : validate(base))
     if (problem.field == key) return problem.what;
   return {};
-}
-
-// Reads the object `name` of a node ("camera") as a project file has it below `project_key` ("camera",
-// "intruders[0].model") into the project, and checks it. Paths are relative to the folder of project.file and become
-// absolute. Mistakes and unknown keys are written to the node's log under the recipe's key.
-void read_section(RecipeNode& node, const std::string& name, const std::string& project_key, Project& project) {
-  const std::string key = node.key_of(name);
-  if (const Json* const section = node.value(name); section != nullptr) {
-    if (!section->is_object()) return node.log().wrong(key, "expected { ... }");
-    put_section(*section, project_key, key, project, node.log());
-  }
-  make_paths_absolute(project);
-  for (const Problem& problem : validate(project))
-    if (problem.field.starts_with(project_key + "."))
-      node.log().wrong(key + problem.field.substr(project_key.size()), problem.what,
-                       problem.kind == ErrorKind::cannot_read ? problem.kind : ErrorKind::bad_data);
 }
 
 // Reads "settings": {KEY: VALUE} of the recipe into the project. Returns them as KEY=VALUE.
@@ -127,20 +140,13 @@ void add_settings(const std::vector<std::string>& more, std::vector<std::string>
   }
 }
 
-// Sets KEY=VALUE that add_settings() has checked, over the background's own values.
-void apply_settings(const std::vector<std::string>& settings, Project& project) {
-  for (const std::string& setting : settings)
-    if (!set_field(project, setting)) return;  // add_settings() has reported it
-  make_paths_absolute(project);
-}
-
-// Warns of settings of camera and light that have no effect, since every background has its own.
+// Warns of settings of a background that have no effect, since every background has its own.
 void warn_of_overridden(RecipeNode& recipe) {
   const Json* const settings = recipe.value("settings");
   const Json* const backgrounds = recipe.value("backgrounds");
   if (settings == nullptr || !settings->is_object() || backgrounds == nullptr || !backgrounds->is_array()) return;
   for (const auto& [key, item] : settings->items()) {
-    if (!key.starts_with("camera.") && !key.starts_with("light.")) continue;
+    if (!key.starts_with("camera.") && !key.starts_with("light.") && !key.starts_with("appearance.")) continue;
     const Json::json_pointer place = pointer_of(key);
     const auto says = [&](const Json& background) { return background.contains(place); };
     if (std::all_of(backgrounds->begin(), backgrounds->end(), says))
@@ -178,36 +184,6 @@ void check_names(const std::vector<Named>& all, const std::string& key, RecipeLo
         log.wrong(fmt::format("{}[{}].name", key, i), fmt::format("stands there twice: \"{}\"", all[i].name));
 }
 
-// Takes footage, camera, light and appearance of the project that a background names.
-void read_project_of(RecipeNode& node, Project& project) {
-  const std::optional<std::string> name = node.text("project");
-  if (!name) return;
-  Result<ReadProject> loaded = read_project(from_recipe_folder(node, *name));
-  if (!loaded) return node.log().wrong(node.key_of("project"), loaded.error().text(), loaded.error().kind);
-  make_paths_absolute(loaded->project);
-  project.footage = loaded->project.footage;
-  project.cameras = loaded->project.cameras;
-  project.camera = loaded->project.camera;
-  project.light = loaded->project.light;
-  project.appearance = loaded->project.appearance;
-}
-
-// "licence" and "source", which the data sheet takes from the recipe's text (data_sheet.h).
-void read_origin(RecipeNode& node) {
-  for (const char* const key : {"licence", "source"}) static_cast<void>(node.text(key));
-}
-
-// Flights are planned about a camera that is turned as `camera` says.
-void check_cameras(const std::vector<RigCamera>& cameras, RecipeNode& node) {
-  if (cameras.empty()) return;
-  const MountSettings& first = cameras.front().mount;
-  if (first.roll_deg != 0 || first.pitch_deg != 0 || first.yaw_deg != 0)
-    node.log().wrong(node.key_of("project"),
-                     fmt::format("has a first camera, \"{}\", whose mount is turned; flights are planned about the "
-                                 "first one: put one that looks ahead first",
-                                 cameras.front().name));
-}
-
 // Images are frames of one camera.
 void check_images(const Recipe& recipe, RecipeLog& log) {
   for (const VideoGroup& group : recipe.groups)
@@ -216,26 +192,6 @@ void check_images(const Recipe& recipe, RecipeLog& log) {
         log.wrong("images", fmt::format("have the background \"{}\" with several cameras; take videos, or name other "
                                         "backgrounds",
                                         background.name));
-}
-
-Background read_background(RecipeNode node, const Project& base, const std::vector<std::string>& settings) {
-  Project project = base;
-  Background background{.name = node.needed_text("name"), .tags = node.text_map("tags")};
-  read_project_of(node, project);
-  read_section(node, "footage", "footage", project);
-  read_section(node, "camera", "camera", project);
-  read_section(node, "light", "light", project);
-  apply_settings(settings, project);
-  background.footage = project.cameras.empty() ? project.footage : project.cameras.front().footage;
-  background.cameras = project.cameras;
-  check_cameras(background.cameras, node);
-  background.camera = project.camera;
-  background.light = project.light;
-  background.appearance = project.appearance;
-  check_tags(background.tags, node);
-  read_origin(node);
-  node.done();
-  return background;
 }
 
 std::optional<Span> read_speed_limits(RecipeNode& node) {
@@ -316,6 +272,25 @@ Aircraft read_aircraft(RecipeNode node, const Project& base) {
   return aircraft;
 }
 
+void read_splits(RecipeNode& recipe_node, Recipe& recipe) {
+  const Json* const json = recipe_node.value("splits");
+  if (json == nullptr) return;
+  RecipeNode node(*json, "splits", recipe_node.log());
+  recipe.keep_together = node.text("keep_together").value_or("");
+  double sum = 0;
+  if (json->is_object())
+    for (const auto& [name, item] : json->items()) {
+      if (name == "keep_together") continue;
+      const double share = item.is_number() ? item.get<double>() : -1;
+      if (!(share >= 0 && share <= 1)) node.log().wrong(node.key_of(name), "expected a share from 0 to 1");
+      if (const std::string wrong = file_name_error(name); !wrong.empty()) node.log().wrong(node.key_of(name), wrong);
+      recipe.splits.push_back({name, share});
+      sum += share;
+    }
+  if (std::abs(sum - 1) > 1e-6)
+    node.log().wrong("splits", fmt::format("have shares that add up to {}, not 1", short_number_text(sum)));
+}
+
 Project project_without_settings(const std::filesystem::path& file) {
   Project base;
   base.file = file;
@@ -347,7 +322,7 @@ void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>&
   recipe.settings = read_settings(node, recipe.base);
   add_settings(settings, recipe.settings, recipe.base, node.log());
   for (const RecipeNode& background : node.nodes("backgrounds"))
-    recipe.backgrounds.push_back(read_background(background, recipe.base, settings));
+    recipe.backgrounds.push_back(read_background(background, recipe.base, recipe.settings, settings));
   for (const RecipeNode& aircraft : node.nodes("aircraft"))
     recipe.aircraft.push_back(read_aircraft(aircraft, recipe.base));
   warn_of_overridden(node);

@@ -27,6 +27,9 @@ struct Background {
   CameraSettings camera;
   LightSettings light;
   AppearanceSettings appearance;
+  bool is_matched = false;          // appearance and light are measured in the footage (matched_look.h), but for ...
+  std::vector<std::string> stated;  // ... these settings, which the recipe states: "light.exposure"
+  bool height_is_guess = false;     // of a matched one: the camera's height was guessed by `sigs init`
   std::map<std::string, std::string> tags;
 };
 
@@ -60,6 +63,9 @@ struct LightPlan {
 
 // The light with the sampled numbers in it; those that were not sampled stay.
 [[nodiscard]] LightSettings with_sampled_light(LightSettings light, const std::map<std::string, double>& sampled);
+
+// The key of the setting that such a number is of: "light.position_m" of "light_x_m".
+[[nodiscard]] std::string setting_of_light(const std::string& name);
 
 // What else flies in the videos of a group: a sampled number of bodies, each of a sampled aircraft and flight.
 struct OthersPlan {

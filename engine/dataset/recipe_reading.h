@@ -66,11 +66,30 @@ class RecipeNode {
 // "high": b}} (bounds may be left out) or {"choice": [a, b, ...]}. Otherwise what is wrong with it.
 [[nodiscard]] tl::expected<Quantity, std::string> quantity_of(const Json& json);
 
-// The recipe's "videos" and "splits"; backgrounds and aircraft must have been read. Mistakes are written to the node's
+// The recipe's "videos"; backgrounds and aircraft must have been read. Mistakes are written to the node's
 // log. settings: KEY=VALUE given beside the recipe, which override a group's values.
 [[nodiscard]] std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recipe,
                                                   const std::vector<std::string>& settings);
-void read_splits(RecipeNode& recipe_node, Recipe& recipe);
+
+// One of the recipe's "backgrounds". Mistakes are written to the node's log.
+//   settings  the recipe's, as KEY=VALUE; `base` has them
+//   beside    those of them that were given beside the recipe, which override all that the background says
+[[nodiscard]] Background read_background(RecipeNode node, const Project& base, const std::vector<std::string>& settings,
+                                         const std::vector<std::string>& beside);
+
+// Reads the object `name` of a node ("camera") as a project file has it below `project_key` ("camera",
+// "intruders[0].model") into the project, and checks it. Paths are relative to the folder of project.file and become
+// absolute. Mistakes and unknown keys are written to the node's log under the recipe's key.
+void read_section(RecipeNode& node, const std::string& name, const std::string& project_key, Project& project);
+
+// Sets KEY=VALUE that add_settings() has checked, over the background's own values.
+void apply_settings(const std::vector<std::string>& settings, Project& project);
+
+// Makes the paths of a project, which are relative to the folder of its file, absolute.
+void make_paths_absolute(Project& project);
+
+// "licence" and "source", which the data sheet takes from the recipe's text (data_sheet.h).
+void read_origin(RecipeNode& node);
 
 // A list of flights, and what files they name (relative to the recipe's folder) say. A flight given as a text is its
 // kind; anything else is taken as it is.

@@ -366,25 +366,6 @@ std::vector<VideoGroup> read_groups(RecipeNode& recipe_node, const Recipe& recip
   return groups;
 }
 
-void read_splits(RecipeNode& recipe_node, Recipe& recipe) {
-  const Json* const json = recipe_node.value("splits");
-  if (json == nullptr) return;
-  RecipeNode node(*json, "splits", recipe_node.log());
-  recipe.keep_together = node.text("keep_together").value_or("");
-  double sum = 0;
-  if (json->is_object())
-    for (const auto& [name, item] : json->items()) {
-      if (name == "keep_together") continue;
-      const double share = item.is_number() ? item.get<double>() : -1;
-      if (!(share >= 0 && share <= 1)) node.log().wrong(node.key_of(name), "expected a share from 0 to 1");
-      if (const std::string wrong = file_name_error(name); !wrong.empty()) node.log().wrong(node.key_of(name), wrong);
-      recipe.splits.push_back({name, share});
-      sum += share;
-    }
-  if (std::abs(sum - 1) > 1e-6)
-    node.log().wrong("splits", fmt::format("have shares that add up to {}, not 1", short_number_text(sum)));
-}
-
 LightSettings with_sampled_light(LightSettings light, const std::map<std::string, double>& sampled) {
   const std::array<double*, 7> values{&light.position_m.x, &light.position_m.y, &light.position_m.z, &light.color.x,
                                       &light.color.y,      &light.color.z,      &light.ambient};
@@ -395,6 +376,12 @@ LightSettings with_sampled_light(LightSettings light, const std::map<std::string
       ++i;
     }
   return light;
+}
+
+std::string setting_of_light(const std::string& name) {
+  for (const LightField& field : light_fields())
+    if (std::ranges::count(field.names, name) > 0) return std::string("light.") + field.key;
+  return {};
 }
 
 }  // namespace sigs

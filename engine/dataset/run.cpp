@@ -19,9 +19,9 @@
 #include "dataset/entry.h"
 #include "dataset/footage_cache.h"
 #include "dataset/index.h"
+#include "dataset/matched_look.h"
 #include "dataset/merge_labels.h"
 #include "dataset/video_folder.h"
-#include "dataset/video_name.h"
 #include "export/schedule.h"
 #include "project/validate.h"
 #include "scene/opened_project.h"
@@ -41,16 +41,6 @@ int cores() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-// The error with final paths in place of those in the staging folder, which the user does not know.
-Error with_final_names(Error error, const fs::path& dataset) {
-  const std::string staging = staging_folder_of(dataset).string() + "/";
-  for (std::string* const text : {&error.where, &error.what})
-    for (const std::string& part : {staging + "new/", staging})
-      for (std::size_t at = text->find(part); at != std::string::npos; at = text->find(part))
-        text->replace(at, part.size(), dataset.string() + "/");
-  return error;
-}
-
 // What a run knows of one of its videos.
 struct Task {
   VideoFolder folder;
@@ -61,6 +51,8 @@ struct Task {
   int done = 0;         // frames of it
 
   std::string why_not;  // the existing folder is not kept
+
+  std::optional<PlannedVideo> matched;  // the planned video with the look of its clip: `folder` has this one
 
   [[nodiscard]] bool is_pending() const { return !entry && !error; }
   [[nodiscard]] int frames() const { return extent.frames.last - extent.frames.first + 1; }
@@ -78,7 +70,8 @@ class DatasetRun {
         control_(control),
         dataset_(dataset),
         inputs_(control.cancel),
-        extents_(control.cancel) {
+        extents_(control.cancel),
+        looks_(plan.clips, request.source.program) {
     for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i)
       if (!request.shard || request.shard->has(i)) tasks_.push_back({.folder = {dataset, &plan.videos[i]}});
   }
@@ -90,6 +83,11 @@ class DatasetRun {
   [[nodiscard]] Error interrupted() const;
   void warn(const Warning& warning);
   void inspect(Task& task);
+  void find_extent(Task& task);
+  [[nodiscard]] std::string program_of(const PlannedVideo& video) const;
+  void compare_looks();
+  void measure_missing();
+  void match(Task& task);
   [[nodiscard]] std::string outdated(const Task& task, const VideoEntry& entry);
   [[nodiscard]] Result<void> check_all_there() const;
   [[nodiscard]] Result<void> export_missing(DatasetReport& report);
@@ -99,7 +97,6 @@ class DatasetRun {
   void advance(Task& task, int done);
   [[nodiscard]] Result<void> write_index(DatasetReport& report);
   void warn_of_unplanned_videos();
-  [[nodiscard]] Result<void> clear_staging_folder() const;
 
   const Plan& plan_;
   const DatasetRequest& request_;
@@ -108,6 +105,7 @@ class DatasetRun {
   InputChecksums inputs_;
   ExportExtents extents_;
   std::vector<Task> tasks_;
+  ClipLooks looks_;
   std::mutex mutex_;  // of the callbacks and the counts
   int frames_to_do_ = 0;
   int frames_done_ = 0;
@@ -131,13 +129,26 @@ std::string DatasetRun::outdated(const Task& task, const VideoEntry& entry) {
   return damage ? *damage : damage.error().text();
 }
 
+// What a video is made with besides its project and files. The look of its clip follows from the clip's key, so that
+// nothing need be measured to know whether a video is as planned.
+std::string DatasetRun::program_of(const PlannedVideo& video) const {
+  std::string program = request_.source.program;
+  if (video.rig) program += "\ncamera " + video.project.rig_view->name;
+  if (!video.clip) return program;
+  program += "\nmatched to " + *looks_.key_of(*video.clip);
+  for (const std::string& key : video.stated) program += "\nbut for " + key;
+  return program;
+}
+
 void DatasetRun::inspect(Task& task) {
   if (is_cancelled()) return;
   remove_abandoned_staging(task.folder.path());  // of temporary files that a killed run was writing
   const PlannedVideo& video = *task.folder.video;
-  const std::string program =
-      video.rig ? request_.source.program + "\ncamera " + video.project.rig_view->name : request_.source.program;
-  Result<std::string> planned = fingerprint_of(video.rig ? *video.rig : video.project, program, inputs_);
+  if (video.clip && !looks_.key_of(*video.clip)) {
+    task.error = looks_.key_of(*video.clip).error();
+    return;
+  }
+  Result<std::string> planned = fingerprint_of(video.rig ? *video.rig : video.project, program_of(video), inputs_);
   if (!planned) {
     task.error = planned.error();
     return;
@@ -150,12 +161,53 @@ void DatasetRun::inspect(Task& task) {
     if (entry && why.empty()) task.entry = std::move(*entry);
     if (entry && !why.empty() && !is_cancelled() && !request_.merge_only) warn({video.name, "is made anew: " + why});
   }
-  if (!task.is_pending() || request_.merge_only) return;
-  const Result<ExportExtent> extent = extents_.of(video.project);
+  if (task.is_pending() && !request_.merge_only) find_extent(task);
+}
+
+void DatasetRun::find_extent(Task& task) {
+  const Result<ExportExtent> extent = extents_.of(task.folder.video->project);
   if (extent)
     task.extent = *extent;
   else
     task.error = extent.error();
+}
+
+// Videos that are there have the looks of their clips. A clip has one look, which another processor might have rounded
+// otherwise.
+void DatasetRun::compare_looks() {
+  for (Task& task : tasks_) {
+    const std::optional<std::size_t>& clip = task.folder.video->clip;
+    if (!task.entry || !clip || (task.entry->look && looks_.take(*clip, *task.entry->look))) continue;
+    task.entry.reset();
+    task.why_not = "its footage was measured otherwise than for other videos";
+    if (request_.merge_only) continue;
+    warn({task.folder.video->name, "is made anew: " + task.why_not});
+    find_extent(task);
+  }
+}
+
+void DatasetRun::measure_missing() {
+  std::set<std::size_t> clips;
+  for (const Task& task : tasks_)
+    if (task.is_pending() && task.folder.video->clip) clips.insert(*task.folder.video->clip);
+  looks_.measure(clips, {.measuring = control_.measuring,
+                         .warn = [&](const Warning& warning) { warn(warning); },
+                         .cancel = control_.cancel});
+}
+
+// Puts the look of a video's clip into its project.
+void DatasetRun::match(Task& task) {
+  const std::optional<std::size_t>& clip = task.folder.video->clip;
+  const Result<MeasuredLook>* const look = clip && !task.error ? looks_.of(*clip) : nullptr;
+  if (look == nullptr) return;  // nothing is made of it
+  if (!*look) {
+    task.error = look->error();
+    return;
+  }
+  task.matched = *task.folder.video;
+  task.matched->look = **look;
+  put_look(**look, task.matched->stated, task.matched->project);
+  task.folder.video = &*task.matched;
 }
 
 Result<void> DatasetRun::check_all_there() const {
@@ -243,22 +295,6 @@ Result<void> DatasetRun::export_missing(DatasetReport& report) {
   return {};
 }
 
-// Removes what killed runs have left; where other shards may be running, only empty folders.
-Result<void> DatasetRun::clear_staging_folder() const {
-  for (const char* const name : {"new", "old", "labels", "splits"}) {
-    std::error_code code;
-    if (request_.shard) {
-      fs::remove(staging_folder_of(dataset_) / name, code);
-      continue;
-    }
-    fs::remove_all(staging_folder_of(dataset_) / name, code);
-    if (code)
-      return fail((staging_folder_of(dataset_) / name).string(), "cannot be removed: " + code.message(),
-                  ErrorKind::cannot_create);
-  }
-  return {};
-}
-
 // Videos of an older recipe.
 void DatasetRun::warn_of_unplanned_videos() {
   std::set<std::string> planned;
@@ -285,8 +321,16 @@ Result<void> DatasetRun::write_index(DatasetReport& report) {
 Result<DatasetReport> DatasetRun::all() {
   const Stopwatch watch;
   DatasetReport report;
-  parallel_for(static_cast<int>(tasks_.size()), std::min(cores(), 8), [&](int i) { inspect(tasks_[i]); });
+  std::set<std::size_t> clips;
+  for (const Task& task : tasks_)
+    if (task.folder.video->clip) clips.insert(*task.folder.video->clip);
+  looks_.find_keys(clips, inputs_);
   if (is_cancelled()) return fail(interrupted());
+  parallel_for(static_cast<int>(tasks_.size()), std::min(cores(), 8), [&](int i) { inspect(tasks_[i]); });
+  compare_looks();
+  if (!request_.merge_only) measure_missing();
+  if (is_cancelled()) return fail(interrupted());
+  for (Task& task : tasks_) match(task);
   if (request_.merge_only)
     if (const Result<void> there = check_all_there(); !there) return fail(there.error());
   report.kept = static_cast<int>(std::count_if(tasks_.begin(), tasks_.end(), [](const Task& t) { return t.entry; }));
@@ -297,29 +341,17 @@ Result<DatasetReport> DatasetRun::all() {
   for (const Task& task : tasks_)
     if (task.error) report.failures.push_back({task.folder.video->name, *task.error});
   for (const UnopenedVideo& video : plan_.unopened) report.failures.push_back({video.name, video.error});
-  Result<void> step = clear_staging_folder();
+  Result<void> step = clear_staging_folder(dataset_, request_.shard.has_value());
   if (is_cancelled()) return fail(interrupted());
   const bool is_whole = request_.index && !request_.shard && report.failures.empty();
   if (step && is_whole) step = write_index(report);
-  if (!step) static_cast<void>(clear_staging_folder());  // of what the index was to be made of
+  if (!step)
+    static_cast<void>(
+        clear_staging_folder(dataset_, request_.shard.has_value()));  // of what the index was to be made of
   if (!step && is_cancelled()) return fail(interrupted());
   if (!step) return fail(with_final_names(step.error(), dataset_));
   report.seconds = watch.elapsed_s();
   return report;
-}
-
-Result<void> check_names(const Plan& plan) {
-  if (const std::string wrong = file_name_error(plan.name); !wrong.empty())
-    return fail(fmt::format("dataset \"{}\"", plan.name), wrong);
-  std::set<std::string> names;
-  for (const PlannedVideo& video : plan.videos) {
-    if (const std::string wrong = wrong_with_video_name(video.name); !wrong.empty())
-      return fail(fmt::format("video \"{}\"", video.name), wrong);
-    if (!names.insert(video.name).second) return fail(fmt::format("video \"{}\"", video.name), "is planned twice");
-    if (const std::string wrong = file_name_error(split_of(video)); !wrong.empty())
-      return fail(fmt::format("split \"{}\"", video.split), wrong);
-  }
-  return {};
 }
 
 Result<fs::path> made_folder(const fs::path& folder) {
@@ -346,7 +378,7 @@ Result<DatasetReport> made_in(const fs::path& dataset, const Plan& plan, const D
 }  // namespace
 
 Result<DatasetReport> make_dataset(const Plan& plan, const DatasetRequest& request, const DatasetControl& control) {
-  if (const Result<void> names = check_names(plan); !names) return fail(names.error());
+  if (const Result<void> names = check_folder_names(plan); !names) return fail(names.error());
   if (const Result<void> labels = check_labels_agree(plan); !labels) return fail(labels.error());
   std::error_code code;
   const bool was_there = fs::exists(request.folder, code);

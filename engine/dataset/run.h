@@ -44,6 +44,8 @@ struct DatasetReport {
 // Callbacks are called from any thread, never two at a time.
 struct DatasetControl {
   std::function<void(int done, int total)> progress;  // frames, of all videos to be exported
+  // Before the videos, where footage is measured (matched_look.h): parts of that, and the file that is looked at.
+  std::function<void(int done, int total, const std::string& clip)> measuring;
   std::function<void(const Warning&)> warn;
   std::function<void(const std::string& video)> finished;
   const std::atomic<bool>* cancel = nullptr;  // when set: stops soon with error interrupted; finished videos are kept

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -115,6 +116,16 @@ Project project_of(const Recipe& recipe, const VideoSpec& spec, const FrameRange
   project.output.categories = categories_of(recipe);
   project.intruders.clear();
   return project;
+}
+
+// The settings of a video of a matched background that the recipe states.
+std::set<std::string> stated_in(const Background& background, const VideoGroup& group, const LightPlan* light) {
+  std::set<std::string> keys(background.stated.begin(), background.stated.end());
+  for (const auto& [key, quantity] : group.numbers) keys.insert(key);
+  if (light == nullptr) return keys;
+  for (const auto& [key, quantity] : light->numbers) keys.insert(key);
+  for (const auto& [name, quantity] : light->quantities) keys.insert(setting_of_light(name));
+  return keys;
 }
 
 // A body of a video: which aircraft, on which flight.
@@ -338,6 +349,8 @@ tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, cons
     for (const auto& [name, quantity] : light_plan->quantities) light[name] = sampler.number(quantity, name);
   PlannedVideo video{.name = spec.name, .split = group.split, .tags = tags_of(recipe, spec)};
   video.project = project_of(recipe, spec, *frames, light);
+  if (const Background& matched = recipe.backgrounds[spec.background]; matched.is_matched)
+    video.stated = stated_in(matched, group, light_plan);
   if (light_plan != nullptr) sample_numbers(light_plan->numbers, sampler, "", 0, video.project, video.sampled);
   sample_numbers(group.numbers, sampler, "", 0, video.project, video.sampled);
   const FlightContext context{

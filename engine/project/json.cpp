@@ -73,7 +73,8 @@ Result<void> make_room_for_cameras(const Json& json, const std::string& file, Pr
   project.cameras.resize(*cameras);
   for (std::size_t i = 0; i < *cameras; ++i) {
     const Json& camera = json.at("cameras").at(i);
-    if (!camera.is_object()) return fail(fmt::format("{}: cameras[{}]", file, i), "expected { ... }", ErrorKind::bad_project);
+    if (!camera.is_object())
+      return fail(fmt::format("{}: cameras[{}]", file, i), "expected { ... }", ErrorKind::bad_project);
     if (camera.contains("appearance") && !camera.at("appearance").is_null()) project.cameras[i].appearance.emplace();
   }
   if (*cameras > 0 && json.contains("footage"))
@@ -119,8 +120,8 @@ void remove_empty_objects(Json& json) {
   json = std::move(remaining);
 }
 
-// Keys of a project with one camera, one intruder and one waypoint that begin with `prefix`, without it; of the whole project (no
-// prefix) those outside of lists.
+// Keys of a project with one camera, one intruder and one waypoint that begin with `prefix`, without it; of the whole
+// project (no prefix) those outside of lists.
 std::vector<std::string> known_keys(std::string_view prefix) {
   Project sample;
   if (!prefix.empty()) sample.cameras.resize(1);
@@ -183,7 +184,8 @@ void keep_unknown(Json rest, const std::string& file, Project& project, std::vec
   of_project.emplace_back("intruders");
   of_project.emplace_back("cameras");
   for (std::size_t i = 0; i < project.cameras.size(); ++i)
-    project.cameras[i].unknown_json = kept(std::move(cameras.at(i)), {fmt::format("{}: cameras[{}].", file, i), known_keys("cameras[0].")}, warnings);
+    project.cameras[i].unknown_json =
+        kept(std::move(cameras.at(i)), {fmt::format("{}: cameras[{}].", file, i), known_keys("cameras[0].")}, warnings);
   std::vector<std::string> of_intruder = known_keys("intruders[0].");
   of_intruder.emplace_back("trajectory.waypoints");
   const std::vector<std::string> of_waypoint = known_keys("intruders[0].trajectory.waypoints[0].");
@@ -310,6 +312,15 @@ std::vector<std::string> setting_texts(const Project& project, const std::vector
     }
   }
   return texts;
+}
+
+Json settings_json(Project project, const std::vector<std::string>& keys) {
+  Json settings = Json::object();
+  const std::vector<Field> fields = fields_of(project);
+  for (const std::string& key : keys)
+    if (const auto field = std::ranges::find(fields, key, &Field::key); field != fields.end())
+      settings[pointer_of(key)] = json_of(*field);
+  return settings;
 }
 
 Result<void> write_project(const Project& project, const std::filesystem::path& path, bool overwrite) {

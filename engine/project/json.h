@@ -42,6 +42,9 @@ inline constexpr std::size_t kMaxCameras = 100;
 [[nodiscard]] std::string setting_text(const Project& project, const std::string& key);
 [[nodiscard]] std::vector<std::string> setting_texts(const Project& project, const std::vector<std::string>& keys);
 
+// The settings of these keys, nested as in a project file. Keys that the project does not have are left out.
+[[nodiscard]] Json settings_json(Project project, const std::vector<std::string>& keys);
+
 // Writes the project file, which appears only when it is complete. Errors as those of write_text().
 [[nodiscard]] Result<void> write_project(const Project& project, const std::filesystem::path& path, bool overwrite);
 
