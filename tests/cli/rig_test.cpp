@@ -186,9 +186,9 @@ TEST_CASE("two cameras in one image, as of a stereo camera, give what FFmpeg's c
     CHECK(done.status == 0);
     CHECK(rig_says(done.err, "made for the whole footage, 132x52") == (calibration == "whole"));
   }
-  const std::string by_whole = text_of(tiny.file("whole/p.xml"));
+  const std::string by_whole = text_of(tiny.file("whole/tiny.xml"));
   CHECK(by_whole.substr(by_whole.find("<intruder ")) ==
-        text_of(tiny.file("part/p.xml")).substr(text_of(tiny.file("part/p.xml")).find("<intruder ")));
+        text_of(tiny.file("part/tiny.xml")).substr(text_of(tiny.file("part/tiny.xml")).find("<intruder ")));
   const auto refused = [&](const std::string& set) {
     return run_sigs("export " + in("p.json") + " --set footage.video=both.mkv " + set + " --out " + in("none"));
   };
