@@ -19,11 +19,6 @@ int seen_frame(const ViewContext& context) {
   return context.shown.image ? context.shown.image->frame : footage_frame(context);
 }
 
-std::span<const RealAircraftBox> boxes_of_frame(const RealAircraftBoxes& boxes, int frame) {
-  const auto there = std::ranges::equal_range(boxes, frame, {}, &RealAircraftBox::frame);
-  return {there.begin(), there.end()};
-}
-
 // One line below the other, in the upper left of the image.
 void draw_lines_of_help(const ImageCanvas& canvas, std::span<const char* const> lines) {
   glm::dvec2 at = canvas.rect.low + static_cast<double>(scaled(12));

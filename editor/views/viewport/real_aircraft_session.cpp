@@ -23,9 +23,9 @@ constexpr double kRounding_px = 1.1e-4;
 
 // Of its aircraft in another frame; null: none.
 const RealAircraftBox* box_in_frame(const RealAircraftBoxes& boxes, const std::string& label, int frame) {
-  const auto there = std::ranges::equal_range(boxes, frame, {}, &RealAircraftBox::frame);
-  const auto found = std::ranges::find(there, label, &RealAircraftBox::label);
-  return found == there.end() ? nullptr : &*found;
+  for (const RealAircraftBox& one : boxes_of_frame(boxes, frame))
+    if (one.label == label) return &one;
+  return nullptr;
 }
 
 bool are_near(const Box& a, const Box& b) {
@@ -49,6 +49,12 @@ fs::path named_file(const Project& project) {
 }
 
 }  // namespace
+
+std::span<const RealAircraftBox> boxes_of_frame(const RealAircraftBoxes& boxes, int frame) {
+  const auto first = std::ranges::lower_bound(boxes, frame, {}, &RealAircraftBox::frame);
+  const auto end = std::ranges::upper_bound(boxes, frame, {}, &RealAircraftBox::frame);
+  return {first, end};
+}
 
 Box box_between(const RealAircraftBox& before, const RealAircraftBox& after, int frame) {
   const double share = static_cast<double>(frame - before.frame) / (after.frame - before.frame);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct FootageBounds {
 
 // The boxes of a file, sorted by frame. The same label in several frames is the same aircraft.
 using RealAircraftBoxes = std::vector<RealAircraftBox>;
+
+// Those of one frame; valid for as long as the boxes do not change.
+[[nodiscard]] std::span<const RealAircraftBox> boxes_of_frame(const RealAircraftBoxes& boxes, int frame);
 
 // The straight line between two boxes of an aircraft, at a frame between theirs: each of the four numbers by itself.
 [[nodiscard]] Box box_between(const RealAircraftBox& before, const RealAircraftBox& after, int frame);
