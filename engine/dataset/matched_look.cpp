@@ -39,10 +39,6 @@ Result<MeasuredLook> measured_look(const ClipToMeasure& clip, const AppearanceCo
 
 }  // namespace
 
-bool may_be_measured(const std::string& key) {
-  return key.starts_with("appearance.") || key.starts_with("light.") || key == "compositing.blur_px_per_m";
-}
-
 void put_look(const MeasuredLook& look, const std::set<std::string>& stated, Project& project) {
   const bool keeps_light = states_lamp(stated, project);
   for (const Field& field : fields_of(project)) {

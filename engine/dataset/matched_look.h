@@ -37,7 +37,9 @@ struct MeasuredLook {
 };
 
 // Whether a setting of a project is one that measures may set: its appearance, its light, compositing.blur_px_per_m.
-[[nodiscard]] bool may_be_measured(const std::string& key);
+[[nodiscard]] inline bool may_be_measured(const std::string& key) {
+  return key.starts_with("appearance.") || key.starts_with("light.") || key == "compositing.blur_px_per_m";
+}
 
 // Puts a look into a project.
 //   stated  keys of settings that stay; where they make the light a lamp (light.position_m, light.ambient, or
