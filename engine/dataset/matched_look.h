@@ -42,9 +42,8 @@ struct MeasuredLook {
 }
 
 // Puts a look into a project.
-//   stated  keys of settings that stay; where they make the light a lamp (light.position_m, light.ambient, or
-//   light.kind
-//           in a project in which that is "point"), all of the light stays
+//   stated  keys of settings that stay; where they make the light a lamp (light.position_m or light.ambient, or
+//           light.kind in a project in which that is "point"), all of the light stays
 void put_look(const MeasuredLook& look, const std::set<std::string>& stated, Project& project);
 
 // As entry.json and index.json have it, and back; throws what the JSON library does where it is something else.

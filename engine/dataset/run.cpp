@@ -345,9 +345,8 @@ Result<DatasetReport> DatasetRun::all() {
   if (is_cancelled()) return fail(interrupted());
   const bool is_whole = request_.index && !request_.shard && report.failures.empty();
   if (step && is_whole) step = write_index(report);
-  if (!step)
-    static_cast<void>(
-        clear_staging_folder(dataset_, request_.shard.has_value()));  // of what the index was to be made of
+  // Of what the index was to be made of.
+  if (!step) static_cast<void>(clear_staging_folder(dataset_, request_.shard.has_value()));
   if (!step && is_cancelled()) return fail(interrupted());
   if (!step) return fail(with_final_names(step.error(), dataset_));
   report.seconds = watch.elapsed_s();

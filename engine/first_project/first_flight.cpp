@@ -251,8 +251,7 @@ class FlightSearch {
   }
 
   void set(const std::vector<WaypointSettings>& waypoints) {
-    const std::vector<TimedWaypoint> timed =
-        timed_waypoints(waypoints, scene_);
+    const std::vector<TimedWaypoint> timed = timed_waypoints(waypoints, scene_);
     if (Result<Trajectory> trajectory = Trajectory::make(timed, {})) scene_.intruders.front().trajectory = *trajectory;
   }
 

@@ -95,8 +95,7 @@ std::size_t waypoints_in_image(const std::vector<TimedWaypoint>& waypoints, cons
 std::optional<Problem> positions_mistake(const Project& project, std::size_t intruder, const Scene& scene,
                                          const std::string& key) {
   const IntruderSettings& settings = project.intruders[intruder];
-  const std::vector<TimedWaypoint> waypoints =
-      timed_waypoints(settings.trajectory.waypoints, scene);
+  const std::vector<TimedWaypoint> waypoints = timed_waypoints(settings.trajectory.waypoints, scene);
   const auto all = [&](const auto& test) { return std::all_of(waypoints.begin(), waypoints.end(), test); };
   const auto in_image = [&](const auto& change) { return waypoints_in_image(waypoints, scene, change); };
   if (in_image([](const glm::dvec3& p) { return p; }) > 0) return std::nullopt;

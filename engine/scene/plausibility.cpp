@@ -156,8 +156,7 @@ std::optional<Problem> overshoot_issue(const Project& project, std::size_t intru
   if (waypoints.empty()) return std::nullopt;
   const std::vector<Overshoot> overshoots = overshoots_of(waypoints);
   if (overshoots.empty()) return std::nullopt;
-  const std::vector<double> frames =
-      waypoint_frames(settings.trajectory.waypoints, scene);
+  const std::vector<double> frames = waypoint_frames(settings.trajectory.waypoints, scene);
   return Problem{key_of_intruder(intruder) + ".trajectory",
                  overshoot_text(farthest(overshoots), overshoots.size() - 1, settings.name, frames)};
 }

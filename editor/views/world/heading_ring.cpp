@@ -64,8 +64,8 @@ std::optional<HeadingRing::Shape> HeadingRing::shape_of(const Target& target, co
   Shape shape;
   for (int i = 0; i <= kPieces; ++i)
     shape.ring_m.push_back(target.center_m + radius_m * level_direction(2 * std::numbers::pi * i / kPieces));
-  const std::optional<glm::dvec2> knob =
-      eye.screen_of(target.center_m + radius_m * level_direction(target.heading_rad), canvas.rect());
+  shape.nose_m = target.center_m + radius_m * level_direction(target.heading_rad);
+  const std::optional<glm::dvec2> knob = eye.screen_of(shape.nose_m, canvas.rect());
   if (!knob) return std::nullopt;
   shape.knob = *knob;
   return shape;
@@ -121,9 +121,7 @@ void HeadingRing::draw(WorldCanvas& canvas, const WorldContext& world) const {
   const bool is_hot = is_hovered_ || is_dragging();
   const ImU32 shade = is_hot ? color::kAccent : color::kPartly;
   canvas.polyline(shape->ring_m, faded(shade, is_hot ? 0.9 : 0.45), is_hot ? 2 : 1.4);
-  canvas.line(target->center_m,
-              target->center_m + (shape->ring_m.front().x - target->center_m.x) * level_direction(target->heading_rad),
-              faded(shade, 0.7), 1.4);
+  canvas.line(target->center_m, shape->nose_m, faded(shade, 0.7), 1.4);
   const float radius = scaled(is_hot ? 7 : 5.5);
   canvas.list().AddCircleFilled(im(shape->knob), radius + scaled(2), IM_COL32(0, 0, 0, 170));
   if (target->is_given || is_dragging())

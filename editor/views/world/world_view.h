@@ -145,7 +145,8 @@ class HeadingRing {
   };
   struct Shape {
     std::vector<glm::dvec3> ring_m;
-    glm::dvec2 knob{0, 0};  // on the screen
+    glm::dvec3 nose_m{0, 0, 0};  // on the ring, where the nose points
+    glm::dvec2 knob{0, 0};       // the same on the screen
   };
   [[nodiscard]] std::optional<Target> target_of(const WorldContext& world) const;
   [[nodiscard]] static std::optional<Shape> shape_of(const Target& target, const WorldCanvas& canvas);
