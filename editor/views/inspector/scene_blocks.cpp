@@ -180,7 +180,15 @@ void ModelBlock::draw_preview(const ViewContext& context, int intruder) {
   const ImVec2 size{std::floor(width), std::floor(width * 0.6F)};
   ImGui::InvisibleButton("preview", size);
   context.ui_probe.note_item("inspector/model preview");
-  if (!ImGui::IsItemVisible()) return;
+  const ModelImage* const model = context.shown.model.get();
+  const std::string& file = context.project().intruders[static_cast<std::size_t>(intruder)].model.file;
+  const bool is_of_this = model != nullptr && is_same_file(model->file, resolved(context.project(), file));
+  const bool has_failed = is_of_this && !model->problem.empty();
+  // The line of its size is there before the size is known, and while the image is out of sight: nothing below moves.
+  const auto leave_line = [&] {
+    if (!file.empty() && !has_failed) note(" ");
+  };
+  if (!ImGui::IsItemVisible()) return leave_line();
   if (ImGui::IsItemActive())
     turn_rad_ = std::remainder(turn_rad_ - kTurnAPixel_rad * static_cast<double>(ImGui::GetIO().MouseDelta.x),
                                2 * std::numbers::pi);
@@ -194,14 +202,10 @@ void ModelBlock::draw_preview(const ViewContext& context, int intruder) {
   const ImVec2 high = ImGui::GetItemRectMax();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(low, high, color::kCanvas, scaled(4));
-  const ModelImage* const model = context.shown.model.get();
-  const std::string& file = context.project().intruders[static_cast<std::size_t>(intruder)].model.file;
-  const bool is_of_this = model != nullptr && is_same_file(model->file, resolved(context.project(), file));
-  if (!is_of_this || model->rgba.empty())
-    return draw_centred(low, size,
-                        file.empty()                            ? "no model"
-                        : is_of_this && !model->problem.empty() ? "no image"
-                                                                : "...");
+  if (!is_of_this || model->rgba.empty()) {
+    draw_centred(low, size, file.empty() ? "no model" : has_failed ? "no image" : "...");
+    return leave_line();
+  }
   list.AddImage(context.textures.of(model->rgba, Filter::smooth), low, high);
   context.ui_probe.note_item("inspector/model image");
   draw_axis(list, low, size, {1, 0, 0}, turn_rad_, color::kAccent, "nose");
