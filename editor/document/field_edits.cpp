@@ -136,14 +136,6 @@ std::unique_ptr<Project> without_waypoints(const Project& project) {
   return copy;
 }
 
-std::unique_ptr<Project> default_project_like(const Project& like) {
-  auto project = std::make_unique<Project>();
-  project->intruders.resize(like.intruders.size());
-  project->cameras.resize(like.cameras.size());
-  if (like.rig_view) project->rig_view.emplace();
-  return project;
-}
-
 bool lie_along_each_other(const ModelSettings& model) {
   return model.forward.size() == 2 && model.up.size() == 2 && model.forward[1] == model.up[1];
 }
@@ -264,7 +256,7 @@ bool put_value(Project& project, std::string_view key, const PlainValue& value) 
 
 FieldSheet::FieldSheet(const Project& project)
     : project_(without_waypoints(project)),
-      defaults_(default_project_like(project)),
+      defaults_(std::make_unique<Project>(default_project_like(*project_))),
       fields_(fields_of(*project_)),
       default_fields_(fields_of(*defaults_)) {}
 

@@ -196,7 +196,8 @@ bool is_common(std::string_view key) {
       "export.video.codec",
       "export.labels",
   };
-  return key.ends_with("].name") || std::ranges::find(kCommon, without_intruder(key)) != kCommon.end();
+  return key.ends_with("].name") || key.find(".rotors[") != std::string_view::npos ||
+         std::ranges::find(kCommon, without_intruder(key)) != kCommon.end();
 }
 
 }  // namespace sigs::editor

@@ -16,6 +16,8 @@
 #include "dataset/video_sample.h"
 #include "project/rig.h"
 #include "project/validate.h"
+#include "scene/scene_files.h"
+#include "scene/scene_parts.h"
 
 namespace sigs {
 
@@ -221,7 +223,25 @@ void Planner::add(const VideoSpec& spec, Plan& plan) {
 
 }  // namespace
 
+// A rotor that the model of its aircraft cannot have is a mistake of the recipe, whatever video is made of it.
+static Result<void> check_rotors(const Recipe& recipe) {
+  SceneFiles files;
+  Project project = recipe.base;
+  project.intruders.resize(1);
+  for (std::size_t i = 0; i < recipe.aircraft.size(); ++i) {
+    project.intruders[0].model = recipe.aircraft[i].model;
+    if (recipe.aircraft[i].model.rotors.empty()) continue;
+    const auto model = scene_model(project, 0, files);
+    const std::size_t rotor = model ? std::string::npos : model.error().field.find("model.rotors[");
+    if (rotor != std::string::npos)
+      return fail(fmt::format("{}: aircraft[{}].{}", recipe.file.string(), i, model.error().field.substr(rotor)),
+                  model.error().what);
+  }
+  return {};
+}
+
 Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
+  if (const Result<void> rotors = check_rotors(recipe); !rotors) return fail(rotors.error());
   const Result<std::vector<VideoSpec>> specs = all_specs(recipe);
   if (!specs) return fail(specs.error());
   const Result<std::vector<Result<OpenedBackground>>> backgrounds = opened_backgrounds(recipe);

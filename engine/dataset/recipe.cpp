@@ -64,6 +64,10 @@ void put_section(Json section, const std::string& project_key, const std::string
       log.wrong(key + "." + name, wrong);
     rest.at(place.parent_pointer()).erase(place.back());
   }
+  // Of a list whose items are all read nothing is left.
+  if (const auto rotors = rest.find("rotors"); rotors != rest.end() && rotors->is_array())
+    if (std::ranges::all_of(*rotors, [](const Json& item) { return item.is_object() && item.empty(); }))
+      rest.erase("rotors");
   warn_of_unknown_keys(rest, key, log);
 }
 
@@ -252,12 +256,34 @@ void read_drawn(RecipeNode& node, const char* section, Aircraft& aircraft) {
   part.done();
 }
 
+// As many as "model" lists, for read_section().
+void make_room_for_rotors(RecipeNode& node, ModelSettings& model) {
+  const Json* const section = node.value("model");
+  if (section == nullptr || !section->is_object() || !section->contains("rotors")) return;
+  const Json& rotors = section->at("rotors");
+  const std::string key = node.key_of("model") + ".rotors";
+  if (!rotors.is_array()) return node.log().wrong(key, "expected a list [ ... ], found " + shown(rotors));
+  if (rotors.size() > kMaxRotors)
+    return node.log().wrong(key, fmt::format("has {} entries; at most {} are read", rotors.size(), kMaxRotors));
+  model.rotors.assign(rotors.size(), {});
+}
+
+// "gloss": a factor of the highlights, for each video.
+void read_gloss(RecipeNode& node, Aircraft& aircraft) {
+  const std::optional<Quantity> gloss = read_quantity(node, "gloss");
+  if (!gloss) return;
+  const Span span = span_of(*gloss);
+  if (span.low < 0 || span.high > 100) node.log().wrong(node.key_of("gloss"), "must lie between 0 and 100");
+  aircraft.drawn["intruders[0].model.gloss"] = *gloss;
+}
+
 Aircraft read_aircraft(RecipeNode node, const Project& base) {
   Project project = base;
   IntruderSettings& intruder = project.intruders.front();
   Aircraft aircraft{.name = node.needed_text("name"), .tags = node.text_map("tags")};
   aircraft.category = node.text("category").value_or(aircraft.category);
   if (aircraft.category.empty()) node.log().wrong(node.key_of("category"), "is empty; labels count by it");
+  make_room_for_rotors(node, intruder.model);
   read_section(node, "model", "intruders[0].model", project);
   aircraft.model = intruder.model;
   aircraft.liveries = read_liveries(node);
@@ -265,6 +291,7 @@ Aircraft read_aircraft(RecipeNode node, const Project& base) {
   aircraft.is_distractor = read_distractor(node);
   aircraft.speed_limits_mps = read_speed_limits(node);
   read_contrail(node, aircraft);
+  read_gloss(node, aircraft);
   for (const char* const section : {"heat", "lights"}) read_drawn(node, section, aircraft);
   check_tags(aircraft.tags, node);
   read_origin(node);

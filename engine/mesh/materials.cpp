@@ -5,8 +5,10 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <exception>
+#include <fstream>
 #include <map>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -21,6 +23,7 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "mesh/texture_formats.h"
 
 namespace sigs {
 
@@ -66,10 +69,23 @@ cv::Mat as_rgba(const cv::Mat& texture) {
 constexpr int kMaxSide_px = 16384;                  // supported by OpenGL nearly everywhere
 constexpr std::int64_t kMaxPixels = 8192LL * 8192;  // a quarter of a gigabyte in RGBA
 
+// Those that OpenCV reads by their mark, the others by their first bytes.
+std::optional<cv::Size> size_of_texture_px(const fs::path& path) {
+  if (const std::optional<cv::Size> size_px = image_size_px(path)) return size_px;
+  std::array<char, 32> head{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), head.size());
+  return texture_size_px({head.data(), static_cast<std::size_t>(file.gcount())});
+}
+
 cv::Mat read_image(const fs::path& path) {
   if (!texture_problem(path).empty()) return {};
   try {
-    const cv::Mat texture = image_codecs::imread(path.string(), cv::IMREAD_UNCHANGED);
+    cv::Mat texture;
+    if (image_size_px(path))
+      texture = image_codecs::imread(path.string(), cv::IMREAD_UNCHANGED);
+    else if (const Result<std::string> bytes = read_text(path))
+      texture = decoded_texture(*bytes);
     return texture.empty() ? cv::Mat() : as_rgba(as_8_bit(texture));
   } catch (const cv::Exception&) {
     if (is_out_of_memory()) throw;  // a model without its texture would be wrong
@@ -258,8 +274,8 @@ fs::path found_file(const fs::path& folder, std::string written) {
 }
 
 std::string texture_problem(const fs::path& path) {
-  const std::optional<cv::Size> size = image_size_px(path);
-  if (!size) return "cannot be read (png, jpeg, bmp, tiff, webp, pnm)";
+  const std::optional<cv::Size> size = size_of_texture_px(path);
+  if (!size) return "cannot be read (png, jpeg, bmp, tiff, webp, pnm, tga, sgi)";
   const bool is_large =
       std::max(size->width, size->height) > kMaxSide_px || std::int64_t{size->width} * size->height > kMaxPixels;
   if (!is_large) return "";

@@ -50,6 +50,31 @@ using RotorStatements = std::map<std::string, std::string>;
 // Nothing where the triangles face all ways: they form no disc.
 [[nodiscard]] std::optional<Rotor> placed(Rotor rotor, std::span<const std::array<glm::dvec3, 3>> disc, double scale);
 
+// Its disc: a ring of triangles from just inside the root to just outside the tip that face along the axis.
+//   coning_rad  by which the blades rise from the plane, towards the axis; within a quarter turn
+[[nodiscard]] std::vector<std::array<glm::dvec3, 3>> rotor_disc(const Rotor& rotor, double coning_rad = 0);
+
+// A rotor that is stated apart from the model's files. Body axes, metres.
+struct StatedRotor {
+  std::string part;                // material, else group, else object of the file; its faces become the disc
+  int blade_count = 2;             // 0: its faces are left out
+  std::optional<double> rpm = {};  // as Rotor::rpm; none: tips at 200 m/s, a guess
+  double chord_m = 0;              // 0: a 15th of the radius, a guess
+  double phase_rad = 0;
+  double coning_rad = 0;      // as of rotor_disc()
+  glm::dvec3 axis{0, 0, 0};   // of any length; 0: the side that the faces look to, which then form a disc
+  double radius_m = 0;        // 0: as far as its faces reach from their middle
+  glm::dvec3 hub_m{0, 0, 0};  // with a radius: of its faces those within it of here, else the faces' middle
+};
+
+// The rotor on the faces that it replaces, and its disc. Errors (bad_project) name the setting: "axis" where the faces
+// form no disc and none is stated; "radius_m" where they leave their middle free, as those of several rotors do.
+struct PlacedRotor {
+  Rotor rotor;
+  std::vector<std::array<glm::dvec3, 3>> disc;
+};
+[[nodiscard]] Result<PlacedRotor> placed(const StatedRotor& stated, std::span<const std::array<glm::dvec3, 3>> faces);
+
 // The appearance of a surface, as an MTL file describes it.
 struct Material {
   std::string name;
@@ -81,7 +106,8 @@ struct Mesh {
   std::vector<std::uint32_t> indices;  // three for each triangle, counter-clockwise from outside
   std::vector<MeshPart> parts;
   std::vector<Material> materials;
-  std::vector<Warning> warnings;  // missing MTL or texture, faces left out
+  std::vector<Warning> warnings;         // missing MTL or texture, faces left out
+  std::vector<std::string> group_names;  // of groups and objects of the file, each once; StatedRotor::part may be one
 
   glm::vec3 low_m{0, 0, 0};  // corners of the bounds
   glm::vec3 high_m{0, 0, 0};
@@ -102,6 +128,12 @@ struct ModelAxes {
   bool anchor_at_bounds = false;  // false: the file's origin is the reference point; true: the centre of its bounds
 };
 
+// What is said of a model's surfaces apart from its files.
+struct ModelSurfaces {
+  std::vector<StatedRotor> rotors{};
+  double gloss = 1;  // factor of all highlights
+};
+
 // Reads a Wavefront OBJ file with its MTL files and textures. A material with the statements rotor_blades and rotor_rpm
 // is a rotor (docs/rotors.md); its hub and axis are those of its triangles, which form one disc.
 // Normals that the file lacks, or that have no length, are computed (averaged_normals() in geometry.h). Forward and up
@@ -110,7 +142,8 @@ struct ModelAxes {
 // (materials.h says how opacity is read).
 // Errors: cannot_read; bad_data (no faces, indices out of range, coordinates that are not finite, no extent for
 // length_m); bad_project where the axes are invalid, with the setting as its place ("forward", "up", "scale",
-// "length_m").
-[[nodiscard]] Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes = {});
+// "length_m", "rotors[0].part" where no face is of that name, and those of placed()).
+[[nodiscard]] Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes = {},
+                                    const ModelSurfaces& surfaces = {});
 
 }  // namespace sigs

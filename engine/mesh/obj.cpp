@@ -10,10 +10,12 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "mesh/geometry.h"
 #include "mesh/materials.h"
 #include "mesh/mesh.h"
@@ -215,9 +217,92 @@ void place_rotors(Mesh& mesh, double scale, const std::string& name) {
   }
 }
 
+// "a, b, c, ..."; those that sound like rotors first.
+std::string some_of(std::vector<std::string> names) {
+  constexpr std::size_t kMost = 8;
+  std::erase(names, "");
+  std::ranges::stable_partition(names, [](const std::string& name) {
+    const std::string lower = lower_case(name);
+    return lower.find("prop") != std::string::npos || lower.find("rotor") != std::string::npos ||
+           lower.find("blade") != std::string::npos;
+  });
+  if (names.empty()) return "none";
+  const bool is_long = names.size() > kMost;
+  names.resize(std::min(names.size(), kMost));
+  return fmt::format("{}{}", fmt::join(names, ", "), is_long ? ", ..." : "");
+}
+
+// Takes the faces of a stated rotor out of the others and puts it onto them.
+//   triangles  those of the file, in body axes and metres
+Result<PlacedRotor> take_rotor(const StatedRotor& stated, ObjFile& file, std::vector<Triangle>& triangles) {
+  constexpr double kWithin = 1.05;  // of the radius
+  struct Kind {
+    const std::vector<std::string>& names;
+    int ObjTriangle::*number;
+  };
+  const std::array<Kind, 3> kinds{{{file.material_names, &ObjTriangle::material},
+                                   {file.group_names, &ObjTriangle::group},
+                                   {file.object_names, &ObjTriangle::object}}};
+  const auto named = [&](const Kind& kind) { return std::ranges::find(kind.names, stated.part); };
+  const auto found = std::ranges::find_if(kinds, [&](const Kind& kind) { return named(kind) != kind.names.end(); });
+  if (found == kinds.end())
+    return fail(
+        "part",
+        fmt::format("the model has no material, group or object \"{}\"; materials: {}; groups: {}; objects: {}",
+                    stated.part, some_of(file.material_names), some_of(file.group_names), some_of(file.object_names)),
+        ErrorKind::bad_project);
+  const auto number = static_cast<int>(named(*found) - found->names.begin());
+  std::vector<Triangle> faces;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto& [a, b, c] = triangles[i];
+    const bool is_near =
+        !(stated.radius_m > 0) || glm::distance((a + b + c) / 3.0, stated.hub_m) <= kWithin * stated.radius_m;
+    if (is_near && file.triangles[i].*found->number == number) {
+      faces.push_back(triangles[i]);
+      continue;
+    }
+    triangles[kept] = triangles[i];
+    file.triangles[kept++] = file.triangles[i];
+  }
+  if (faces.empty())
+    return fail("part",
+                fmt::format("no face of \"{}\" can be seen{}", stated.part,
+                            stated.radius_m > 0 ? " within radius_m of hub_m" : ""),
+                ErrorKind::bad_project);
+  triangles.resize(kept);
+  file.triangles.resize(kept);
+  return stated.blade_count > 0 ? placed(stated, faces) : PlacedRotor();
+}
+
+Result<std::vector<PlacedRotor>> take_rotors(const std::vector<StatedRotor>& all, ObjFile& file,
+                                             std::vector<Triangle>& triangles) {
+  std::vector<PlacedRotor> rotors;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Result<PlacedRotor> rotor = take_rotor(all[i], file, triangles);
+    if (!rotor)
+      return fail(fmt::format("rotors[{}].{}", i, rotor.error().where), rotor.error().what, ErrorKind::bad_project);
+    rotors.push_back(*std::move(rotor));
+  }
+  return rotors;
+}
+
+void add_rotor(const StatedRotor& stated, const PlacedRotor& placed, Mesh& mesh) {
+  if (placed.disc.empty()) return;
+  constexpr float kBlades = 0.25F;  // display code value
+  mesh.parts.push_back({static_cast<int>(mesh.materials.size()), static_cast<std::uint32_t>(mesh.indices.size()),
+                        static_cast<std::uint32_t>(3 * placed.disc.size())});
+  mesh.materials.push_back({.name = stated.part, .diffuse = glm::vec3(kBlades), .rotor = placed.rotor});
+  for (const Triangle& triangle : placed.disc)
+    for (const glm::dvec3& corner : triangle) {
+      mesh.indices.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back({glm::vec3(corner), glm::vec3(placed.rotor.axis), {0, 0}});
+    }
+}
+
 }  // namespace
 
-Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes) {
+Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes, const ModelSurfaces& surfaces) {
   const std::string name = path.filename().string();
   const Result<glm::dmat3> rotation = body_from_model(axes);
   if (!rotation) return fail(rotation.error());
@@ -237,15 +322,25 @@ Result<Mesh> read_obj(const std::filesystem::path& path, const ModelAxes& axes) 
   const Result<double> scale = place(triangles, axes, name);
   if (!scale) return fail(scale.error());
   turn_outside_out(*file, triangles, *rotation);
+  const Result<std::vector<PlacedRotor>> rotors = take_rotors(surfaces.rotors, *file, triangles);
+  if (!rotors) return fail(rotors.error());
+  if (triangles.empty() && std::ranges::all_of(*rotors, [](const PlacedRotor& rotor) { return rotor.disc.empty(); }))
+    return fail("rotors[0].blades", "leave nothing of the model", ErrorKind::bad_project);
   const std::vector<glm::dvec3> normals = normals_of(*file, triangles, *rotation);
 
   Mesh mesh;
   MeshBuilder builder(*file, triangles, normals, set.placements);
   fill_parts(mesh, *file, builder);
+  std::set<std::string> groups;
+  for (const std::vector<std::string>* const names : {&file->group_names, &file->object_names})
+    for (const std::string& group : *names)
+      if (!group.empty() && groups.insert(group).second) mesh.group_names.push_back(group);
   mesh.materials = std::move(set.materials);
   mesh.warnings = std::move(set.warnings);
-  measure(mesh);
   place_rotors(mesh, *scale, name);
+  for (std::size_t i = 0; i < rotors->size(); ++i) add_rotor(surfaces.rotors[i], (*rotors)[i], mesh);
+  for (Material& material : mesh.materials) material.specular *= static_cast<float>(surfaces.gloss);
+  measure(mesh);
   return mesh;
 }
 

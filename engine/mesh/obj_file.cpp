@@ -22,22 +22,34 @@ namespace {
 struct Polygon {
   std::vector<ObjCorner> corners;
   int material = 0;
+  int group = 0;
+  int object = 0;
+};
+
+// Names in the order of their first use, and the one that counts for the next face.
+struct Names {
+  std::vector<std::string> names;
+  std::map<std::string, int> number_of_name;
+  int current = -1;
+
+  void begin(const std::string& name) {
+    const auto [entry, is_first] = number_of_name.emplace(name, static_cast<int>(names.size()));
+    if (is_first) names.push_back(name);
+    current = entry->second;
+  }
+
+  int of_face() {
+    if (current < 0) begin("");
+    return current;
+  }
 };
 
 // The state that tinyobj's callbacks fill.
 struct Reading {
   ObjFile file;
   std::vector<Polygon> polygons;
-  std::map<std::string, int> material_of_name;
-  int material = -1;
+  Names materials, groups, objects;
 };
-
-int material_named(Reading& reading, const std::string& name) {
-  const int next = static_cast<int>(reading.file.material_names.size());
-  const auto [entry, is_first] = reading.material_of_name.emplace(name, next);
-  if (is_first) reading.file.material_names.push_back(name);
-  return entry->second;
-}
 
 // OBJ counts from 1, negative numbers from the end; 0 means "none" in tinyobj's callbacks.
 // Indices out of range are counted later: an OBJ file may refer to elements further down.
@@ -64,8 +76,7 @@ void on_uv(void* user, float u, float v, float) {
 void on_face(void* user, tinyobj::index_t* indices, int count) {
   if (count < 3) return;
   Reading& reading = *static_cast<Reading*>(user);
-  if (reading.material < 0) reading.material = material_named(reading, "");
-  Polygon polygon{{}, reading.material};
+  Polygon polygon{{}, reading.materials.of_face(), reading.groups.of_face(), reading.objects.of_face()};
   for (int i = 0; i < count; ++i)
     polygon.corners.push_back({index_of(indices[i].vertex_index, reading.file.positions.size()),
                                index_of(indices[i].texcoord_index, reading.file.uvs.size()),
@@ -74,8 +85,15 @@ void on_face(void* user, tinyobj::index_t* indices, int count) {
 }
 
 void on_material(void* user, const char* name, int) {
-  Reading& reading = *static_cast<Reading*>(user);
-  reading.material = material_named(reading, std::string(trimmed(name)));
+  static_cast<Reading*>(user)->materials.begin(std::string(trimmed(name)));
+}
+
+void on_group(void* user, const char** names, int count) {
+  static_cast<Reading*>(user)->groups.begin(count > 0 ? std::string(trimmed(names[0])) : "");
+}
+
+void on_object(void* user, const char* name) {
+  static_cast<Reading*>(user)->objects.begin(std::string(trimmed(name)));
 }
 
 Result<Reading> read_with_tinyobj(const std::string& text, const std::string& name) {
@@ -85,6 +103,8 @@ Result<Reading> read_with_tinyobj(const std::string& text, const std::string& na
   callbacks.texcoord_cb = on_uv;
   callbacks.index_cb = on_face;
   callbacks.usemtl_cb = on_material;
+  callbacks.group_cb = on_group;
+  callbacks.object_cb = on_object;
   try {
     Reading reading;
     std::istringstream stream(text);
@@ -208,7 +228,10 @@ bool append_triangles(ObjFile& file, const Polygon& polygon) {
   const auto triangles = triangulated(positions);
   if (!triangles) return false;
   for (const auto& [a, b, c] : *triangles)
-    file.triangles.push_back({{polygon.corners[a], polygon.corners[b], polygon.corners[c]}, polygon.material});
+    file.triangles.push_back({{polygon.corners[a], polygon.corners[b], polygon.corners[c]},
+                              polygon.material,
+                              polygon.group,
+                              polygon.object});
   return true;
 }
 
@@ -233,6 +256,9 @@ Result<ObjFile> parse_obj(std::string text, const std::string& name) {
     if (!append_triangles(reading->file, polygon))
       return fail(name, fmt::format("a face of {} corners is too intricate; cut it into triangles where it was made",
                                     polygon.corners.size()));
+  reading->file.material_names = std::move(reading->materials.names);
+  reading->file.group_names = std::move(reading->groups.names);
+  reading->file.object_names = std::move(reading->objects.names);
   reading->file.libraries = libraries_of(text);
   reading->file.colored_vertices = *colored;
   return std::move(reading->file);

@@ -23,6 +23,8 @@ struct ObjCorner {
 struct ObjTriangle {
   std::array<ObjCorner, 3> corners;
   int material = 0;  // into ObjFile::material_names
+  int group = 0;     // into ObjFile::group_names
+  int object = 0;    // into ObjFile::object_names
 };
 
 // The contents of a Wavefront OBJ file, in its own axes and unit: polygons are cut into triangles, and each index is
@@ -33,6 +35,8 @@ struct ObjFile {
   std::vector<glm::vec3> normals;  // as written: any length, zero too
   std::vector<ObjTriangle> triangles;
   std::vector<std::string> material_names;  // in the order of their first use; "" for faces before any usemtl
+  std::vector<std::string> group_names;     // likewise, of g lines, whose first name counts
+  std::vector<std::string> object_names;    // likewise, of o lines
   std::vector<std::string> libraries;       // each mtllib line as written; may hold several names
   int colored_vertices = 0;                 // number of vertices with a colour of their own, which is ignored
 };

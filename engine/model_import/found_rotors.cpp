@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/text.h"
+#include "mesh/mesh.h"
 
 namespace sigs {
 
@@ -131,23 +132,16 @@ const char* name_of(RotorKind kind) {
   return "tail rotor";
 }
 
-// The ring in which the blades turn, facing along its axis.
-ImportedPart disc_of(const FoundRotor& rotor, const std::string& name, int material) {
-  constexpr int kSides = 48;
-  const int axis = axis_of(rotor.kind);
-  glm::dvec3 along(0, 0, 0), across(0, 0, 0), up(0, 0, 0);
-  along[axis] = across[(axis + 1) % 3] = up[(axis + 2) % 3] = 1;
-  const double inner = 0.09 * rotor.radius, outer = rotor.radius / std::cos(std::numbers::pi / kSides);
-  const auto at = [&](double radius, int side) {
-    const double angle = 2 * std::numbers::pi * side / kSides;
-    return ImportedVertex{.position = rotor.hub + radius * (std::cos(angle) * across + std::sin(angle) * up),
-                          .normal = along};
-  };
+// Facing along its axis.
+ImportedPart disc_of(const FoundRotor& found, const std::string& name, int material) {
+  const int axis = axis_of(found.kind);
+  Rotor rotor{
+      .root_m = 0.1 * found.radius, .tip_m = found.radius, .hub_m = found.hub, .axis{0, 0, 0}, .across{0, 0, 0}};
+  rotor.axis[axis] = rotor.across[(axis + 1) % 3] = 1;
   ImportedPart part{.name = name, .material = material};
-  for (int i = 0; i < kSides; ++i) {
-    part.triangles.push_back({at(inner, i), at(outer, i), at(outer, i + 1)});
-    part.triangles.push_back({at(inner, i), at(outer, i + 1), at(inner, i + 1)});
-  }
+  for (const auto& corners : rotor_disc(rotor))
+    for (auto& triangle = part.triangles.emplace_back(); const std::size_t i : {0, 1, 2})
+      triangle[i] = {.position = corners[i], .normal = rotor.axis};
   return part;
 }
 

@@ -16,11 +16,13 @@
 #include <set>
 
 #include "base/image_codecs.h"
+#include "base/image_file.h"
 #include "base/input_file.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/xml_text.h"
+#include "mesh/texture_formats.h"
 
 namespace sigs {
 
@@ -139,13 +141,15 @@ class SceneReader {
     return first;
   }
 
-  // PNG and JPEG as they are, what else OpenCV reads as PNG.
+  // PNG and JPEG as they are, what else is read as PNG.
   std::string added_image(const std::string& stem, const std::string& bytes) {
     const bool is_png = bytes.starts_with("\x89PNG"), is_jpeg = bytes.starts_with("\xFF\xD8");
     std::string written = bytes;
     if (!is_png && !is_jpeg) {
       const std::vector<uchar> encoded(bytes.begin(), bytes.end());
-      const cv::Mat image = encoded.empty() ? cv::Mat() : image_codecs::imdecode(encoded, cv::IMREAD_UNCHANGED);
+      cv::Mat image = encoded.empty() ? cv::Mat() : image_codecs::imdecode(encoded, cv::IMREAD_UNCHANGED);
+      if (const auto size_px = texture_size_px(bytes); image.empty() && size_px && check_image_size(*size_px))
+        image = decoded_texture(bytes);
       std::vector<uchar> png;
       if (image.empty() || !image_codecs::imencode(".png", image, png)) return "";
       written.assign(png.begin(), png.end());

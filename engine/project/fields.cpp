@@ -200,6 +200,20 @@ std::vector<Field> fields_of(Project& project) {
   return fields;
 }
 
+Project default_project_like(const Project& project) {
+  Project plain;
+  if (project.rig_view) plain.rig_view.emplace();
+  for (const RigCamera& camera : project.cameras)
+    if (RigCamera& like = plain.cameras.emplace_back(); camera.appearance) like.appearance.emplace();
+  for (const IntruderSettings& intruder : project.intruders) {
+    IntruderSettings& like = plain.intruders.emplace_back();
+    like.model.rotors.resize(intruder.model.rotors.size());
+    for (const WaypointSettings& waypoint : intruder.trajectory.waypoints)
+      if (WaypointSettings& twin = like.trajectory.waypoints.emplace_back(); waypoint.place) twin.place.emplace();
+  }
+  return plain;
+}
+
 namespace {
 
 // Levenshtein's distance: the number of letters to change, add or leave out.

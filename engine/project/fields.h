@@ -45,6 +45,9 @@ struct Field {
 // and of lists ("intruders", "...waypoints") are not fields.
 [[nodiscard]] std::vector<Field> fields_of(Project& project);
 
+// A project of defaults with the same fields: as many cameras, intruders, waypoints and rotors.
+[[nodiscard]] Project default_project_like(const Project& project);
+
 // The version of the project file's format, the value of its key "sigs".
 inline constexpr int kProjectVersion = 1;
 

@@ -16,6 +16,22 @@ void add_model(FieldList list, ModelSettings& model) {
   list.number("length_m", &model.length_m, "m", 0, 1e6, "wanted length from nose to tail; 0: scale says");
   list.add("anchor", choice_of(model.anchor, {"origin", "bounds"}), "",
            "reference point that flies along the trajectory: the file's origin or the centre of its bounds");
+  list.number("gloss", &model.gloss, "", 0, 100, "factor of its highlights; 0: matt");
+}
+
+void add_rotor(FieldList list, RotorSettings& rotor) {
+  list.add("part", &rotor.part, "", "material, group or object of the model's file that is a rotor").required = true;
+  list.number("blades", &rotor.blades, "", 0, 16, "how many it has; 0: the part is left out, as a second propeller");
+  list.number("rpm", &rotor.rpm, "rpm", -1e6, 1e6,
+              "positive: counter-clockwise seen from where the axis points; null: tips at 200 m/s, a guess");
+  list.number("radius_m", &rotor.radius_m, "m", 0, 1000, "0: as far as its faces reach from their middle");
+  list.number("hub_m", &rotor.hub_m, "m", -kFarthest_m, kFarthest_m,
+              "with radius_m: where it is, in body axes; faces within radius_m of it are the rotor");
+  list.number("axis", &rotor.axis, "", -1, 1,
+              "in body axes, up is [0, 0, -1]; [0, 0, 0]: where its faces look, which form a disc");
+  list.number("chord_m", &rotor.chord_m, "m", 0, 100, "width of a blade; 0: a 15th of the radius, a guess");
+  list.number("phase_deg", &rotor.phase_deg, "deg", -360, 360, "of the first blade at time 0, from the nose");
+  list.number("coning_deg", &rotor.coning_deg, "deg", -30, 30, "by which blades rise towards the axis");
 }
 
 void add_contrail(FieldList list, ContrailSettings& contrail) {
@@ -74,6 +90,8 @@ void add_intruder(std::vector<Field>& fields, const std::string& prefix, Intrude
       .add("role", choice_of(intruder.role, {"intruder", "distractor"}), "",
            "distractor: what detectors should not report, such as a bird; evaluation counts it as no intruder");
   add_model(FieldList(fields, prefix + "model."), intruder.model);
+  for (std::size_t j = 0; j < intruder.model.rotors.size(); ++j)
+    add_rotor(FieldList(fields, fmt::format("{}model.rotors[{}].", prefix, j)), intruder.model.rotors[j]);
   add_contrail(FieldList(fields, prefix + "contrail."), intruder.contrail);
   add_lights(FieldList(fields, prefix + "lights."), intruder.lights);
   add_heat(FieldList(fields, prefix + "heat."), intruder.heat);

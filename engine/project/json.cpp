@@ -104,6 +104,11 @@ Result<void> make_room_for_lists(const Json& json, const std::string& file, Proj
     Result<std::vector<WaypointSettings>> empty = empty_waypoints(intruder, *waypoints, file + ": " + key);
     if (!empty) return fail(empty.error());
     project.intruders[i].trajectory.waypoints = *std::move(empty);
+    const Result<std::size_t> rotors =
+        list_size(intruder, "/model/rotors", fmt::format("{}: {}.model.rotors", file, key));
+    if (!rotors) return fail(rotors.error());
+    if (*rotors > kMaxRotors) return too_many(fmt::format("{}: {}.model.rotors", file, key), *rotors, kMaxRotors);
+    project.intruders[i].model.rotors.resize(*rotors);
   }
   return {};
 }
@@ -129,6 +134,7 @@ std::vector<std::string> known_keys(std::string_view prefix) {
   sample.intruders.resize(1);
   sample.intruders[0].trajectory.waypoints.resize(1);
   sample.intruders[0].trajectory.waypoints[0].place.emplace();
+  sample.intruders[0].model.rotors.resize(1);
   std::vector<std::string> keys;
   for (const Field& field : fields_of(sample)) {
     if (!field.key.starts_with(prefix)) continue;
@@ -188,6 +194,8 @@ void keep_unknown(Json rest, const std::string& file, Project& project, std::vec
         kept(std::move(cameras.at(i)), {fmt::format("{}: cameras[{}].", file, i), known_keys("cameras[0].")}, warnings);
   std::vector<std::string> of_intruder = known_keys("intruders[0].");
   of_intruder.emplace_back("trajectory.waypoints");
+  of_intruder.emplace_back("model.rotors");
+  const std::vector<std::string> of_rotor = known_keys("intruders[0].model.rotors[0].");
   const std::vector<std::string> of_waypoint = known_keys("intruders[0].trajectory.waypoints[0].");
   project.unknown_json = kept(std::move(rest), {file + ": ", of_project}, warnings);
   for (std::size_t i = 0; i < project.intruders.size(); ++i) {
@@ -199,6 +207,10 @@ void keep_unknown(Json rest, const std::string& file, Project& project, std::vec
           kept(json.at("trajectory").at("waypoints").at(j),
                {fmt::format("{}trajectory.waypoints[{}].", where, j), of_waypoint}, warnings);
     if (json.contains("trajectory")) json.at("trajectory").erase("waypoints");
+    for (std::size_t j = 0; j < intruder.model.rotors.size(); ++j)
+      intruder.model.rotors[j].unknown_json =
+          kept(json.at("model").at("rotors").at(j), {fmt::format("{}model.rotors[{}].", where, j), of_rotor}, warnings);
+    if (json.contains("model")) json.at("model").erase("rotors");
     intruder.unknown_json = kept(std::move(json), {where, of_intruder}, warnings);
   }
 }
@@ -288,6 +300,8 @@ std::string text_of(const Project& project) {
     item["trajectory"]["waypoints"] = Json::array();
     for (const WaypointSettings& waypoint : intruder.trajectory.waypoints)
       item["trajectory"]["waypoints"].push_back(parsed_or_empty(waypoint.unknown_json));
+    for (const RotorSettings& rotor : intruder.model.rotors)
+      item["model"]["rotors"].push_back(parsed_or_empty(rotor.unknown_json));
     json["intruders"].push_back(std::move(item));
   }
   for (const Field& field : fields_of(copy)) json[pointer_of(field.key)] = json_of(field);

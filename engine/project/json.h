@@ -25,6 +25,7 @@ struct ReadProject {
 // cameras of a rig.
 inline constexpr std::size_t kMaxIntruders = 10'000;
 inline constexpr std::size_t kMaxWaypoints = 250'000;
+inline constexpr std::size_t kMaxRotors = 64;  // of an intruder
 inline constexpr std::size_t kMaxCameras = 100;
 
 // Reads a project file. Checks its form only; validate() checks the values. Errors name file and field: cannot_read

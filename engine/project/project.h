@@ -53,6 +53,22 @@ struct LightSettings {
 enum class AnchorChoice { origin, bounds };
 
 // The aircraft's model: file, axes and size (ModelAxes in mesh/mesh.h).
+// Blades that turn, in place of a part of the model (docs/rotors.md). Body axes: forward, right, down.
+struct RotorSettings {
+  std::string part;
+  int blades = 2;
+  std::optional<double> rpm{};
+  double chord_m = 0;
+  double radius_m = 0;
+  double phase_deg = 0;
+  double coning_deg = 0;
+  glm::dvec3 axis{0, 0, 0};
+  glm::dvec3 hub_m{0, 0, 0};
+  std::string unknown_json{};
+
+  [[nodiscard]] bool operator==(const RotorSettings&) const = default;
+};
+
 struct ModelSettings {
   std::string file;
   std::string forward = "+x";
@@ -60,6 +76,8 @@ struct ModelSettings {
   double scale = 1.0;
   double length_m = 0;  // 0: scale is used
   AnchorChoice anchor = AnchorChoice::origin;
+  double gloss = 1;
+  std::vector<RotorSettings> rotors;
 
   [[nodiscard]] bool operator==(const ModelSettings&) const = default;
 };

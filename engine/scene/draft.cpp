@@ -97,6 +97,11 @@ std::shared_ptr<const Model> drafted_model(const Project& clean, std::size_t int
   Result<std::shared_ptr<const Model>, Problem> model = scene_model(clean, intruder, files);
   if (model) return *model;
   note(draft.problems, model.error());
+  if (!clean.intruders[intruder].model.rotors.empty()) {  // the rest of it may be right
+    Project without = clean;
+    without.intruders[intruder].model.rotors.clear();
+    if (const auto rest = scene_model(without, intruder, files)) return *rest;
+  }
   const double length_m = clean.intruders[intruder].model.length_m;
   return files.cross(length_m > 0 ? length_m : kCrossLength_m);
 }
@@ -129,18 +134,6 @@ void sanitize(const Field& field, const Field& plain) {
     for (int i = 0; i < 3; ++i) sanitize(field, (**vector)[i], (*std::get<glm::dvec3*>(plain.value))[i]);
 }
 
-// A project of defaults with as many cameras, intruders and waypoints.
-Project plain_like(const Project& project) {
-  Project plain;
-  plain.cameras.resize(project.cameras.size());
-  if (project.rig_view) plain.rig_view.emplace();
-  for (std::size_t i = 0; i < plain.cameras.size(); ++i)
-    if (project.cameras[i].appearance) plain.cameras[i].appearance.emplace();
-  for (const IntruderSettings& intruder : project.intruders)
-    plain.intruders.emplace_back().trajectory.waypoints.resize(intruder.trajectory.waypoints.size());
-  return plain;
-}
-
 // Waypoints count the same frames in all cameras of a rig, also where the first one's cannot be opened.
 Timeline drafted_timeline(const Project& clean, SceneFiles& files) {
   if (const Result<std::optional<Timeline>, Problem> known = scene_timeline(clean, files); known && *known)
@@ -162,7 +155,7 @@ Camera placeholder_camera(cv::Size size_px) {
 }  // namespace
 
 Project sanitized(Project project) {
-  Project plain = plain_like(project);
+  Project plain = default_project_like(project);
   const std::vector<Field> fields = fields_of(project);
   const std::vector<Field> plain_fields = fields_of(plain);
   ENSURE(fields.size() == plain_fields.size());

@@ -172,8 +172,8 @@ FileStamp stamp_of(const std::filesystem::path& file) {
 }
 
 // Numbers by their bits, so that NaN has a place in the order too.
-using ModelKey =
-    std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t, bool, std::optional<HeatLevels>>;
+using ModelKey = std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t, bool, std::string,
+                            std::optional<HeatLevels>>;
 using ImageKey = std::tuple<std::string, int, int>;
 using CameraKey = std::tuple<std::string, std::array<int, 6>, std::optional<LensModel>>;
 
@@ -181,13 +181,28 @@ std::string name_of(const std::filesystem::path& file) {
   return file.lexically_normal().string();
 }
 
-ModelKey key_of(const std::filesystem::path& file, const ModelAxes& axes, const std::optional<HeatLevels>& heat) {
+// All that is said of them, to the last bit.
+std::string key_of(const ModelSurfaces& surfaces) {
+  std::string key = fmt::format("{:a}", surfaces.gloss);
+  for (const StatedRotor& rotor : surfaces.rotors) {
+    key += fmt::format(";{}/{} {}", rotor.part.size(), rotor.part, rotor.blade_count);
+    for (const double number :
+         {rotor.rpm.value_or(std::numeric_limits<double>::infinity()), rotor.chord_m, rotor.phase_rad, rotor.coning_rad,
+          rotor.radius_m, rotor.axis.x, rotor.axis.y, rotor.axis.z, rotor.hub_m.x, rotor.hub_m.y, rotor.hub_m.z})
+      key += fmt::format(" {:a}", number);
+  }
+  return key;
+}
+
+ModelKey key_of(const std::filesystem::path& file, const ModelAxes& axes, const ModelSurfaces& surfaces,
+                const std::optional<HeatLevels>& heat) {
   return {name_of(file),
           axes.forward,
           axes.up,
           std::bit_cast<std::uint64_t>(axes.scale),
           std::bit_cast<std::uint64_t>(axes.length_m),
           axes.anchor_at_bounds,
+          key_of(surfaces),
           heat};
 }
 
@@ -196,8 +211,8 @@ ImageKey key_of(const std::filesystem::path& file, cv::Size size_px) {
 }
 
 Result<std::shared_ptr<const Model>> read_model(const std::filesystem::path& file, const ModelAxes& axes,
-                                                const std::optional<HeatLevels>& heat) {
-  Result<Mesh> mesh = read_obj(file, axes);
+                                                const ModelSurfaces& surfaces, const std::optional<HeatLevels>& heat) {
+  Result<Mesh> mesh = read_obj(file, axes, surfaces);
   if (!mesh) return fail(mesh.error());
   if (heat) heat_surfaces(*mesh, *heat);
   return std::make_shared<const Model>(model_of(*std::move(mesh)));
@@ -299,9 +314,11 @@ SceneFiles& SceneFiles::operator=(SceneFiles&&) noexcept = default;
 SceneFiles::~SceneFiles() = default;
 
 Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::path& file, const ModelAxes& axes,
+                                                       const ModelSurfaces& surfaces,
                                                        const std::optional<HeatLevels>& heat) {
   const std::lock_guard lock(caches_->mutex);
-  return caches_->models.take(key_of(file, axes, heat), stamp_of(file), [&] { return read_model(file, axes, heat); });
+  return caches_->models.take(key_of(file, axes, surfaces, heat), stamp_of(file),
+                              [&] { return read_model(file, axes, surfaces, heat); });
 }
 
 Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, const FootageShape& footage,

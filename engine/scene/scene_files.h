@@ -80,9 +80,10 @@ class SceneFiles {
   SceneFiles& operator=(SceneFiles&&) noexcept;
   ~SceneFiles();
 
-  // The same file and axes give the same object for as long as it is in use.
+  // The same file, axes and surfaces give the same object for as long as it is in use.
   //   heat  none: it looks as its materials say; else as a thermal camera sees it
   [[nodiscard]] Result<std::shared_ptr<const Model>> model(const std::filesystem::path& file, const ModelAxes& axes,
+                                                           const ModelSurfaces& surfaces = {},
                                                            const std::optional<HeatLevels>& heat = std::nullopt);
 
   // read_calibration (camera/camera.h) for footage. model: none: taken from the file.

@@ -77,10 +77,25 @@ ModelAxes axes_of(const ModelSettings& model) {
           .anchor_at_bounds = model.anchor == AnchorChoice::bounds};
 }
 
+ModelSurfaces surfaces_of(const ModelSettings& model) {
+  ModelSurfaces surfaces{.gloss = model.gloss};
+  for (const RotorSettings& rotor : model.rotors)
+    surfaces.rotors.push_back({.part = rotor.part,
+                               .blade_count = rotor.blades,
+                               .rpm = rotor.rpm,
+                               .chord_m = rotor.chord_m,
+                               .phase_rad = rad_of_deg(rotor.phase_deg),
+                               .coning_rad = rad_of_deg(rotor.coning_deg),
+                               .axis = rotor.axis,
+                               .radius_m = rotor.radius_m,
+                               .hub_m = rotor.hub_m});
+  return surfaces;
+}
+
 // read_obj names the setting where it is not the file that is wrong.
-bool is_axes_setting(const std::string& where) {
+bool is_model_setting(const std::string& where) {
   constexpr std::array<std::string_view, 4> kSettings{"forward", "up", "scale", "length_m"};
-  return std::find(kSettings.begin(), kSettings.end(), where) != kSettings.end();
+  return where.starts_with("rotors[") || std::find(kSettings.begin(), kSettings.end(), where) != kSettings.end();
 }
 
 std::string waypoint_frame_text(const WaypointSettings& waypoint, double frame) {
@@ -292,10 +307,10 @@ Result<std::shared_ptr<const Model>, Problem> scene_model(const Project& project
           ? std::optional(heat_levels_of(project.intruders[intruder].heat, project.appearance.thermal))
           : std::nullopt;
   const Result<std::shared_ptr<const Model>> model =
-      files.model(resolved(project, settings.file), axes_of(settings), heat);
+      files.model(resolved(project, settings.file), axes_of(settings), surfaces_of(settings), heat);
   if (model) return *model;
   const std::string key = key_of_intruder(intruder) + ".model.";
-  if (is_axes_setting(model.error().where))
+  if (is_model_setting(model.error().where))
     return problem(key + model.error().where, model.error().what, model.error().kind);
   return in_field(key + "file", model.error());
 }

@@ -190,6 +190,35 @@ TEST_CASE("recipes draw a contrail by aircraft, where it flies high enough") {
   CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].contrail.strands: must lie between 0 and 4"));
 }
 
+TEST_CASE("recipes draw an aircraft's gloss, and state its rotors as projects do") {
+  nlohmann::ordered_json recipe = image_recipe({{"images", 12}});
+  recipe["aircraft"][0]["gloss"] = {{"uniform", {0.5, 2}}};
+  recipe["aircraft"][0]["model"]["rotors"] = {{{"part", "fan"}, {"blades", 0}, {"rpm", 900}}};
+  std::set<double> drawn;
+  const Plan plan = RecipeFolder().plan(recipe);
+  for (const PlannedVideo& image : plan.videos) {
+    const ModelSettings& model = image.project.intruders.front().model;
+    CHECK(model.gloss == image.sampled.at("model.gloss"));
+    drawn.insert(model.gloss);
+    REQUIRE(model.rotors.size() == 1);
+    CHECK(model.rotors[0].part == "fan");
+    CHECK(model.rotors[0].blades == 0);
+    CHECK(model.rotors[0].rpm == 900);
+  }
+  CHECK(drawn.size() == 12);
+  CHECK(*drawn.begin() >= 0.5);
+  CHECK(*drawn.rbegin() <= 2);
+  recipe["aircraft"][0]["model"]["rotors"][0]["blades"] = 17;
+  CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].model.rotors[0].blades: "));
+  recipe["aircraft"][0]["model"]["rotors"][0] = {{"part", "fann"}};
+  CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].model.rotors[0].part: the model has no material, group"));
+  recipe["aircraft"][0]["model"]["rotors"] = 3;
+  CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].model.rotors: expected a list"));
+  recipe["aircraft"][0]["model"].erase("rotors");
+  recipe["aircraft"][0]["gloss"] = -1;
+  CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].gloss: must lie between 0 and 100"));
+}
+
 TEST_CASE("recipes draw how far the footage's clouds are, and nothing else of the clip") {
   nlohmann::ordered_json recipe = image_recipe(
       {{"images", 12}, {"footage", {{"cloud_distance_m", {{"uniform", {500, 4000}}}}, {"cloud_depth_m", 50}}}});

@@ -93,6 +93,7 @@ std::map<std::string, Row> rows_in_code() {
   Project project;
   project.intruders.resize(1);
   project.intruders[0].trajectory.waypoints.resize(1);
+  project.intruders[0].model.rotors.resize(1);
   std::map<std::string, Row> rows;
   for (const Field& field : fields_of(project)) rows[general(field.key)] = row_of(field);
   // Footage and look of a camera of a rig are the settings of a project with one.

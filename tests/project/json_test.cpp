@@ -130,6 +130,29 @@ TEST_CASE("unknown keys of an intruder go with it when others are removed") {
   CHECK(back.intruders[1].unknown_json.find("color_of_pilot") != std::string::npos);
 }
 
+TEST_CASE("rotors are read, written again, and keep what is unknown of them") {
+  const std::string text =
+      R"({"sigs": 1, "intruders": [{"model": {"file": "a.obj", "rotors": [{"part": "prop", "blades": 3, "rpm": -2400,
+          "axis": [1, 0, 0], "pitch_deg": 20}, {"part": "tail"}]}}]})";
+  const ReadProject read = parse_project(text, "p.json").value();
+  REQUIRE(read.project.intruders[0].model.rotors.size() == 2);
+  const RotorSettings& rotor = read.project.intruders[0].model.rotors[0];
+  CHECK(rotor.part == "prop");
+  CHECK(rotor.blades == 3);
+  CHECK(rotor.rpm == -2400);
+  CHECK(rotor.axis == glm::dvec3(1, 0, 0));
+  CHECK_FALSE(read.project.intruders[0].model.rotors[1].rpm);
+  REQUIRE(read.warnings.size() == 1);
+  CHECK(read.warnings[0].text().starts_with("p.json: intruders[0].model.rotors[0].pitch_deg: unknown key"));
+  const ReadProject again = parse_project(text_of(read.project), "p.json").value();
+  CHECK(again.project == read.project);
+  CHECK(text_of(again.project).find("pitch_deg") != std::string::npos);
+  CHECK(error_text(R"({"sigs": 1, "intruders": [{"model": {"rotors": {}}}]})") ==
+        "x.json: intruders[0].model.rotors: expected a list [ ... ]");
+  CHECK(error_text(R"({"sigs": 1, "intruders": [{"model": {"rotors": [{"rpm": "fast"}]}}]})")
+            .starts_with("x.json: intruders[0].model.rotors[0].rpm: "));
+}
+
 TEST_CASE("what a file leaves out has its default and null stands for none") {
   const Project p = parse_project(R"({"sigs": 1, "footage": {"last_frame": null}})", "x.json").value().project;
   CHECK(p.camera.position_m == glm::dvec3(0, 0, -150));

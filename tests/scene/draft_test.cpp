@@ -272,6 +272,32 @@ TEST_CASE("a trajectory that cannot be flown hovers at its first waypoint") {
   check_sound(draft);
 }
 
+TEST_CASE("numbers of rotors and of places on the Earth are sanitized like others") {
+  Project project = sample_project("crossing");
+  IntruderSettings& intruder = project.intruders.at(0);
+  intruder.model.rotors = {{.part = "fan", .blades = 99, .rpm = NAN, .axis = {0, NAN, 2}}};
+  intruder.trajectory.waypoints.at(0).place = {.latitude_deg = 100, .longitude_deg = 8, .height_m = NAN};
+  const Project clean = sanitized(project);
+  const RotorSettings& rotor = clean.intruders[0].model.rotors.at(0);
+  CHECK(rotor.part == "fan");
+  CHECK(rotor.blades == 16);
+  CHECK_FALSE(rotor.rpm);
+  CHECK(rotor.axis == glm::dvec3(0, 0, 1));
+  CHECK(clean.intruders[0].trajectory.waypoints[0].place->latitude_deg == 90);
+  CHECK(clean.intruders[0].trajectory.waypoints[0].place->longitude_deg == 8);
+  CHECK(clean.intruders[0].trajectory.waypoints[0].place->height_m == 0);
+}
+
+TEST_CASE("a rotor that the model cannot have is a problem of its setting, and the model is drawn without it") {
+  Project project = sample_project("crossing");
+  const DraftScene plain = drafted(project);
+  project.intruders.at(0).model.rotors = {{.part = "no such part"}};
+  const DraftScene draft = drafted(project);
+  CHECK(problems_of(draft, "intruders[0].model.rotors[0].part") == 1);
+  CHECK(draft.scene.intruders.at(0).model->mesh.vertices.size() ==
+        plain.scene.intruders.at(0).model->mesh.vertices.size());
+}
+
 TEST_CASE("an intruder without waypoints is left out and the others keep their place") {
   Project project = sample_project("two-intruders");
   project.intruders[0].trajectory.waypoints.clear();

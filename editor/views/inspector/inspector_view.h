@@ -57,6 +57,7 @@ class ModelBlock {
  private:
   void draw_list(const ViewContext& context, const FieldRows& rows);
   void draw_preview(const ViewContext& context, int intruder);
+  void draw_rotors(const ViewContext& context, FieldRows& rows, int intruder);
 
   double turn_rad_ = 0;  // of the turntable, as PreviewRequest::Turntable
 };

@@ -103,6 +103,35 @@ TEST_CASE("a person makes a project of a video in one dialog, and the intruder i
   CHECK(editor.exit_status() == 0);
 }
 
+TEST_CASE("a part of a model is made to turn by a button, and stands still again") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("rotors");
+  EditorDriver& editor = ui_test.editor();
+  Json sample = sample_project("crossing");
+  sample["intruders"][0]["model"]["file"] = (source_dir() / "assets/models/light-aircraft/light-aircraft.obj").string();
+  const fs::path project = put(sample, ui_test.folder() / "flight.json");
+  editor.start({project.string()});
+  editor.wait_for_image();
+  for (const char* title : {"Inputs", "Camera"}) {
+    editor.click(std::string("inspector/") + title);
+    editor.settle();
+  }
+  const double inspector_x = editor.place("inspector/filter").center_x();
+  editor.wheel(inspector_x, 500, -5);  // the button stands below the image of the model
+  editor.settle();
+  ui_test.edit([&] { editor.click("inspector/add rotor"); });
+  const Json rotors = ui_test.saved(project)["intruders"][0]["model"]["rotors"];
+  REQUIRE(rotors.size() == 1);
+  CHECK(rotors[0]["part"] == "propeller");
+  CHECK(rotors[0]["axis"] == Json({1, 0, 0}));
+  CHECK(rotors[0]["rpm"].is_null());
+  ui_test.image("added");
+  ui_test.edit([&] { editor.click("inspector/remove rotor 0"); });
+  CHECK_FALSE(ui_test.saved(project)["intruders"][0]["model"].contains("rotors"));
+  ui_test.edit([&] { editor.key("ctrl+z"); });
+  CHECK(ui_test.saved(project)["intruders"][0]["model"]["rotors"] == rotors);
+}
+
 TEST_CASE("a project that the command line made lists its guesses, and its model is changed in the same gallery") {
   if (!can_drive_windows()) return;
   UiTest ui_test("change-model");
