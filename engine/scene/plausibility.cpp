@@ -161,6 +161,33 @@ std::optional<Problem> overshoot_issue(const Project& project, std::size_t intru
                  overshoot_text(farthest(overshoots), overshoots.size() - 1, settings.name, frames)};
 }
 
+// Settings that ask for what the others leave no room for, and which nothing else would say.
+std::vector<Problem> settings_without_effect(const Project& project, const Scene& scene) {
+  std::vector<Problem> idle;
+  const bool is_direct = project.compositing.method == MethodChoice::direct;
+  const auto say = [&](const std::string& key, const std::string& why) {
+    idle.push_back({key, "has no effect: " + why});
+  };
+  const std::string by_direct = "it takes compositing.method direct";
+  if (scene.clouds && !is_direct) say("footage.cloud_distance_m", by_direct);
+  if (project.light.ground_shadow > 0) {
+    if (!is_direct) say("light.ground_shadow", by_direct);
+    if (scene.is_thermal) say("light.ground_shadow", "thermal footage shows no sunlight");
+    if (is_direct && !scene.is_thermal && project.light.kind != LightKind::sun)
+      say("light.ground_shadow", "it takes light.kind sun; a point light casts none on the ground");
+  }
+  for (std::size_t i = 0; i < project.intruders.size(); ++i) {
+    const std::string key = key_of_intruder(i);
+    const auto say_of = [&](const char* setting, bool is_asked_for) {
+      if (is_asked_for && (scene.is_thermal || !is_direct))
+        say(key + setting, scene.is_thermal ? "thermal footage shows none" : by_direct);
+    };
+    say_of(".contrail.strands", project.intruders[i].contrail.strands > 0);
+    say_of(".lights", !project.intruders[i].lights.is_dark());
+  }
+  return idle;
+}
+
 }  // namespace
 
 std::optional<double> path_condition(const Project& project, std::size_t intruder, const Scene& scene) {
@@ -177,6 +204,7 @@ std::vector<Problem> plausibility_issues(const Project& project, const Scene& sc
   check_mask(scene.occluder.mask, "footage.occluder_mask", "what stands nearer than the intruders", issues);
   if (camera_height_m(scene) < 0)
     issues.push_back({"camera.position_m", "lies below the ground; the ground is z = 0, and heights are negative z"});
+  for (Problem& idle : settings_without_effect(project, scene)) issues.push_back(std::move(idle));
   for (std::size_t i = 0; i < intruder_of_project.size(); ++i) {
     if (intruder_of_project[i] < 0) continue;
     const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(intruder_of_project[i])];

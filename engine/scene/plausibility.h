@@ -20,9 +20,9 @@ inline constexpr double kMinAircraft_m = 0.1;
 // Settings that can be used but are implausible, in the project's order of fields: calibrations with warnings, an
 // own-body mask that covers nearly everything or nothing, a camera below the ground (z > 0), models larger or smaller
 // than any aircraft, trajectories faster than any aircraft or below the ground, and paths that overshoot farther off
-// the straight line between two waypoints than the legs around are long. What lint() finds
-// follows for each intruder. Trajectories are sampled at each frame, at
-// fewer frames where intruders or frames are very many. Whether an intruder is ever visible: scene/visibility.h.
+// the straight line between two waypoints than the legs around are long; and clouds, shadows, contrails and lights that
+// the compositing method, the light or thermal footage leaves out. What lint() finds follows for each intruder.
+// Trajectories are sampled at each frame, at fewer frames where intruders or frames are very many. Whether an intruder is ever visible: scene/visibility.h.
 //   intruder_of_project  for each of the project's intruders its index in scene.intruders; -1: it is not in the scene
 [[nodiscard]] std::vector<Problem> plausibility_issues(const Project& project, const Scene& scene,
                                                        const std::vector<int>& intruder_of_project);

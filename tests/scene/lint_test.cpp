@@ -115,6 +115,39 @@ TEST_CASE("a flight that begins after the footage is told") {
   CHECK(says(text, "0 to 199"));
 }
 
+TEST_CASE("what the method, the light or thermal footage leaves out is said once for each setting") {
+  Project project = head_on();
+  project.footage.cloud_distance_m = 1500;
+  project.light.ground_shadow = 0.7;
+  project.intruders[0].contrail.strands = 2;
+  project.intruders[0].lights.strobe_cd = 400;
+  const std::vector<std::string> settings{"footage.cloud_distance_m", "light.ground_shadow",
+                                          "intruders[0].contrail.strands", "intruders[0].lights"};
+  const auto idle_in = [&](const Project& changed) {
+    std::vector<std::string> idle;
+    const std::string text = issues_of(changed);
+    for (const std::string& setting : settings)
+      if (says(text, setting + ": has no effect")) idle.push_back(setting);
+    return idle;
+  };
+  project.light.kind = LightKind::sun;
+  project.light.sun.azimuth_deg = 100;
+  project.light.sun.elevation_deg = 40;
+  CHECK(idle_in(project).empty());
+  Project by_lamp = project;
+  by_lamp.light.kind = LightKind::point;
+  CHECK(idle_in(by_lamp) == std::vector<std::string>{"light.ground_shadow"});
+  for (const MethodChoice method : {MethodChoice::classic, MethodChoice::plain}) {
+    Project other = project;
+    other.compositing.method = method;
+    CHECK(idle_in(other) == settings);
+  }
+  Project thermal = project;
+  thermal.footage.spectrum = Spectrum::thermal;
+  CHECK(idle_in(thermal) ==
+        std::vector<std::string>{"light.ground_shadow", "intruders[0].contrail.strands", "intruders[0].lights"});
+}
+
 TEST_CASE("footage without a log has no mistakes, and a file that is no video neither") {
   CHECK(footage_mistakes(source_dir() / "assets/footage/sample.mp4").empty());
   CHECK(footage_mistakes(source_dir() / "README.md").empty());
