@@ -125,8 +125,9 @@ std::vector<int> with_followers(const std::vector<int>& samples, int last) {
 // All estimators, fed with the same frames.
 class Estimators {
  public:
-  Estimators(std::size_t samples, bool sun_is_given)
+  Estimators(std::size_t samples, bool sun_is_given, bool is_thermal)
       : surroundings_(!sun_is_given),
+        is_thermal_(is_thermal),
         surroundings_every_(std::max(1, static_cast<int>(samples) / kSurroundings)),
         traces_every_(static_cast<int>(samples) / kTraces + 1) {}
 
@@ -138,6 +139,8 @@ class Estimators {
                                                      [&] { point_spread_.add(frame, view.own_body); },
                                                      [&] {
                                                        if (look_around) surroundings_.add(frame, view);
+                                                       if (look_around && is_thermal_)
+                                                         levels_.add(frame, view.own_body);
                                                        codec_.add(frame, look_for_traces);
                                                      }};
     // Each estimator has state of its own; they share nothing but the frames, which none of them changes.
@@ -150,6 +153,7 @@ class Estimators {
     appearance.point_spread = point_spread_.finish();
     appearance.noise = noise_.finish();
     appearance.surroundings = surroundings_.finish(sun);
+    if (is_thermal_) appearance.levels = levels_.finish();
     appearance.tone_histogram = surroundings_.tone().histogram();
     appearance.codec = codec_.finish();
     appearance.haze_curve = surroundings_.haze().curve();
@@ -159,6 +163,8 @@ class Estimators {
   PointSpread point_spread_;
   Noise noise_;
   Surroundings surroundings_;
+  ThermalLevels levels_;
+  bool is_thermal_;
   CodecEstimator codec_;
   int surroundings_every_;
   int traces_every_;
@@ -185,7 +191,7 @@ Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frame
   const std::set<int> is_sample(samples->begin(), samples->end());
   const int last = std::min(frames.last.value_or(footage.info().frame_count() - 1), footage.info().frame_count() - 1);
   const std::optional<GivenSun> sun = given_sun(hints, *samples);
-  Estimators estimators(samples->size(), sun.has_value());
+  Estimators estimators(samples->size(), sun.has_value(), hints.is_thermal);
   SampledFrames stream(footage, with_followers(*samples, last));
   std::optional<NumberedFrame> waiting;  // a sample whose follower may come
   const auto use = [&](const Frame* next) {

@@ -32,6 +32,7 @@ struct AppearanceHints {
   std::function<View(int frame)> view;  // of the camera at a frame; empty: nothing is known
   // Unit vector, by time and place; empty: the project does not know them.
   std::function<glm::dvec3(int frame)> to_sun_in_world;
+  bool is_thermal = false;  // footage of a thermal camera: its levels are looked for too
 };
 
 struct AppearanceControl {
@@ -47,7 +48,8 @@ struct Appearance {
   int frames_used = 0;
   PointSpreadFound point_spread;
   NoiseFound noise;
-  SurroundingsEstimate surroundings;  // haze, tone, light, sun
+  SurroundingsEstimate surroundings;     // haze, tone, light, sun
+  std::optional<LevelsEstimate> levels;  // of thermal footage
   ToneHistogram tone_histogram{};
   HazeCurve haze_curve;
   CodecEstimate codec;
@@ -79,7 +81,7 @@ struct AppearanceQuantity {
 // Makes intruders look like the footage: sets `appearance` and, where it was found, `light` of a project, and switches
 // off compositing.blur_px_per_m, the paper's blur, in place of which the point spread stands. What is not known gets
 // its estimate's default. Values are rounded to three digits and held in their settings' ranges. The grain's seed
-// stays. So do, of a thermal project, light, black and haze, and a blur that the footage does not show.
+// stays. So do, of a thermal project, light, black and haze, and a blur or a sky's code that the footage does not show.
 void apply(const Appearance& appearance, Project& project);
 
 // The keys of the settings that apply() writes, in the order of the project file.

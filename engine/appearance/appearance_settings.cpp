@@ -158,6 +158,10 @@ std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance) {
   const SunEvidence of_elevation = sun.evidence == SunEvidence::shadows ? SunEvidence::sky : sun.evidence;
   list.push_back({"sun's elevation", "deg", in_degrees(sun.elevation_rad), "light.sun.elevation_deg",
                   sun.elevation_rad.is_known ? how_found(of_elevation) : ""});
+  if (appearance.levels) {
+    list.push_back({"sky's code", "codes", appearance.levels->sky, "appearance.thermal.sky"});
+    if (appearance.levels->ground.is_known) list.push_back({"ground's code", "codes", appearance.levels->ground, ""});
+  }
   return list;
 }
 
@@ -167,6 +171,8 @@ std::string text_of(const AppearanceQuantity& quantity) {
     if (!estimate.is_known) return "not known: " + estimate.why + "; clear air is taken";
     return fmt::format("{:.0f} +- {:.0f} m", estimate.value, estimate.sd);
   }
+  if (quantity.setting == "appearance.thermal.sky" && !estimate.is_known)
+    return "not known: " + estimate.why + "; the project's stays";
   const std::string text = estimate_text(estimate, quantity.unit);
   return quantity.how.empty() ? text : text + ", " + quantity.how;
 }
@@ -209,12 +215,14 @@ std::vector<std::string> names_of_unknown(const Appearance& appearance) {
 
 namespace {
 
-// To a thermal camera nothing is lit or hazy, and where its blur is not seen, that of other thermal cameras stays.
-void keep_thermal(const Project& before, bool blur_is_known, Project& project) {
+// To a thermal camera nothing is lit or hazy, and where its blur or sky is not seen, that of other ones stays.
+void keep_thermal(const Project& before, const Appearance& appearance, Project& project) {
   project.light = before.light;
   project.appearance.black = before.appearance.black;
   project.appearance.haze = before.appearance.haze;
-  if (blur_is_known) return;
+  if (!appearance.levels || !appearance.levels->sky.is_known)
+    project.appearance.thermal.sky = before.appearance.thermal.sky;
+  if (appearance.point_spread.sigma_px.is_known) return;
   project.appearance.psf_sigma_px = before.appearance.psf_sigma_px;
   project.appearance.sharpening = before.appearance.sharpening;
   project.appearance.sharpening_px = before.appearance.sharpening_px;
@@ -239,8 +247,7 @@ void apply(const Appearance& appearance, Project& project) {
   project.appearance.codec.match =
       is_lossless_codec(appearance.footage.codec) ? CodecMatchChoice::none : CodecMatchChoice::footage;
   project.appearance.codec.predicted_frames = appearance.codec.predicts ? kPredictedFrames : 0;
-  if (before.footage.spectrum == Spectrum::thermal)
-    keep_thermal(before, appearance.point_spread.sigma_px.is_known, project);
+  if (before.footage.spectrum == Spectrum::thermal) keep_thermal(before, appearance, project);
   hold_in_ranges(project);
 }
 
@@ -301,7 +308,9 @@ Result<AppearanceHints> hints_of(const Project& project, const VideoInfo& footag
   if (!own_body) return failed(own_body.error());
   if (!own_body->empty()) own_body->convertTo(known->own_body, CV_8U, 255);
   for (const Warning& warning : scene.warnings) warn(warning);
-  return hints_by(known);
+  AppearanceHints hints = hints_by(known);
+  hints.is_thermal = project.footage.spectrum == Spectrum::thermal;
+  return hints;
 }
 
 Result<Appearance> appearance_of_footage(const Project& project, const AppearanceFrames& frames, bool height_is_guess,

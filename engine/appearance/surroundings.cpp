@@ -11,6 +11,10 @@
 #include "appearance/sun.h"
 #include "appearance/target_look.h"
 #include "base/pose.h"
+#include "base/statistics.h"
+#include "horizon/horizon.h"
+#include "horizon/sky_map.h"
+#include "video/color_space.h"
 
 namespace sigs {
 
@@ -299,6 +303,59 @@ std::optional<cv::Point2d> similar_place(const Frame& frame, const Box& box, cv:
   std::partial_sort(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count), places.end(),
                     [](const Place& a, const Place& b) { return a.unlike < b.unlike; });
   return places[seed % count].middle;
+}
+
+namespace {
+
+constexpr double kMinShare = 0.08, kMaxShare = 0.9;  // of sky: beyond them sky or ground is not told from the other
+constexpr double kBrightGround = 0.75;  // quantile of the ground: dark things and the camera's halo are left out
+
+// 1.4826 times the median deviation from the median, as of a normal distribution, and the deviation of rounding.
+Estimate level_of(const std::vector<double>& codes, int frames, double otherwise, const char* what) {
+  if (codes.empty() || 2 * static_cast<int>(codes.size()) < frames)
+    return {.value = otherwise, .why = std::string("most frames show no ") + what};
+  const double middle = median(codes);
+  std::vector<double> off;
+  for (const double code : codes) off.push_back(std::abs(code - middle));
+  return {.value = middle, .sd = std::hypot(1.4826 * median(off), std::sqrt(1.0 / 12)), .is_known = true};
+}
+
+}  // namespace
+
+SkyAndGround sky_and_ground_of(const Frame& frame, const cv::Mat& own_body) {
+  cv::Mat gray;
+  cv::extractChannel(bgr_of(frame), gray, 1);
+  const ReducedLuma reduced = reduced_luma(gray);
+  const SkyMap map = sky_map_of(reduced.luma, own_body);
+  cv::Mat hidden;
+  if (!own_body.empty()) cv::resize(own_body, hidden, reduced.luma.size(), 0, 0, cv::INTER_NEAREST);
+  std::vector<double> sky, ground, all;
+  for (int y = 0; y < reduced.luma.rows; ++y)
+    for (int x = 0; x < reduced.luma.cols; ++x) {
+      if (!hidden.empty() && hidden.at<uchar>(y, x) > 127) continue;
+      const double code = reduced.luma.at<uchar>(y, x);
+      all.push_back(code);
+      (map.is_sky(x, y) ? sky : ground).push_back(code);
+    }
+  SkyAndGround found;
+  if (all.empty()) return found;
+  found.all = median(all);
+  if (map.share >= kMinShare && !sky.empty()) found.sky = median(sky);
+  if (map.share <= kMaxShare && !ground.empty()) found.ground = quantile(ground, kBrightGround);
+  return found;
+}
+
+void ThermalLevels::add(const Frame& frame, const cv::Mat& own_body) {
+  if (frame.planes[0].empty()) return;
+  const SkyAndGround found = sky_and_ground_of(frame, own_body);
+  if (found.sky) skies_.push_back(*found.sky);
+  if (found.ground) grounds_.push_back(*found.ground);
+  ++frames_;
+}
+
+LevelsEstimate ThermalLevels::finish() const {
+  return {.sky = level_of(skies_, frames_, ThermalSettings{}.sky, "sky"),
+          .ground = level_of(grounds_, frames_, 0, "ground")};
 }
 
 }  // namespace sigs

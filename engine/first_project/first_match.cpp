@@ -20,7 +20,6 @@
 #include "base/transfer.h"
 #include "ego_motion/ego_motion.h"
 #include "horizon/horizon.h"
-#include "horizon/sky_map.h"
 #include "video/color_space.h"
 
 namespace sigs {
@@ -124,8 +123,6 @@ Result<std::vector<FirstProjectNote>> match_appearance(FrameSource& footage, con
 namespace {
 
 constexpr int kSpectrumFrames = 5;
-constexpr double kMinSkyShare = 0.08, kMaxSkyShare = 0.9;  // beyond them sky or ground is not told from the other
-constexpr double kWarmShare = 0.75;  // quantile of the ground that is brighter than the sky, the camera's halo left out
 constexpr double kWarmGround_codes = 5;  // by so much
 constexpr int kThermalWidth_px = 640, kThermalHeight_px = 512;
 constexpr double kNight_code = 25;  // of 8 bits: half of the footage is darker by night
@@ -135,35 +132,6 @@ constexpr double kWhiteOverNight = 3;    // light of a white surface over that o
 // Of 12 clips of thermal cameras (docs/thermal.md): a sharp core, and a glow of two fifths of the light.
 constexpr double kThermalSpread_px = 0.35, kThermalGlow = 0.4, kThermalGlow_px = 1.8;
 constexpr double kHaloOfWidth = 0.0375;  // sigma of the halo over the image's width: 12 px in 320
-
-// Display codes of 8 bits: the median of what is sky in a frame, kWarmShare of what is not, the median of all.
-struct SkyAndGround {
-  std::optional<double> sky, ground;
-  double all = 0;
-};
-
-SkyAndGround sky_and_ground_of(const Frame& frame) {
-  cv::Mat gray;
-  cv::extractChannel(bgr_of(frame), gray, 1);
-  const ReducedLuma reduced = reduced_luma(gray);
-  const SkyMap map = sky_map_of(reduced.luma);
-  std::vector<double> sky, ground, all;
-  for (int y = 0; y < reduced.luma.rows; ++y)
-    for (int x = 0; x < reduced.luma.cols; ++x) {
-      const double code = reduced.luma.at<uchar>(y, x);
-      all.push_back(code);
-      (map.is_sky(x, y) ? sky : ground).push_back(code);
-    }
-  SkyAndGround found{.all = median(all)};
-  if (map.share < kMinSkyShare || map.share > kMaxSkyShare) return found;
-  found.sky = median(sky);
-  found.ground = quantile(ground, kWarmShare);
-  return found;
-}
-
-}  // namespace
-
-namespace {
 
 // Medians over some frames; skies and differences of those in which both sky and ground are told.
 struct Brightness {
@@ -184,7 +152,7 @@ Result<Brightness> brightness_of(FrameSource& footage, const Scene& scene, const
     if (frame->damaged) continue;
     const SkyAndGround found = sky_and_ground_of(*frame);
     seen.all.push_back(found.all);
-    if (!found.sky) continue;
+    if (!found.sky || !found.ground) continue;
     seen.skies.push_back(*found.sky);
     seen.differences.push_back(*found.ground - *found.sky);
   }

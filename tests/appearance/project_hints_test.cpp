@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -133,9 +135,23 @@ TEST_CASE("to a thermal project the footage's light and haze mean nothing, and a
   apply(found, project);
   CHECK(project.appearance.psf_sigma_px == 0.9);
   CHECK(project.light == before.light);
+  // The sky's code, where it was looked for and seen.
+  project.appearance.thermal.sky = 70;
+  apply(found, project);
+  CHECK(project.appearance.thermal.sky == 70);
+  found.levels = LevelsEstimate{.sky = {.value = 96, .why = "most frames show no sky"}, .ground = {}};
+  apply(found, project);
+  CHECK(project.appearance.thermal.sky == 70);
+  found.levels->sky = {.value = 51, .sd = 1, .is_known = true};
+  apply(found, project);
+  CHECK(project.appearance.thermal.sky == 51);
+  const std::vector<std::string> applied = applied_settings(found);
+  CHECK(std::ranges::find(applied, "appearance.thermal.sky") != applied.end());
+  found.levels.reset();
   project.footage.spectrum = Spectrum::visible;
   apply(found, project);
   CHECK(project.appearance.black == 0.1);
+  CHECK(project.appearance.thermal.sky == 51);
 }
 
 TEST_CASE("while the footage is taken the sun moves, which its deviation has") {

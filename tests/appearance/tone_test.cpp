@@ -108,3 +108,73 @@ TEST_CASE("the histogram's shares add up to one, and without frames all is unkno
   check_finite(none);
   check_finite(tone_of(cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(0))));
 }
+
+namespace {
+
+// Of a thermal camera: sky of one code, rough ground brighter by 30 to 70, noise of 3 codes.
+cv::Mat thermal(double sky, double horizon_row, int seed) {
+  cv::Mat gray(256, 320, CV_8UC1);
+  cv::RNG random(static_cast<std::uint64_t>(seed));
+  for (int y = 0; y < gray.rows; ++y)
+    for (int x = 0; x < gray.cols; ++x) {
+      const double ground = 50 + 20 * std::sin(0.9 * (x / 8)) * std::cos(1.3 * (y / 8));
+      gray.at<uchar>(y, x) = cv::saturate_cast<uchar>(sky + (y < horizon_row ? 0 : ground) + random.gaussian(3));
+    }
+  return gray;
+}
+
+Frame gray_frame(const cv::Mat& gray) {
+  Frame frame{.layout = PixelLayout::gray, .color = {.range = ColorRange::full}};
+  frame.planes[0] = gray;
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("codes of sky and ground of a thermal camera are found, without what an own body hides") {
+  for (const double sky : {40.0, 96.0, 150.0}) {
+    ThermalLevels levels, beside_body;
+    cv::Mat body(256, 320, CV_8UC1, cv::Scalar(0));
+    body(cv::Rect(0, 60, 130, 196)).setTo(255);
+    for (int i = 0; i < 8; ++i) {
+      cv::Mat gray = thermal(sky, 130 + 5 * i, i);
+      levels.add(gray_frame(gray));
+      gray(cv::Rect(0, 60, 130, 196)).setTo(250);
+      beside_body.add(gray_frame(gray), body);
+    }
+    for (const LevelsEstimate& found : {levels.finish(), beside_body.finish()}) {
+      CAPTURE(sky);
+      CAPTURE(found.sky.why);
+      REQUIRE(found.sky.is_known);
+      CHECK(std::abs(found.sky.value - sky) < 1.5);
+      CHECK(found.sky.sd < 2);
+      REQUIRE(found.ground.is_known);
+      CHECK(found.ground.value > sky + 45);
+      CHECK(found.ground.value < sky + 75);
+    }
+  }
+}
+
+TEST_CASE("levels that frames do not show are not known, and none of their numbers is a NaN") {
+  ThermalLevels ground_alone;
+  cv::Mat textured(256, 320, CV_8UC1);
+  cv::RNG(7).fill(textured, cv::RNG::UNIFORM, 0, 256);
+  ground_alone.add(gray_frame(textured));
+  ground_alone.add(Frame{});
+  ThermalLevels sky_alone;
+  sky_alone.add(gray_frame(thermal(80, 256, 1)));
+  const LevelsEstimate of_ground = ground_alone.finish(), of_sky = sky_alone.finish(),
+                       of_none = ThermalLevels().finish();
+  CHECK_FALSE(of_ground.sky.is_known);
+  CHECK(of_ground.sky.value == ThermalSettings{}.sky);
+  CHECK(of_sky.sky.is_known);
+  CHECK(std::abs(of_sky.sky.value - 80) < 1.5);
+  CHECK_FALSE(of_sky.ground.is_known);
+  CHECK_FALSE(of_none.sky.is_known);
+  for (const LevelsEstimate& levels : {of_ground, of_sky, of_none})
+    for (const Estimate& estimate : {levels.sky, levels.ground}) {
+      CHECK(std::isfinite(estimate.value));
+      CHECK(std::isfinite(estimate.sd));
+      CHECK(estimate.is_known == estimate.why.empty());
+    }
+}
