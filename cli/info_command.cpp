@@ -130,6 +130,7 @@ void print_mesh(const Mesh& mesh) {
       std::printf("  rotor: %d blades, %.4g rpm, radii %.4g to %.4g, chords %.3g to %.3g\n", rotor->blade_count,
                   rotor->rpm, rotor->root_m, rotor->tip_m, rotor->root_chord_m, rotor->tip_chord_m);
   }
+  for (const std::string& name : mesh.group_names) std::printf("group or object %s\n", name.c_str());
   for (const Warning& warning : mesh.warnings) print_warning(warning);
 }
 

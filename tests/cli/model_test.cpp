@@ -25,6 +25,15 @@ TEST_CASE("a model is imported once, beside its images, and what it is stands on
   CHECK(run_sigs("model import " + source + " --force --out " + out).status == 0);
 }
 
+TEST_CASE("info names a model's parts, by which a project makes them turn") {
+  const TemporaryFolder folder;
+  const std::string model = (folder / "plane.obj").string();
+  write_file(model, "o plane\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng prop fast\nv 2 0 0\nv 2 1 0\nv 2 0 1\nf 4 5 6\n");
+  const Run run = run_sigs("info " + model);
+  CHECK(run.status == 0);
+  CHECK(run.out.find("\ngroup or object prop\ngroup or object plane\n") != std::string::npos);
+}
+
 TEST_CASE("an import that cannot be says why, with the status of its kind, and leaves nothing") {
   const TemporaryFolder folder;
   const std::string source = (source_dir() / "assets/models/bird/bird.obj").string();
