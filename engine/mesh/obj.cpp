@@ -221,7 +221,7 @@ void place_rotors(Mesh& mesh, double scale, const std::string& name) {
 std::string some_of(std::vector<std::string> names) {
   constexpr std::size_t kMost = 8;
   std::erase(names, "");
-  std::ranges::stable_partition(names, [](const std::string& name) {
+  std::stable_partition(names.begin(), names.end(), [](const std::string& name) {
     const std::string lower = lower_case(name);
     return lower.find("prop") != std::string::npos || lower.find("rotor") != std::string::npos ||
            lower.find("blade") != std::string::npos;

@@ -76,7 +76,7 @@ std::vector<std::string> part_names(const ViewContext& context, int intruder) {
   };
   for (const Material& material : mesh.materials) add(material.name);
   for (const std::string& name : mesh.group_names) add(name);
-  std::ranges::stable_partition(names, is_named_as_rotor);
+  std::stable_partition(names.begin(), names.end(), is_named_as_rotor);
   return names;
 }
 
