@@ -215,4 +215,22 @@ TEST_CASE("what is no model, has no triangle or states no axes is an error that 
   CHECK(import_model({.file = folder / "a.ac", .forward = "-x", .up = "+x"}, "m").error().where == "up");
 }
 
+TEST_CASE("a texture in SGI's format, as FlightGear has them, is written as PNG") {
+  const TemporaryFolder folder;
+  // 1 x 1, three planes of a byte: red 200, green 100, blue 50.
+  std::string sgi("\x01\xDA\0\x01\0\x03\0\x01\0\x01\0\x03\0\0\0\0\0\0\0\xFF", 20);
+  sgi.resize(512, '\0');
+  write_file(folder / "paint.rgb", sgi + "\xC8\x64\x32");
+  std::string text = ac_text(aircraft_objects());
+  const std::string name = "name \"fuselage\"\n";
+  text.insert(text.find(name) + name.size(), "texture \"paint.rgb\"\n");
+  write_file(folder / "a.ac", text);
+  const Imported got = imported({.file = folder / "a.ac"});
+  CHECK(got.model.warnings.empty());
+  CHECK(std::ranges::any_of(got.model.files, [](const ImportedFile& file) { return file.name == "paint.png"; }));
+  const auto painted = std::ranges::find_if(got.mesh.materials, [](const Material& m) { return !m.texture.empty(); });
+  REQUIRE(painted != got.mesh.materials.end());
+  CHECK(painted->texture.at<cv::Vec4b>(0, 0) == cv::Vec4b(200, 100, 50, 255));
+}
+
 }  // namespace sigs::test

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 
 #include "base/text.h"
 #include "editor/preview/jobs.h"
@@ -71,8 +72,9 @@ std::vector<std::string> part_names(const ViewContext& context, int intruder) {
   const int in_scene = shown->draft.intruder_of_project[index];
   if (in_scene < 0) return names;
   const Mesh& mesh = shown->draft.scene.intruders[static_cast<std::size_t>(in_scene)].model->mesh;
+  std::set<std::string> there{""};
   const auto add = [&](const std::string& name) {
-    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+    if (there.insert(name).second) names.push_back(name);
   };
   for (const Material& material : mesh.materials) add(material.name);
   for (const std::string& name : mesh.group_names) add(name);
@@ -200,7 +202,7 @@ void ModelBlock::draw_preview(const ViewContext& context, int intruder) {
 void ModelBlock::draw_rotors(const ViewContext& context, FieldRows& rows, int intruder) {
   const std::vector<RotorSettings>& rotors =
       context.project().intruders[static_cast<std::size_t>(intruder)].model.rotors;
-  const std::vector<std::string> parts = part_names(context, intruder);
+  const std::vector<std::string> parts = rotors.empty() ? std::vector<std::string>() : part_names(context, intruder);
   const auto change = [&](const char* what, auto&& edit) {
     context.edits.change(
         what, [=](Project& project) { edit(project.intruders[static_cast<std::size_t>(intruder)].model.rotors); });
@@ -229,7 +231,9 @@ void ModelBlock::draw_rotors(const ViewContext& context, FieldRows& rows, int in
   if (context.ui_probe.noted(ImGui::Button("Add rotor"), "inspector/add rotor",
                              "Makes a part of the model turn, as the shutter sees it: a propeller or a rotor that its "
                              "files do not describe as one"))
-    change("add rotor", [likely = likely_rotor(parts)](std::vector<RotorSettings>& all) { all.push_back(likely); });
+    change("add rotor", [likely = likely_rotor(part_names(context, intruder))](std::vector<RotorSettings>& all) {
+      all.push_back(likely);
+    });
 }
 
 void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {
