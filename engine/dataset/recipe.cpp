@@ -36,6 +36,9 @@ void warn_of_unknown_keys(const Json& rest, const std::string& key, RecipeLog& l
   for (const auto& [name, item] : rest.items())
     if (item.is_object())
       warn_of_unknown_keys(item, key + "." + name, log);
+    else if (item.is_array() && !item.empty() && std::ranges::all_of(item, &Json::is_object))
+      for (std::size_t i = 0; i < item.size(); ++i)
+        warn_of_unknown_keys(item[i], fmt::format("{}.{}[{}]", key, name, i), log);
     else
       log.warn(key + "." + name, "unknown key, not used");
 }
@@ -64,10 +67,6 @@ void put_section(Json section, const std::string& project_key, const std::string
       log.wrong(key + "." + name, wrong);
     rest.at(place.parent_pointer()).erase(place.back());
   }
-  // Of a list whose items are all read nothing is left.
-  if (const auto rotors = rest.find("rotors"); rotors != rest.end() && rotors->is_array())
-    if (std::ranges::all_of(*rotors, [](const Json& item) { return item.is_object() && item.empty(); }))
-      rest.erase("rotors");
   warn_of_unknown_keys(rest, key, log);
 }
 

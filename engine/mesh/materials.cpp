@@ -23,7 +23,6 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
-#include "mesh/texture_formats.h"
 
 namespace sigs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/texture_formats.h"
+#include "mesh/materials.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>

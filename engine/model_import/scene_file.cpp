@@ -22,7 +22,7 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/xml_text.h"
-#include "mesh/texture_formats.h"
+#include "mesh/materials.h"
 
 namespace sigs {
 

@@ -208,6 +208,10 @@ TEST_CASE("recipes draw an aircraft's gloss, and state its rotors as projects do
   CHECK(drawn.size() == 12);
   CHECK(*drawn.begin() >= 0.5);
   CHECK(*drawn.rbegin() <= 2);
+  recipe["aircraft"][0]["model"]["rotors"][0]["pitch_deg"] = 5;
+  const std::vector<Warning> warnings = RecipeFolder().read(recipe).value().warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].text().find("aircraft[0].model.rotors[0].pitch_deg: unknown key") != std::string::npos);
   recipe["aircraft"][0]["model"]["rotors"][0]["blades"] = 17;
   CHECK(RecipeFolder().error(recipe).starts_with("aircraft[0].model.rotors[0].blades: "));
   recipe["aircraft"][0]["model"]["rotors"][0] = {{"part", "fann"}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/texture_formats.h"
+#include "mesh/materials.h"
 
 #include <doctest/doctest.h>
 
