@@ -49,8 +49,8 @@ Cells cells_of(const cv::Mat& reduced, const cv::Mat& own_body) {
   return cells;
 }
 
-// One column from above.
-void scan(const Cells& cells, int x, cv::Mat_<uchar>& sky) {
+// One column from the row `top` downwards.
+void scan(const Cells& cells, int x, int top, cv::Mat_<uchar>& sky) {
   const int rows = sky.rows;
   float around = -1;  // luma of the sky so far
   const auto is_like = [&](int y) {
@@ -58,7 +58,7 @@ void scan(const Cells& cells, int x, cv::Mat_<uchar>& sky) {
     return cells.slope.at<float>(y, x) <= kRough_codes &&
            (around < 0 || (luma > around - kDarker_codes && luma < around + kBrighter_codes));
   };
-  for (int y = 0; y < rows; ++y) {
+  for (int y = top; y < rows; ++y) {
     if (cells.hidden(y, x) != 0) continue;
     if (is_like(y)) {
       const float luma = cells.luma.at<float>(y, x);
@@ -75,21 +75,41 @@ void scan(const Cells& cells, int x, cv::Mat_<uchar>& sky) {
   }
 }
 
-// Columns that begin with sky: parts of the upper border that are divided by steps of luma and are about as bright as
-// the brightest. In a tilted image ground may reach the border beside the sky.
-std::vector<bool> top_columns(const Cells& cells) {
+// Of each column the row where what the own body leaves free begins: 0, or below a body that reaches down from the
+// border, less the cell at its edge; the number of rows where it leaves none.
+std::vector<int> uppermost_cells(const Cells& cells) {
+  std::vector<int> rows(static_cast<std::size_t>(cells.hidden.cols));
+  for (int x = 0; x < cells.hidden.cols; ++x) {
+    int& row = rows[static_cast<std::size_t>(x)];
+    while (row < cells.hidden.rows && cells.hidden(row, x) != 0) ++row;
+    if (row > 0 && row < cells.hidden.rows) ++row;
+  }
+  return rows;
+}
+
+// Columns that begin with sky: parts of the upper border, or of what the own body leaves free below it, that are
+// divided by steps of luma and are about as bright as the brightest. In a tilted image ground may reach the border
+// beside the sky.
+//   uppermost  uppermost_cells(cells)
+std::vector<bool> top_columns(const Cells& cells, const std::vector<int>& uppermost) {
   struct Part {
     int from = 0, to = 0;
     float luma = 0;
   };
   std::vector<Part> parts;
   const int columns = cells.luma.cols;
+  const auto is_free = [&](int x) { return uppermost[static_cast<std::size_t>(x)] < cells.luma.rows; };
+  const auto luma = [&](int x) { return cells.luma.at<float>(uppermost[static_cast<std::size_t>(x)], x); };
+  const auto is_smooth = [&](int x) {
+    return cells.slope.at<float>(uppermost[static_cast<std::size_t>(x)], x) <= kRough_codes;
+  };
   for (int x = 0; x < columns; ++x) {
-    const bool goes_on = x > 0 && cells.slope.at<float>(0, x) <= kRough_codes &&
-                         std::abs(cells.luma.at<float>(0, x) - cells.luma.at<float>(0, x - 1)) <= kTopStep_codes;
+    if (!is_free(x)) continue;
+    const bool goes_on = !parts.empty() && parts.back().to == x && is_smooth(x) &&
+                         std::abs(luma(x) - luma(x - 1)) <= kTopStep_codes;
     if (!goes_on) parts.push_back({.from = x, .to = x});
     ++parts.back().to;
-    parts.back().luma += cells.luma.at<float>(0, x);
+    parts.back().luma += luma(x);
   }
   float brightest = 0;
   for (Part& part : parts) {
@@ -100,7 +120,7 @@ std::vector<bool> top_columns(const Cells& cells) {
   for (const Part& part : parts)
     for (int x = part.from; x < part.to; ++x)
       is_top[static_cast<std::size_t>(x)] =
-          part.luma > brightest - kTopDarker_codes && cells.slope.at<float>(0, x) <= kRough_codes;
+          part.luma > brightest - kTopDarker_codes && is_smooth(x);
   return is_top;
 }
 
@@ -138,15 +158,23 @@ SkyMap sky_map_of(const cv::Mat& reduced, const cv::Mat& own_body) {
   if (reduced.cols < SkyMap::kCell_px || reduced.rows < SkyMap::kCell_px) return map;
   const Cells cells = cells_of(reduced, own_body);
   map.sky = cv::Mat_<uchar>(cells.luma.size(), uchar{0});
-  const std::vector<bool> is_top = top_columns(cells);
+  const std::vector<int> uppermost = uppermost_cells(cells);
+  const std::vector<bool> is_top = top_columns(cells, uppermost);
   for (int x = 0; x < map.sky.cols; ++x)
-    if (is_top[static_cast<std::size_t>(x)]) scan(cells, x, map.sky);
+    if (is_top[static_cast<std::size_t>(x)]) scan(cells, x, uppermost[static_cast<std::size_t>(x)], map.sky);
   spread(cells, map.sky);
   const int free_cells = map.sky.rows * map.sky.cols - cv::countNonZero(cells.hidden);
   map.share = static_cast<double>(cv::countNonZero(map.sky)) / std::max(free_cells, 1);
-  cv::Mat top;
-  cv::reduce(map.sky.rowRange(0, std::min(map.sky.rows, kUpperEnd + 1)), top, 0, cv::REDUCE_MAX);
-  map.columns = static_cast<double>(cv::countNonZero(top)) / map.sky.cols;
+  int tops = 0;
+  for (int x = 0; x < map.sky.cols; ++x) {
+    const int from = uppermost[static_cast<std::size_t>(x)];
+    for (int y = from; y < std::min(map.sky.rows, from + kUpperEnd + 1); ++y)
+      if (map.sky(y, x) != 0) {
+        ++tops;
+        break;
+      }
+  }
+  map.columns = static_cast<double>(tops) / map.sky.cols;
   return map;
 }
 

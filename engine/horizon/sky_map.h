@@ -23,7 +23,7 @@ struct SkyMap {
 
   cv::Mat_<uchar> sky;  // of the cells: 255 sky, 128 passed over within it, 0 anything else
   double share = 0;     // of the cells that the own body leaves free, 0..1
-  double columns = 0;   // share of the columns that show sky at their upper end
+  double columns = 0;   // share of the columns that show sky at their upper end, or below an own body that begins there
 
   [[nodiscard]] bool empty() const { return sky.empty(); }
   // Whether a place of the reduced image is sky; outside of the image the nearest cell counts.

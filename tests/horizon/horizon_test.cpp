@@ -231,6 +231,24 @@ TEST_CASE("a bonnet below a street is no horizon; the street's end is the skylin
   CHECK(*pitch_rad / kDegree == doctest::Approx(4 - 0.05 / kDegree).epsilon(0.4));
 }
 
+TEST_CASE("a bright wing along the upper border is no brighter sky, and sky begins below it") {
+  const Camera camera = view_camera(LensModel::brown_conrady);
+  const auto world = [](const glm::dvec3& ray) { return ray.z > 0 ? rough_ground(ray) : 150 + 20 * ray.z; };
+  cv::Mat image = image_of(camera, level_from_camera(0, 5), world);
+  const SkyMap free = sky_map_of(image);
+  const cv::Rect wing(0, 0, image.cols * 2 / 3, 41);
+  cv::Mat own_body = cv::Mat::zeros(image.size(), CV_8UC1);
+  image(wing).setTo(230);
+  own_body(wing).setTo(255);
+  const SkyMap map = sky_map_of(image, own_body);
+  CHECK(map.columns == 1);
+  int differ = 0;
+  for (int y = 13; y < map.sky.rows; ++y)
+    for (int x = 0; x < map.sky.cols; ++x) differ += map.sky(y, x) != free.sky(y, x) ? 1 : 0;
+  CHECK(differ < 0.01 * static_cast<double>(map.sky.total()));
+  CHECK(cv::countNonZero(map.sky(cv::Rect(0, 0, wing.width / SkyMap::kCell_px, wing.height / SkyMap::kCell_px))) == 0);
+}
+
 TEST_CASE("sky, ground and their border are distinguished in an image that shows one alone or both") {
   const Camera camera = view_camera(LensModel::brown_conrady);
   const auto seen = [&](double pitch_deg, const std::function<double(const glm::dvec3&)>& luma) {
