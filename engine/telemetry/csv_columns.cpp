@@ -32,6 +32,7 @@ std::vector<std::string> csv_columns(std::string_view channel) {
       {"airframe_force_mps2", {"airframe_force_x_mps2", "airframe_force_y_mps2", "airframe_force_z_mps2"}},
       {"camera_gravity", {"camera_gravity_x", "camera_gravity_y", "camera_gravity_z"}},
       {"exposure_s", {"exposure_s"}},
+      {"white_cdpm2", {"white_cdpm2"}},
   };
   return kColumns.find(channel)->second;
 }

@@ -10,6 +10,8 @@
 namespace sigs {
 namespace {
 
+constexpr double kScaledAperture = 100;  // from here on apertures are a hundred times as large, focal lengths ten times
+
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -173,12 +175,30 @@ void read_attitudes(std::string_view text, DjiValues& values) {
   values.airframe_roll_pitch_yaw_deg = pry("F.PRY");
 }
 
+// "fnum : 280", "Fnum:F2.8", "IR:F2.8" and "F/2.8" are 2.8, "Fnum:2.2" as it stands; "iso : 100" and "ISO 260". After
+// the exposure time. White is by the sensitivity that ISO 12232 defines by saturation: 78 / (0.65 S t) N^2.
+void read_white(std::string_view text, DjiValues& values) {
+  std::string_view aperture;
+  for (const std::string_view word : {"fnum", "Fnum", "IR"})
+    if (aperture.empty()) aperture = value_of(text, word);
+  if (aperture.empty()) aperture = behind(text, "F");
+  for (const char c : {'F', '/'}) skip(aperture, c);
+  std::string_view sensitivity = value_of(text, "iso");
+  if (sensitivity.empty()) sensitivity = behind(text, "ISO");
+  skip(sensitivity, ':');
+  std::optional<double> f_number = taken_number(aperture);
+  const std::optional<double> iso = taken_number(sensitivity);
+  if (f_number && *f_number >= kScaledAperture) *f_number /= 100;
+  if (!values.exposure_s || !f_number || !iso || *f_number <= 0 || *iso <= 0) return;
+  values.white_cdpm2 = 120 * *f_number * *f_number / (*iso * *values.exposure_s);
+}
+
 // "fnum : 280, focal_len : 240" is 2.8 and 24 mm, "fnum: 1.7, focal_len: 24.00" as it stands; "dzoom_ratio: 10000"
 // is 1.
 void read_focal_length(std::string_view text, DjiValues& values) {
   const std::optional<double> focal_length = number_of(text, "focal_len");
   if (!focal_length || *focal_length <= 0) return;
-  const bool is_scaled = number_of(text, "fnum").value_or(0) >= 100;
+  const bool is_scaled = number_of(text, "fnum").value_or(0) >= kScaledAperture;
   double zoom = number_of(text, "dzoom_ratio").value_or(1);
   if (zoom >= 1000) zoom /= 10000;
   values.focal_length_35mm_mm = *focal_length / (is_scaled ? 10 : 1) * (zoom >= 1 ? zoom : 1);
@@ -271,6 +291,7 @@ DjiValues dji_values(std::string_view text) {
   read_place(text, values);
   read_heights(text, values);
   read_exposure(text, values);
+  read_white(text, values);
   read_focal_length(text, values);
   read_attitudes(text, values);
   values.local_time_s = date_in(text);

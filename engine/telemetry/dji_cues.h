@@ -41,6 +41,7 @@ struct DjiValues {
   std::optional<double> altitude_m;                                // altitude: from what is not said
   std::optional<double> relative_height_m;                         // rel_alt, BAROMETER, Hb, H: above the start
   std::optional<double> exposure_s;                                // shutter, Shutter, TV, SS
+  std::optional<double> white_cdpm2;                               // by exposure_s, iso or ISO, fnum, Fnum, IR or F/
   std::optional<std::array<double, 3>> gimbal_roll_pitch_yaw_deg;  // gb_roll.., G.PRY
   std::optional<std::array<double, 3>> airframe_roll_pitch_yaw_deg;  // F.PRY
   std::optional<double> focal_length_35mm_mm;  // focal_len, with the digital zoom: for a sensor 36 mm wide

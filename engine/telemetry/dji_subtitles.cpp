@@ -79,6 +79,7 @@ class DjiReading {
     finish(track.ned_from_camera, gimbal_, track);
     finish(track.ned_from_airframe, airframe_, track);
     finish(track.exposure_s, exposures_, track);
+    finish(track.white_cdpm2, whites_, track);
     warn(track, height);
     return track;
   }
@@ -117,6 +118,7 @@ class DjiReading {
     }
     if (values.place_form != DjiPlaceForm::none) take_place(values, *t_s, height);
     if (values.exposure_s) add(exposures_, *t_s, values.local_time_s, *values.exposure_s);
+    if (values.white_cdpm2) add(whites_, *t_s, values.local_time_s, *values.white_cdpm2);
     if (values.gimbal_roll_pitch_yaw_deg)
       add(gimbal_, *t_s, values.local_time_s, attitude_of_deg(*values.gimbal_roll_pitch_yaw_deg));
     if (values.airframe_roll_pitch_yaw_deg)
@@ -203,6 +205,7 @@ class DjiReading {
   Stamped<glm::dquat> gimbal_{"gimbal (gb_yaw, G.PRY)"};
   Stamped<glm::dquat> airframe_{"F.PRY"};
   Stamped<double> exposures_{"shutter"};
+  Stamped<double> whites_{"shutter, iso, fnum"};
   DjiPlaceForm form_ = DjiPlaceForm::none;
   int decimals_ = 0;
   std::size_t without_time_ = 0;

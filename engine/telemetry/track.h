@@ -68,6 +68,7 @@ struct Track {
   Channel<glm::dvec3> airframe_force_mps2 = {};
   Channel<glm::dvec3> camera_gravity = {};  // unit vector downwards in camera axes (GPMF GRAV)
   Channel<double> exposure_s = {};
+  Channel<double> white_cdpm2 = {};      // luminance that the exposure shows as white, without any filter
   std::optional<LoggedLens> lens = {};   // at its first sample
   std::optional<double> readout_s = {};  // of the rolling shutter, first to last row
 
@@ -98,6 +99,7 @@ void for_each_channel(TrackType& track, const Visit& visit) {
   visit("airframe_force_mps2", track.airframe_force_mps2);
   visit("camera_gravity", track.camera_gravity);
   visit("exposure_s", track.exposure_s);
+  visit("white_cdpm2", track.white_cdpm2);
 }
 
 }  // namespace sigs

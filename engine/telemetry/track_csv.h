@@ -33,6 +33,7 @@ namespace sigs {
 //   camera_force_x_mps2 ... z                         camera_force_mps2; airframe_force_x_mps2 ...: airframe_force_mps2
 //   camera_gravity_x ... z                            camera_gravity
 //   exposure_s                                        exposure_s
+//   white_cdpm2                                       white_cdpm2
 //   NAME_own_s                                        own_times_s of the channel NAME of track.h, as position_own_s
 // clang-format on
 //

@@ -200,7 +200,8 @@ std::string contents_text(const Track& track) {
       {"camera_force_mps2", "forces"},
       {"airframe_force_mps2", "forces of the airframe"},
       {"camera_gravity", "direction of gravity"},
-      {"exposure_s", "exposure time"}};
+      {"exposure_s", "exposure time"},
+      {"white_cdpm2", "luminance of white"}};
   std::vector<std::string> there;
   for_each_channel(track, [&](std::string_view name, const auto& channel) {
     if (const auto word = kWords.find(name); word != kWords.end() && !channel.empty())

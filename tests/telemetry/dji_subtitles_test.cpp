@@ -30,12 +30,14 @@ Track dji_track(const std::string& name) {
   return *track;
 }
 
-// What a person reads in the file: the number of places, the first place, the first exposure.
+// What a person reads in the file: the number of places, the first place, the first exposure, aperture and sensitivity.
 struct DjiExpected {
   const char* file;
   std::size_t places;
   GeodeticPosition first;
   double first_exposure_s;
+  double f_number;
+  double iso;
 };
 
 }  // namespace
@@ -43,15 +45,15 @@ struct DjiExpected {
 TEST_CASE("each dialect of DJI's subtitles gives the place and exposure that one reads in the file") {
   if (!has_real_data()) return;
   const std::vector<DjiExpected> all = {
-      {"air2s.srt", 17, {41.424724, 2.234156, 117}, 1 / 80.0},
-      {"embedder_Avata360.SRT", 5, {53.365080, 6.460739, -124.744}, 1 / 6400.0},
-      {"embedder_air3.SRT", 2, {59.1111, 18.2222, 105}, 1 / 1000.0},
-      {"matrice_300.srt", 381, {36.6146, -6.1120, 0.3}, 0},
-      {"mavic_2_style.SRT", 468, {-20.2533, 149.0251, 0}, 1 / 60.0},
-      {"mavic_mini.SRT", 117, {48.0771, -121.7458, 200.70}, 1 / 30.15},
-      {"mavic_pro.SRT", 468, {-20.2533, 149.0251, 1.9}, 1 / 60.0},
-      {"old_format.SRT", 468, {-20.2533, 149.0251, 1.9}, 1 / 60.0},
-      {"p4_rtk.SRT", 55, {-34.237922, -58.851745, 85.80}, 1 / 400.0},
+      {"air2s.srt", 17, {41.424724, 2.234156, 117}, 1 / 80.0, 2.8, 100},
+      {"embedder_Avata360.SRT", 5, {53.365080, 6.460739, -124.744}, 1 / 6400.0, 1.9, 200},
+      {"embedder_air3.SRT", 2, {59.1111, 18.2222, 105}, 1 / 1000.0, 2.8, 100},
+      {"matrice_300.srt", 381, {36.6146, -6.1120, 0.3}, 0, 0, 0},
+      {"mavic_2_style.SRT", 468, {-20.2533, 149.0251, 0}, 1 / 60.0, 2.2, 100},
+      {"mavic_mini.SRT", 117, {48.0771, -121.7458, 200.70}, 1 / 30.15, 2.8, 260},
+      {"mavic_pro.SRT", 468, {-20.2533, 149.0251, 1.9}, 1 / 60.0, 2.2, 100},
+      {"old_format.SRT", 468, {-20.2533, 149.0251, 1.9}, 1 / 60.0, 2.8, 100},
+      {"p4_rtk.SRT", 55, {-34.237922, -58.851745, 85.80}, 1 / 400.0, 5.6, 100},
   };
   for (const DjiExpected& expected : all) {
     CAPTURE(expected.file);
@@ -62,6 +64,12 @@ TEST_CASE("each dialect of DJI's subtitles gives the place and exposure that one
     CHECK(track.exposure_s.empty() == (expected.first_exposure_s == 0));
     if (expected.first_exposure_s > 0)
       CHECK(track.exposure_s.values.front() == doctest::Approx(expected.first_exposure_s).epsilon(1e-14));
+    CHECK(track.white_cdpm2.empty() == (expected.iso == 0));
+    // ISO 12232 by saturation: an exposure of 78 / S lux seconds is white; of a luminance L the sensor gets 0.65 L t / N^2.
+    if (expected.iso > 0)
+      CHECK(track.white_cdpm2.values.front() ==
+            doctest::Approx(78 / expected.iso * expected.f_number * expected.f_number /
+                            (0.65 * expected.first_exposure_s)));
   }
 }
 
