@@ -24,3 +24,16 @@ for size in 1280:1024 640:512; do
     is_thermal "$work/gray.mkv"
   done | awk -v size=$size '{ n += $1 } END { printf "gray clips by light of %s taken for thermal: %d of %d\n", size, n, NR }'
 done
+
+for palette in inferno magma plasma turbo; do
+  for clip in "$data"/thermal/IR_{AIRPLANE_{004,012,020,028},HELICOPTER_{004,012,020}}.mp4; do
+    [ -e "$clip" ] || continue
+    ffmpeg -v error -y -i "$clip" -frames:v 60 -vf "format=gray,format=gbrp,pseudocolor=preset=$palette,format=yuv420p" -crf 23 "$work/colored.mp4" </dev/null
+    is_thermal "$work/colored.mp4" >/dev/null
+    grep -c "footage.palette: $palette:" "$work/log" || true
+  done | awk -v palette=$palette '{ n += $1 } END { printf "thermal clips in %s of which the palette is found: %d of %d\n", palette, n, NR }'
+done
+for clip in "$data"/track/V_*[05].mp4; do
+  is_thermal "$clip" >/dev/null
+  grep -c "footage.palette:" "$work/log" || true
+done | awk '{ n += $1 } END { printf "clips by light taken for coloured heat: %d of %d\n", n, NR }'

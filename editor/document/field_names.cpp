@@ -145,13 +145,14 @@ std::string advice_on_guess(std::string_view key) {
 }
 
 bool is_common(std::string_view key) {
-  constexpr std::array<std::string_view, 49> kCommon{
+  constexpr std::array<std::string_view, 50> kCommon{
       "name",
       "footage.video",
       "footage.first_frame",
       "footage.last_frame",
       "footage.calibration",
       "footage.spectrum",
+      "footage.palette",
       "footage.own_body_mask",
       "footage.occluder_mask",
       "footage.cloud_distance_m",

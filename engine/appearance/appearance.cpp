@@ -28,7 +28,7 @@ struct NumberedFrame {
 // with 8 bits: deeper samples are rounded. No other code may use the footage while the stream exists.
 class SampledFrames {
  public:
-  SampledFrames(FrameSource& footage, std::vector<int> numbers);
+  SampledFrames(FrameSource& footage, std::vector<int> numbers, HeatPalette palette);
   ~SampledFrames();
   SampledFrames(const SampledFrames&) = delete;
   SampledFrames& operator=(const SampledFrames&) = delete;
@@ -37,7 +37,7 @@ class SampledFrames {
   [[nodiscard]] std::optional<Result<NumberedFrame>> next();
 
  private:
-  void decode(FrameSource& footage, const std::vector<int>& numbers);
+  void decode(FrameSource& footage, const std::vector<int>& numbers, HeatPalette palette);
   void give_up(const Error& error);
 
   BoundedQueue<Result<NumberedFrame>> ahead_;
@@ -47,9 +47,10 @@ class SampledFrames {
 
 constexpr std::size_t kDecodedAhead = 4;
 
-SampledFrames::SampledFrames(FrameSource& footage, std::vector<int> numbers) : ahead_(kDecodedAhead) {
+SampledFrames::SampledFrames(FrameSource& footage, std::vector<int> numbers, HeatPalette palette)
+    : ahead_(kDecodedAhead) {
   Result<std::thread> thread =
-      started_thread([this, &footage, numbers = std::move(numbers)] { decode(footage, numbers); },
+      started_thread([this, &footage, numbers = std::move(numbers), palette] { decode(footage, numbers, palette); },
                      [this](const Error& error) { give_up(error); });
   if (thread)
     thread_ = std::move(*thread);
@@ -73,12 +74,14 @@ std::optional<Result<NumberedFrame>> SampledFrames::next() {
   return fail(*std::exchange(failure_, std::nullopt));
 }
 
-void SampledFrames::decode(FrameSource& footage, const std::vector<int>& numbers) {
+void SampledFrames::decode(FrameSource& footage, const std::vector<int>& numbers, HeatPalette palette) {
+  const std::optional<HeatColors> colors = heat_colors(palette);
   for (const int number : numbers) {
     Result<Frame> frame = footage.read(number);
     const bool is_read = frame.has_value();
     const bool is_wanted =
-        is_read ? ahead_.put(NumberedFrame{number, with_bit_depth(*frame, 8)}) : ahead_.put(fail(frame.error()));
+        is_read ? ahead_.put(NumberedFrame{number, colors ? colors->heat_of(*frame).frame : with_bit_depth(*frame, 8)})
+                : ahead_.put(fail(frame.error()));
     if (!is_wanted || !is_read) break;
   }
   ahead_.close();
@@ -192,7 +195,7 @@ Result<Appearance> estimated(FrameSource& footage, const AppearanceFrames& frame
   const int last = std::min(frames.last.value_or(footage.info().frame_count() - 1), footage.info().frame_count() - 1);
   const std::optional<GivenSun> sun = given_sun(hints, *samples);
   Estimators estimators(samples->size(), sun.has_value(), hints.is_thermal);
-  SampledFrames stream(footage, with_followers(*samples, last));
+  SampledFrames stream(footage, with_followers(*samples, last), hints.palette);
   std::optional<NumberedFrame> waiting;  // a sample whose follower may come
   const auto use = [&](const Frame* next) {
     estimators.add(waiting->frame, next, hints.view ? hints.view(waiting->number) : View{});

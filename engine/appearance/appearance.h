@@ -13,6 +13,7 @@
 #include "appearance/noise.h"
 #include "appearance/point_spread.h"
 #include "appearance/surroundings.h"
+#include "appearance/thermal_look.h"
 #include "base/result.h"
 #include "project/project.h"
 #include "scene/scene.h"
@@ -32,7 +33,8 @@ struct AppearanceHints {
   std::function<View(int frame)> view;  // of the camera at a frame; empty: nothing is known
   // Unit vector, by time and place; empty: the project does not know them.
   std::function<glm::dvec3(int frame)> to_sun_in_world;
-  bool is_thermal = false;  // footage of a thermal camera: its levels are looked for too
+  bool is_thermal = false;                  // footage of a thermal camera: its levels are looked for too
+  HeatPalette palette = HeatPalette::gray;  // of its colours: what is looked at is the heat that they show
 };
 
 struct AppearanceControl {

@@ -161,6 +161,8 @@ std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance) {
   if (appearance.levels) {
     list.push_back({"sky's code", "codes", appearance.levels->sky, "appearance.thermal.sky"});
     if (appearance.levels->ground.is_known) list.push_back({"ground's code", "codes", appearance.levels->ground, ""});
+    list.push_back({"halo", "", appearance.levels->halo, "appearance.thermal.halo"});
+    list.push_back({"halo's radius", "px", appearance.levels->halo_px, "appearance.thermal.halo_px"});
   }
   return list;
 }
@@ -171,7 +173,7 @@ std::string text_of(const AppearanceQuantity& quantity) {
     if (!estimate.is_known) return "not known: " + estimate.why + "; clear air is taken";
     return fmt::format("{:.0f} +- {:.0f} m", estimate.value, estimate.sd);
   }
-  if (quantity.setting == "appearance.thermal.sky" && !estimate.is_known)
+  if (quantity.setting.starts_with("appearance.thermal.") && !estimate.is_known)
     return "not known: " + estimate.why + "; the project's stays";
   const std::string text = estimate_text(estimate, quantity.unit);
   return quantity.how.empty() ? text : text + ", " + quantity.how;
@@ -220,8 +222,12 @@ void keep_thermal(const Project& before, const Appearance& appearance, Project& 
   project.light = before.light;
   project.appearance.black = before.appearance.black;
   project.appearance.haze = before.appearance.haze;
-  if (!appearance.levels || !appearance.levels->sky.is_known)
-    project.appearance.thermal.sky = before.appearance.thermal.sky;
+  const ThermalSettings& stated = before.appearance.thermal;
+  ThermalSettings& thermal = project.appearance.thermal;
+  if (!appearance.levels || !appearance.levels->sky.is_known) thermal.sky = stated.sky;
+  if (!appearance.levels || !appearance.levels->halo.is_known) thermal.halo = stated.halo;
+  if (!appearance.levels || !appearance.levels->halo_px.is_known) thermal.halo_px = stated.halo_px;
+  even_out_noise(project.appearance);
   if (appearance.point_spread.sigma_px.is_known) return;
   project.appearance.psf_sigma_px = before.appearance.psf_sigma_px;
   project.appearance.sharpening = before.appearance.sharpening;
@@ -272,6 +278,7 @@ View view_at(const KnownCamera& known, int frame) {
 
 AppearanceHints hints_by(std::shared_ptr<KnownCamera> known) {
   AppearanceHints hints{.view = [known](int frame) { return view_at(*known, frame); }};
+  hints.palette = known->scene.palette;
   known->scene.light = {};  // the direction that the project states must not stand for the computed one
   if (known->scene.earth && known->scene.utc_at_frame_0_s)
     hints.to_sun_in_world = [known](int frame) {

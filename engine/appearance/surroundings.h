@@ -55,32 +55,6 @@ class Tone {
   double cells_ = 0, colored_ = 0;
 };
 
-// How bright sky and ground are in a frame, as display codes of 8 bits.
-struct SkyAndGround {
-  std::optional<double> sky;     // median; none: less than a twelfth of the frame is sky
-  std::optional<double> ground;  // what three quarters of the ground are darker than; none: less than a tenth is ground
-  double all = 0;                // median of the frame
-};
-
-// By the image alone (horizon/sky_map.h), without what an own body hides.
-[[nodiscard]] SkyAndGround sky_and_ground_of(const Frame& frame, const cv::Mat& own_body = {});
-
-// Codes of sky and ground over the frames of a thermal camera, which by themselves say how it shows what is cold and
-// warm. Not known where most frames do not show them; deviations are those among the frames, and of rounding.
-struct LevelsEstimate {
-  Estimate sky;
-  Estimate ground;
-};
-class ThermalLevels {
- public:
-  void add(const Frame& frame, const cv::Mat& own_body = {});
-  [[nodiscard]] LevelsEstimate finish() const;
-
- private:
-  std::vector<double> skies_, grounds_;
-  int frames_ = 0;
-};
-
 struct SurroundingsEstimate {
   HazeEstimate haze;
   ToneEstimate tone;

@@ -123,11 +123,13 @@ Result<FirstLook> first_look(FrameSource& footage, const Scene& scene, const std
   Levels levels;
   std::vector<double> covers;
   const bool is_round = scene.camera.lens.period_px() > 0;
+  const std::optional<HeatColors> colors = heat_colors(scene.palette);
   for (const int number : look_frames(scene)) {
     if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-    const Result<Frame> frame = footage.read(number);
+    Result<Frame> frame = footage.read(number);
     if (!frame) return fail(frame.error());
     if (frame->damaged) continue;
+    if (colors) frame = colors->heat_of(*frame).frame;
     View view{.camera = &scene.camera};
     if (scene.horizon_is_known)
       view.world_from_camera = camera_at(scene.motion, time_of_frame_s(scene.footage, number)).rotation;

@@ -131,17 +131,11 @@ constexpr double kNightWhite_cdpm2 = 5;  // f/2, 1/30 s, ISO 3200: 120 N^2 / (S 
 constexpr double kWhiteOverNight = 3;    // light of a white surface over that of what is there
 // Of 12 clips of thermal cameras (docs/thermal.md): a sharp core, and a glow of two fifths of the light.
 constexpr double kThermalSpread_px = 0.35, kThermalGlow = 0.4, kThermalGlow_px = 1.8;
-constexpr double kHaloOfWidth = 0.0375;  // sigma of the halo over the image's width: 12 px in 320
+constexpr double kHaloOfWidth = 0.1;  // sigma of the halo over the image's width: 32 px in 320
 
-// Medians over some frames; skies and differences of those in which both sky and ground are told.
-struct Brightness {
-  std::vector<double> all, skies, differences;
-
-  [[nodiscard]] bool has_both() const { return 2 * skies.size() >= all.size(); }
-};
-
-Result<Brightness> brightness_of(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel) {
-  Brightness seen;
+// Frames that stand for all: in the middles of equal parts of the scene's range. Damaged ones are left out.
+Result<void> look_through(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel,
+                          const std::function<void(const Frame&)>& look) {
   const int length = scene.last_frame - scene.first_frame + 1;
   const int count = std::min(kSpectrumFrames, length);
   for (int i = 0; i < count; ++i) {
@@ -149,13 +143,32 @@ Result<Brightness> brightness_of(FrameSource& footage, const Scene& scene, const
     const Result<Frame> frame =
         footage.read(scene.first_frame + static_cast<int>((2LL * i + 1) * length / (2LL * count)));
     if (!frame) return fail(frame.error());
-    if (frame->damaged) continue;
-    const SkyAndGround found = sky_and_ground_of(*frame);
+    if (!frame->damaged) look(*frame);
+  }
+  return {};
+}
+
+// Medians over some frames; skies and differences of those in which both sky and ground are told.
+struct Brightness {
+  std::vector<double> all, skies, differences;
+  ThermalLevels levels;  // as a thermal camera would show them
+
+  [[nodiscard]] bool has_both() const { return 2 * skies.size() >= all.size(); }
+};
+
+Result<Brightness> brightness_of(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel) {
+  Brightness seen;
+  const std::optional<HeatColors> colors = heat_colors(scene.palette);
+  const Result<void> looked = look_through(footage, scene, cancel, [&](const Frame& frame) {
+    const Frame shown = colors ? colors->heat_of(frame).frame : frame;
+    const SkyAndGround found = sky_and_ground_of(shown);
+    seen.levels.add(shown);
     seen.all.push_back(found.all);
-    if (!found.sky || !found.ground) continue;
+    if (!found.sky || !found.ground) return;
     seen.skies.push_back(*found.sky);
     seen.differences.push_back(*found.ground - *found.sky);
-  }
+  });
+  if (!looked) return fail(looked.error());
   return seen;
 }
 
@@ -170,25 +183,38 @@ FirstProjectNote set_thermal(const Brightness& seen, int width_px, Project& proj
     project.appearance.sharpening_px = kThermalGlow_px;
   }
   project.appearance.thermal.sky = std::round(median(seen.has_both() ? seen.skies : seen.all));
-  project.appearance.thermal.halo_px = std::round(kHaloOfWidth * width_px * 10) / 10;
+  const LevelsEstimate levels = seen.levels.finish();
+  const auto rounded = [](double value, double parts) { return std::round(value * parts) / parts; };
+  project.appearance.thermal.halo_px =
+      rounded(levels.halo_px.is_known ? levels.halo_px.value : kHaloOfWidth * width_px, 10);
+  even_out_noise(project.appearance);
+  if (levels.halo.is_known) project.appearance.thermal.halo = rounded(levels.halo.value, 100);
   FirstProjectNote note{.field = "footage.spectrum", .is_guess = true};
   note.text = fmt::format(
-      "thermal: the footage is gray and {}; its sky has code {:.0f}; how warm the intruder is "
-      "(intruders[].heat) and the camera's halo (appearance.thermal.halo) are guesses",
-      seen.has_both() ? "its ground is brighter than its sky" : "as small as that of thermal cameras",
-      project.appearance.thermal.sky);
+      "thermal: the footage {}; its sky has code {:.0f}; {}; how warm the intruder is (intruders[].heat) is a guess",
+      project.footage.palette != HeatPalette::gray ? "has the colours of a palette"
+      : seen.has_both()                            ? "is gray and its ground is brighter than its sky"
+                                                   : "is gray and as small as that of thermal cameras",
+      project.appearance.thermal.sky,
+      levels.halo_px.is_known
+          ? fmt::format(
+                "by the dark sky above its ground the camera's halo is {:.0f} px wide (appearance.thermal.halo)",
+                project.appearance.thermal.halo_px)
+          : "the camera's halo (appearance.thermal.halo) is that of other clips");
   note.remedy = "set footage.spectrum to visible if it is footage by light";
   return note;
 }
 
 FirstProjectNote set_night(double code, const Scene& scene, Project& project) {
   const double light = kWhiteOverNight * linear_of_display(static_cast<float>(code / 255));
-  project.light = {.color = glm::dvec3(light), .ambient = 1, .white_cdpm2 = kNightWhite_cdpm2};
+  const std::optional<double>& logged = scene.motion.logged_white_cdpm2;
+  const double white_cdpm2 = logged ? std::clamp(std::round(1000 * *logged) / 1000, 1e-3, 1e9) : kNightWhite_cdpm2;
+  project.light = {.color = glm::dvec3(light), .ambient = 1, .white_cdpm2 = white_cdpm2};
   FirstProjectNote note{.field = "light.white_cdpm2", .is_guess = true};
   note.text = fmt::format(
-      "{} cd/m2 are white: by night, as the footage is as dark as code {:.0f}; the intruder is as "
+      "{} cd/m2 are white{}: by night, as the footage is as dark as code {:.0f}; the intruder is as "
       "dark and shows its lights (intruders[].lights)",
-      kNightWhite_cdpm2, code);
+      short_number_text(white_cdpm2), logged ? ", by the log's aperture, exposure and sensitivity" : "", code);
   if (scene.motion.exposures.empty()) {
     project.camera.exposure_s = std::round(1000 * std::min(kNightExposure_s, scene.footage.frame_interval_s)) / 1000;
     note.text += fmt::format("; the shutter is taken to be open for {} s", *project.camera.exposure_s);
@@ -199,6 +225,24 @@ FirstProjectNote set_night(double code, const Scene& scene, Project& project) {
 
 }  // namespace
 
+Result<std::optional<FirstProjectNote>> set_palette(FrameSource& footage, const Scene& scene, Project& project,
+                                                    const std::atomic<bool>* cancel) {
+  PaletteSearch search;
+  const Result<void> looked = look_through(footage, scene, cancel, [&](const Frame& frame) { search.add(frame); });
+  if (!looked) return fail(looked.error());
+  const std::optional<PaletteSearch::Found> found = search.found();
+  if (!found) return std::nullopt;
+  project.footage.spectrum = Spectrum::thermal;
+  project.footage.palette = found->palette;
+  return FirstProjectNote{
+      .field = "footage.palette",
+      .text = fmt::format("{}: the footage's colours are off by {:.0f} codes in the mean from those of this palette of "
+                          "thermal cameras",
+                          kHeatPaletteNames[static_cast<std::size_t>(found->palette)], found->off_codes),
+      .is_guess = true,
+      .remedy = "set footage.palette, or footage.spectrum to visible if it is footage by light"};
+}
+
 Result<std::optional<FirstProjectNote>> set_dark_or_thermal(FrameSource& footage, const Scene& scene, Project& project,
                                                             const std::atomic<bool>* cancel) {
   const Result<Brightness> seen = brightness_of(footage, scene, cancel);
@@ -207,7 +251,8 @@ Result<std::optional<FirstProjectNote>> set_dark_or_thermal(FrameSource& footage
   const cv::Size& size_px = scene.footage.size_px;
   const bool is_small = size_px.width <= kThermalWidth_px && size_px.height <= kThermalHeight_px;
   const bool is_warm = seen->has_both() ? median(seen->differences) >= kWarmGround_codes : is_small;
-  if (project.appearance.saturation == 0 && is_warm) return set_thermal(*seen, size_px.width, project);
+  if (scene.palette != HeatPalette::gray || (project.appearance.saturation == 0 && is_warm))
+    return set_thermal(*seen, size_px.width, project);
   const double code = median(seen->all);
   return code < kNight_code ? std::optional(set_night(code, scene, project)) : std::nullopt;
 }

@@ -193,6 +193,11 @@ class Planning {
 
   Result<void> look(FrameSource& source) {
     step(kLookStep_percent, "looking at the footage");
+    if (!options_.plain) {
+      const Result<std::optional<FirstProjectNote>> palette = set_palette(source, scene(), project(), control_.cancel);
+      if (!palette) return fail(palette.error());
+      if (*palette) note(**palette);
+    }
     Result<FirstLook> look = first_look(source, scene(), control_.cancel);
     if (!look) return fail(look.error());
     Result<FirstMotion> motion = seen_motion(source, *look);

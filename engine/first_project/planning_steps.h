@@ -66,6 +66,12 @@ struct MatchControl {
 [[nodiscard]] Result<std::vector<FirstProjectNote>> match_appearance(FrameSource& footage, const Scene& scene,
                                                                      Project& project, const MatchControl& control);
 
+// Makes the project thermal where the footage has the colours of a thermal camera's palette (video/heat_palette.h).
+// None: it has not.
+// Errors: those of FrameSource::read(), interrupted.
+[[nodiscard]] Result<std::optional<FirstProjectNote>> set_palette(FrameSource& footage, const Scene& scene,
+                                                                  Project& project, const std::atomic<bool>* cancel);
+
 // Makes the project thermal or one of the night, where the footage looks so: a guess, which the note says. None:
 // neither. Thermal: it is gray, and its ground is brighter than its sky, as things that are warm are, or there is no
 // ground and the image is as small as most thermal ones. Then the sky's code value is by the footage, the halo's width

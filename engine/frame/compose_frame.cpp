@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "frame/compose_frame.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <opencv2/core.hpp>
@@ -18,6 +21,7 @@
 #include "frame/cloud_cover.h"
 #include "frame/composite.h"
 #include "frame/contrail.h"
+#include "frame/frame_truth.h"
 #include "frame/ground_shadow.h"
 #include "frame/panorama.h"
 #include "frame/render_plan.h"
@@ -31,36 +35,6 @@
 
 namespace sigs {
 namespace {
-
-// Luma of the footage where an intruder will be blended onto it, and around. Empty where it will not be.
-struct FootageLuma {
-  cv::Rect rect;
-  cv::Mat luma;  // CV_8UC1 over rect, of its own
-};
-
-// Of a grey with this luma. RGB's luma has full range, as its map has.
-LuminanceOfCode luminance_of_code(const Frame& frame) {
-  const CodeToRgb map = code_to_rgb(frame.layout, frame.color);
-  const TransferCurve curve = transfer_curve_of(frame.color);
-  LuminanceOfCode luminance{};
-  for (std::size_t code = 0; code < luminance.size(); ++code)
-    luminance[code] =
-        std::max(curve.linear_of_display(map.to_rgb(0, 0) * (static_cast<float>(code) - map.offset[0])), 0.0F);
-  return luminance;
-}
-
-// Of each intruder. To be called before they are blended, since that rewrites the footage in place.
-std::vector<FootageLuma> footage_luma_of(const Frame& footage, const std::vector<IntruderLayers>& far_to_near) {
-  std::vector<FootageLuma> all(far_to_near.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    cv::Rect own = far_to_near[i].occluded.empty() ? cv::Rect() : far_to_near[i].occluded.rect;
-    for (const LampLayer& lamp : far_to_near[i].lamps) own |= lamp.layer.rect;
-    if (own.empty()) continue;
-    const cv::Rect rect = background_rect(own, footage.size_px());
-    all[i] = {rect, luma_of_part(footage, rect).clone()};
-  }
-  return all;
-}
 
 // The classic method blurs whole images of its own. Of a single intruder's layer it needs the coverage alone, which
 // blur does not change; with several, the blurred opacity determines what a nearer one occludes of a farther one.
@@ -106,7 +80,7 @@ Layer without_hidden(const Scene& scene, const SceneMoment& moment, const Layer&
   return occluded_by(free, occluder_seen_from(moment.world_from_camera, scene.occluder, lens, free.rect));
 }
 
-// Error: thermal footage in colours. What a palette stands for is not known.
+// Error: thermal footage in colours, and no palette is stated.
 Result<void> check_spectrum(const Scene& scene, const Frame& background) {
   constexpr double kGray_codes = 6;  // of 8 bits, from gray in the mean: more than what compression leaves
   if (!scene.is_thermal || background.plane_count() == 1) return {};
@@ -122,8 +96,9 @@ Result<void> check_spectrum(const Scene& scene, const Frame& background) {
   }
   if (off <= kGray_codes) return {};
   return fail("footage.spectrum",
-              "thermal, but the footage is in colours: heat can be drawn in gray footage alone; record it white-hot or "
-              "black-hot, or convert it by its palette",
+              fmt::format("thermal, but the footage is in colours: set footage.palette to the camera's palette ({}), where "
+                          "it is one of these; else record it white-hot or black-hot",
+                          fmt::join(kHeatPaletteNames.begin() + 1, kHeatPaletteNames.end(), ", ")),
               ErrorKind::bad_project);
 }
 
@@ -189,129 +164,11 @@ void blur(const Scene& scene, const Lens& lens, const ColorInfo& footage, int bi
   if (layers.sigma_px > 0) layers.op_counts.pixels_blurred += layers.blurred.rect.area();
 }
 
-// Unit vector away from the ground.
-glm::dvec3 up_in_camera(const SceneMoment& moment) {
-  return glm::conjugate(moment.world_from_camera.rotation) * glm::dvec3(0, 0, -1);
-}
-
-// What measuring needs of the intruders.
-std::vector<MeasuredLayers> measured_layers(const Scene& scene, const std::vector<IntruderLayers>& far_to_near) {
-  std::vector<MeasuredLayers> all;
-  for (const IntruderLayers& layers : far_to_near) {
-    const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(layers.placed.id)];
-    all.push_back({.id = layers.placed.id,
-                   .name = intruder.name,
-                   .camera_from_body = layers.placed.camera_from_body,
-                   .world_from_body = layers.placed.world_from_body,
-                   .silhouette = layers.body ? layers.body : layers.silhouette,
-                   .outermost_m = intruder.model->outermost_m,
-                   .whole_area_px = layers.whole_area_px,
-                   .inside = clipped(layers.warped, layers.window),
-                   .max_coverage = max_coverage(layers.warped.coverage),
-                   .occluded = layers.occluded});
-  }
-  return all;
-}
-
-// Where the body changes nothing, what is visible are the pixels that its lights change.
-void see_lights(const ComposedFrame& composed, const IntruderLayers& layers, const FootageLuma& behind,
-                IntruderTruth& truth) {
-  constexpr double kLeast_codes = 1;  // in the mean: a body that changes less is not seen
-  constexpr int kSeen_codes = 2;      // of a pixel that lights change, beyond rounding
-  if (layers.lamps.empty() || behind.luma.empty()) return;
-  const auto change = composed.body_changes.find(truth.id);
-  if (change != composed.body_changes.end() && change->second >= kLeast_codes) return;
-  cv::Mat lit = cv::Mat::zeros(behind.rect.size(), CV_8UC1);
-  for (const LampLayer& lamp : layers.lamps) {
-    cv::Mat opacity;
-    cv::extractChannel(lamp.layer.color, opacity, 3);
-    const cv::Mat part = lit(lamp.layer.rect - behind.rect.tl());
-    cv::bitwise_or(part, opacity > 0, part);
-  }
-  cv::Mat changed;
-  cv::absdiff(luma_of_part(composed.image, behind.rect), behind.luma, changed);
-  lit &= changed >= kSeen_codes;
-  const cv::Rect box = cv::boundingRect(lit);
-  if (box.empty()) return;
-  truth.lights_alone = true;
-  truth.visible_box = box + behind.rect.tl();
-  truth.visible = lit(box).clone();
-  truth.visible_pixels = cv::countNonZero(truth.visible);
-  if (truth.visible_fraction == 0) truth.visible_fraction = truth.inside_fraction;  // too dark, not hidden
-}
-
-// How well an intruder that can be seen stands out in the image.
-std::optional<Detectability> detectability_in(const Frame& image, const IntruderTruth& truth, const FootageLuma& behind,
-                                              const Scene& scene) {
-  if (behind.luma.empty() || !truth.visible_box) return std::nullopt;
-  const cv::Rect rect = background_rect(*truth.visible_box, image.size_px()) & behind.rect;
-  return detectability(truth, luma_of_part(image, *truth.visible_box), behind.luma(rect - behind.rect.tl()), rect,
-                       scene.own_body, luminance_of_code(image));
-}
-
 // What they hide, over the whole image.
 Stage clouds_stage(const CloudMap& clouds, const Scene& scene) {
   Stage stage{.name = "clouds", .image = {}};
   clouds.part({{0, 0}, scene.footage.size_px}).opacity.convertTo(stage.image, CV_8U, 255);
   return stage;
-}
-
-// The truth of every intruder, by id: what is measured in the composed image, and what the scene says.
-std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment& moment, const ComposedFrame& composed,
-                                           const std::vector<IntruderLayers>& far_to_near,
-                                           const std::vector<FootageLuma>& footage_luma) {
-  const std::vector<MeasuredLayers> all = measured_layers(scene, far_to_near);
-  const auto up = scene.horizon_is_known ? std::optional(up_in_camera(moment)) : std::nullopt;
-  const bool has_haze = scene.compositing.method == MethodChoice::direct;
-  std::vector<IntruderTruth> truths;
-  std::vector<IntruderTruth> parts;  // of one intruder
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    IntruderTruth truth = measured(all[i], std::span(all).subspan(i + 1), composed.mask, up);
-    see_lights(composed, far_to_near[i], footage_luma[i], truth);
-    truth.detectability = detectability_in(composed.image, truth, footage_luma[i], scene);
-    truth.image_formation = {.blur_px = far_to_near[i].sigma_px,
-                             .motion_blur_px = far_to_near[i].motion_px,
-                             .visibility_m = has_haze ? scene.appearance.haze.visibility_m : std::nullopt};
-    if (scene.earth) truth.place = scene.earth->place_of(moment.world_from_camera * truth.position_m);
-    truth.lights = far_to_near[i].lamp_truths;
-    truth.clouds = far_to_near[i].clouds;
-    truth.has_contrail = !far_to_near[i].contrail.empty();
-    truth.has_shadow = !far_to_near[i].shadow.empty();
-    truth.is_distractor = scene.intruders[static_cast<std::size_t>(truth.id)].is_distractor;
-    parts.push_back(std::move(truth));
-    if (i + 1 < all.size() && all[i + 1].id == all[i].id) continue;
-    truths.push_back(joined(parts));
-    parts.clear();
-  }
-  std::ranges::sort(truths, {}, &IntruderTruth::id);
-  return truths;
-}
-
-// Boxes of aircraft that the footage itself shows in a frame, as whole pixels of the image.
-std::vector<cv::Rect> real_aircraft_in(const Scene& scene, int frame) {
-  std::vector<cv::Rect> boxes;
-  const auto there = scene.real_aircraft.find(frame);
-  if (there == scene.real_aircraft.end()) return boxes;
-  for (const Box& box : there->second)
-    if (const cv::Rect pixels = pixels_touched(box, 0, {{0, 0}, scene.footage.size_px}); !pixels.empty())
-      boxes.push_back(pixels);
-  return boxes;
-}
-
-FrameTruth truth_of(const Scene& scene, const SceneMoment& moment, int frame, const ComposedFrame& composed,
-                    std::vector<IntruderTruth> intruders) {
-  const glm::dvec3& position_m = moment.world_from_camera.translation_m;
-  return {.index = frame,
-          .time_s = moment.time_s,
-          .substituted = composed.image.damaged,
-          .camera_position_m = position_m,
-          .world_from_camera = moment.world_from_camera.rotation,
-          .camera = {.position_source = scene.motion.source.position,
-                     .attitude_source = scene.motion.source.attitude,
-                     .attitude_sd_rad = attitude_sd_at(scene.motion.deviations, moment.time_s),
-                     .place = scene.earth ? std::optional(scene.earth->place_of(position_m)) : std::nullopt},
-          .intruders = std::move(intruders),
-          .real_aircraft = real_aircraft_in(scene, frame)};
 }
 
 }  // namespace
@@ -346,11 +203,12 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
   return layers;
 }
 
-Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background, ComposeContext& context,
+namespace {
+
+// Of a frame that is light, or heat in gray.
+Result<ComposedFrame> composed_onto(Frame&& background, const Scene& scene, int frame, ComposeContext& context,
                                     Stages stages) {
-  ENSURE(background.size_px() == scene.footage.size_px);
   const Stopwatch watch;
-  if (const Result<void> gray = check_spectrum(scene, background); !gray) return fail(gray.error());
   const SceneMoment moment = scene_at(scene, frame);
   std::vector<IntruderLayers> far_to_near;
   for (const PlacedIntruder& placed : moment.intruders) {
@@ -365,14 +223,44 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   ComposedFrame composed = composited(std::move(background), scene, frame, far_to_near, context, stages);
   if (clouds && stages == Stages::keep)
     composed.stages.insert(composed.stages.begin() + 1, clouds_stage(*clouds, scene));
-  composed.truth =
-      truth_of(scene, moment, frame, composed, intruder_truths(scene, moment, composed, far_to_near, footage_luma));
+  composed.truth = frame_truth(scene, moment, frame, composed, far_to_near, footage_luma);
   for (const IntruderLayers& layers : far_to_near) {
     composed.op_counts += layers.op_counts;
     composed.times.draw_s += layers.draw_s;
   }
   composed.times.composite_s = watch.elapsed_s() - composed.times.draw_s;
   return composed;
+}
+
+// Heat in colours: the heat that they stand for is composed, and what it changes gets its colours.
+Result<ComposedFrame> composed_in_colors(Frame&& background, const Scene& scene, int frame, ComposeContext& context,
+                                         Stages stages) {
+  const HeatColors& colors = context.colors_of(scene.palette);
+  HeatColors::Heat heat = colors.heat_of(background);
+  if (heat.off_codes > kMaxOffPalette_codes)
+    return fail("footage.palette",
+                fmt::format("the footage's colours are not those of {}: in frame {} they are off by {:.0f} codes in the "
+                            "mean; set it to the camera's palette, or record white-hot or black-hot",
+                            kHeatPaletteNames[static_cast<std::size_t>(scene.palette)], frame, heat.off_codes),
+                ErrorKind::bad_project);
+  const cv::Mat before = heat.frame.planes[0].clone();
+  Result<ComposedFrame> composed = composed_onto(std::move(heat.frame), scene, frame, context, stages);
+  if (!composed) return composed;
+  const cv::Mat after = composed->image.planes[0];
+  composed->image = std::move(background);
+  if (!composed->mask.empty()) colors.show(before, after, composed->image);
+  return composed;
+}
+
+}  // namespace
+
+Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background, ComposeContext& context,
+                                    Stages stages) {
+  ENSURE(background.size_px() == scene.footage.size_px);
+  if (scene.palette != HeatPalette::gray)
+    return composed_in_colors(std::move(background), scene, frame, context, stages);
+  if (const Result<void> gray = check_spectrum(scene, background); !gray) return fail(gray.error());
+  return composed_onto(std::move(background), scene, frame, context, stages);
 }
 
 Result<std::optional<FrameTruth>> truth_without_image(const Scene& scene, int frame, ComposeContext& context) {
@@ -386,10 +274,8 @@ Result<std::optional<FrameTruth>> truth_without_image(const Scene& scene, int fr
     if (draws) return std::optional<FrameTruth>();
     far_to_near.push_back(std::move(*layers));
   }
-  const ComposedFrame nothing;
   return std::optional(
-      truth_of(scene, moment, frame, nothing,
-               intruder_truths(scene, moment, nothing, far_to_near, std::vector<FootageLuma>(far_to_near.size()))));
+      frame_truth(scene, moment, frame, {}, far_to_near, std::vector<FootageLuma>(far_to_near.size())));
 }
 
 Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background, ComposeContext& context,

@@ -35,6 +35,11 @@ LensTable& ComposeContext::lens_of(const Camera& camera) {
   return *lens_;
 }
 
+const HeatColors& ComposeContext::colors_of(HeatPalette palette) {
+  if (!colors_ || colors_->palette() != palette) colors_.emplace(palette);
+  return *colors_;
+}
+
 void ComposeContext::forget(const Mesh& mesh) {
   if (renderer_) renderer_->forget(mesh);
 }

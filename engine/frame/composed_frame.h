@@ -14,6 +14,7 @@
 #include "render/renderer.h"
 #include "truth/annotation.h"
 #include "video/frame.h"
+#include "video/heat_palette.h"
 
 namespace sigs {
 
@@ -109,6 +110,9 @@ class ComposeContext {
   // The rays of the camera's pixels, as far as they have been asked for. Valid until a call with another camera.
   [[nodiscard]] LensTable& lens_of(const Camera& camera);
 
+  // The colours of a palette, which is not gray. Valid until a call with another one.
+  [[nodiscard]] const HeatColors& colors_of(HeatPalette palette);
+
   // Buffers of the classic method's images, kept from one frame to the next so that they are allocated once.
   [[nodiscard]] ClassicStages& classic_buffers() { return classic_buffers_; }
 
@@ -125,6 +129,7 @@ class ComposeContext {
   std::optional<Camera> camera_of_maps_;
   ClassicStages classic_buffers_;
   std::optional<LensTable> lens_;
+  std::optional<HeatColors> colors_;
 };
 
 }  // namespace sigs

@@ -8,6 +8,7 @@
 
 #include "base/pose.h"
 #include "project/look_settings.h"
+#include "video/heat_palette.h"
 
 namespace sigs {
 
@@ -53,6 +54,7 @@ struct FootageSettings {
   double cloud_depth_m = 200;  // from there, over which they become as thick as they look
   std::string real_aircraft;   // file with the boxes of aircraft that the footage itself shows; empty: none
   Spectrum spectrum = Spectrum::visible;
+  HeatPalette palette = HeatPalette::gray;  // of thermal footage
   LensModelChoice lens_model = LensModelChoice::automatic;
   double max_substituted_percent = 1;  // of the exported frames; more damaged ones are an error
 

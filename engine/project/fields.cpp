@@ -36,6 +36,8 @@ void add_footage(FieldList list, FootageSettings& footage) {
             "the camera's calibration file; of equirectangular footage none is needed");
   list.add("spectrum", choice_of(footage.spectrum, {"visible", "thermal"}), "",
            "thermal: the camera sees heat; light has no effect, appearance.thermal and intruders[].heat have");
+  list.add("palette", choice_of(footage.palette, {kHeatPaletteNames.begin(), kHeatPaletteNames.end()}), "",
+           "of thermal footage: the colours in which it shows heat; gray: white-hot or black-hot");
   list.add("lens_model", choice_of(footage.lens_model, {"auto", "brown_conrady", "fisheye", "equirectangular"}), "",
            "lens model of the calibration's numbers; auto: as the file says, else as they look; equirectangular: 360 "
            "degree footage");

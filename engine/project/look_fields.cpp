@@ -69,7 +69,7 @@ void add_appearance(FieldList list, AppearanceSettings& appearance) {
   list.add("thermal.hot", choice_of(thermal.hot, {"white", "black"}), "", "thermal: how what is warm is shown");
   list.number("thermal.halo", &thermal.halo, "", 0, 5,
               "thermal: how much the camera takes away of the mean around each place; 0: no halo");
-  list.number("thermal.halo_px", &thermal.halo_px, "px", 0.2, 100, "thermal: sigma of the blur that this mean is of");
+  list.number("thermal.halo_px", &thermal.halo_px, "px", 0.2, 1000, "thermal: sigma of the blur that this mean is of");
   list.add("codec.match", choice_of(appearance.codec.match, {"none", "footage", "h264", "mjpeg"}), "",
            "codec that the image around the intruder goes through once; footage: its own");
   list.number("codec.quantiser", &appearance.codec.quantiser, "", 0, 100,

@@ -91,8 +91,8 @@ enum class HotChoice { white, black };
 struct ThermalSettings {
   double sky = 96;  // 8-bit code value of the clear sky
   HotChoice hot = HotChoice::white;
-  double halo = 0.1;    // how much of the surroundings' mean is taken away, 0..5
-  double halo_px = 12;  // sigma of the Gaussian that this mean is taken by
+  double halo = 0.9;    // how much of the surroundings' mean is taken away, 0..5
+  double halo_px = 32;  // sigma of the Gaussian that this mean is taken by
 
   [[nodiscard]] bool operator==(const ThermalSettings&) const = default;
 };

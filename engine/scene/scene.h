@@ -107,6 +107,7 @@ struct CameraMotion {
   std::vector<AttitudeDeviation> deviations = {};   // by rising time; empty: not known
   double readout_s = 0;                             // of the rolling shutter, first to last row; 0: all rows at once
   std::vector<ExposureTime> exposures = {};         // by rising time; empty: not known, taken as 0
+  std::optional<double> logged_white_cdpm2 = {};    // Track::white_cdpm2 amid the project's frames
   PoseSource source = {};
   std::optional<Pose<frame::Body, frame::Camera>> mount = {};  // on what all of this describes; none: it is the camera
   glm::bvec3 moves_with_start{true, true, true};  // whether camera.position_m moves the path along world X, Y, Z: not
@@ -158,6 +159,7 @@ struct Scene {
   int last_frame = 0;                           // included
   std::optional<Timeline> timeline = {};        // of the first camera of a rig; none: that of the footage itself
   bool is_thermal = false;                      // Spectrum::thermal: models and light are as heat.h has them
+  HeatPalette palette = HeatPalette::gray;      // the colours in which a thermal camera shows heat
   bool horizon_is_known = false;                // the project, or the camera's log, states the camera's attitude
   std::optional<LocalFrame> earth = {};         // where the world lies on the Earth, if that is known
   std::optional<double> utc_at_frame_0_s = {};  // seconds since 1970 without leap seconds, if the camera's log knows

@@ -144,8 +144,9 @@ SceneLight light_of(const LightSettings& light) {
 
 // A scene that a thermal camera sees: surfaces send out what their materials say, from every side alike (heat.h), and
 // code values mix, as they stand for heat.
-void see_heat(Scene& scene) {
+void see_heat(HeatPalette palette, Scene& scene) {
   scene.is_thermal = true;
+  scene.palette = palette;
   scene.light = {.kind = LightKind::point, .ambient = 1};
   scene.compositing.blend = BlendChoice::heat;
 }
@@ -161,7 +162,7 @@ Scene bare_scene(const Project& project, const FootageShape& footage) {
               .appearance = project.appearance,
               .footage = footage,
               .horizon_is_known = knows_horizon(project.camera)};
-  if (project.footage.spectrum == Spectrum::thermal) see_heat(scene);
+  if (project.footage.spectrum == Spectrum::thermal) see_heat(project.footage.palette, scene);
   if (const std::optional<double> distance_m = project.footage.cloud_distance_m)
     scene.clouds = Clouds{.distance_m = *distance_m, .depth_m = project.footage.cloud_depth_m};
   return scene;

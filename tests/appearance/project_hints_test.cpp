@@ -138,9 +138,20 @@ TEST_CASE("to a thermal project the footage's light and haze mean nothing, and a
   project.appearance.thermal.sky = 70;
   apply(found, project);
   CHECK(project.appearance.thermal.sky == 70);
-  found.levels = LevelsEstimate{.sky = {.value = 96, .why = "most frames show no sky"}, .ground = {}};
+  found.levels = LevelsEstimate{.sky = {.value = 96, .why = "most frames show no sky"},
+                                .ground = {},
+                                .halo = {.value = 0.9, .why = "no warm skyline"},
+                                .halo_px = {.value = 25, .sd = 3, .is_known = true}};
+  project.appearance.thermal.halo = 0.3;
+  found.noise.sd_dark = {.value = 1, .sd = 0.1, .is_known = true};
+  found.noise.sd_bright = {.value = 6, .sd = 1, .is_known = true};
   apply(found, project);
+  // The variance at the sky's code, 1 + 70 / 255 * 35, at both ends.
+  CHECK(project.appearance.grain.sd_dark == doctest::Approx(std::sqrt(1 + 70 / 255.0 * 35)).epsilon(1e-3));
+  CHECK(project.appearance.grain.sd_bright == project.appearance.grain.sd_dark);
   CHECK(project.appearance.thermal.sky == 70);
+  CHECK(project.appearance.thermal.halo == 0.3);
+  CHECK(project.appearance.thermal.halo_px == 25);
   found.levels->sky = {.value = 51, .sd = 1, .is_known = true};
   apply(found, project);
   CHECK(project.appearance.thermal.sky == 51);

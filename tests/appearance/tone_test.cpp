@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <numeric>
+#include <opencv2/imgproc.hpp>
 
+#include "appearance/thermal_look.h"
 #include "made_scene.h"
 
 using namespace sigs;
@@ -155,6 +157,44 @@ TEST_CASE("codes of sky and ground of a thermal camera are found, without what a
   }
 }
 
+TEST_CASE("the halo of a thermal camera is found by how the sky darkens above warm ground") {
+  struct Camera {
+    double halo, halo_px;
+    int scale;
+  };
+  for (const Camera& camera : {Camera{0.9, 30, 1}, Camera{0.6, 22, 1}, Camera{1, 40, 1}, Camera{0.8, 64, 2}}) {
+    CAPTURE(camera.halo);
+    CAPTURE(camera.halo_px);
+    ThermalLevels levels;
+    for (int i = 0; i < 6; ++i) {
+      const cv::Size size(320 * camera.scale, 256 * camera.scale);
+      cv::Mat heat(size, CV_32F, cv::Scalar(0)), mean;
+      for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+          const double skyline = camera.scale * (170 + i + 4 * std::sin(0.05 * x / camera.scale));
+          if (y > skyline) heat.at<float>(y, x) = static_cast<float>(210 + 12 * std::sin(0.6 * x) * std::cos(0.7 * y));
+        }
+      cv::GaussianBlur(heat, mean, {}, camera.halo_px, camera.halo_px, cv::BORDER_REPLICATE);
+      cv::Mat shown = 100 + heat - camera.halo * mean, noise(size, CV_32F), codes;
+      cv::RNG(static_cast<std::uint64_t>(i) + 1).fill(noise, cv::RNG::NORMAL, 0, 2);
+      shown += noise;
+      shown.convertTo(codes, CV_8U);
+      levels.add(gray_frame(codes));
+    }
+    const LevelsEstimate found = levels.finish();
+    REQUIRE(found.halo_px.is_known);
+    CHECK(found.halo_px.value == doctest::Approx(camera.halo_px).epsilon(0.15));
+    REQUIRE(found.halo.is_known);
+    CHECK(found.halo.value == doctest::Approx(camera.halo).epsilon(0.1));
+    CHECK(found.halo.sd >= 0.1 * found.halo.value);
+  }
+  // A camera without one: its sky is even.
+  ThermalLevels none;
+  for (int i = 0; i < 6; ++i) none.add(gray_frame(thermal(90, 150, i)));
+  CHECK_FALSE(none.finish().halo.is_known);
+  CHECK_FALSE(none.finish().halo_px.is_known);
+}
+
 TEST_CASE("levels that frames do not show are not known, and none of their numbers is a NaN") {
   ThermalLevels ground_alone;
   cv::Mat textured(256, 320, CV_8UC1);
@@ -172,7 +212,7 @@ TEST_CASE("levels that frames do not show are not known, and none of their numbe
   CHECK_FALSE(of_sky.ground.is_known);
   CHECK_FALSE(of_none.sky.is_known);
   for (const LevelsEstimate& levels : {of_ground, of_sky, of_none})
-    for (const Estimate& estimate : {levels.sky, levels.ground}) {
+    for (const Estimate& estimate : {levels.sky, levels.ground, levels.halo, levels.halo_px}) {
       CHECK(std::isfinite(estimate.value));
       CHECK(std::isfinite(estimate.sd));
       CHECK(estimate.is_known == estimate.why.empty());

@@ -45,7 +45,7 @@ TEST_CASE(
   const FirstProject warm = made_of("warm", {800, 600}, 70, 180);
   CHECK(warm.project.footage.spectrum == Spectrum::thermal);
   CHECK(warm.project.appearance.thermal.sky == doctest::Approx(70).epsilon(0.02));
-  CHECK(warm.project.appearance.thermal.halo_px == doctest::Approx(30));  // 12 px in 320
+  CHECK(warm.project.appearance.thermal.halo_px == doctest::Approx(80));  // 32 px in 320: its sky has no halo
   CHECK(warm.project.appearance.sharpening < 0);                          // a glow
   CHECK(note_on(warm, "footage.spectrum").is_guess);
   CHECK(std::none_of(warm.notes.begin(), warm.notes.end(),
@@ -63,6 +63,20 @@ TEST_CASE(
   CHECK(night.project.camera.exposure_s == doctest::Approx(0.033));  // 25 frames a second leave room for it
   CHECK(night.project.light.color.x < 0.05);                         // as dark as the footage
   CHECK(night.project.intruders.front().lights == usual_lights("airplane"));
+
+  // A log beside the footage with aperture, exposure and sensitivity; 6 m/s to the north.
+  std::string log;
+  for (int n = 0; n < 4; ++n)
+    log += fmt::format(
+        "{}\n00:00:00,{:02}0 --> 00:00:00,{:02}0\n2024-01-01 22:00:00,{:02}0\n[iso : 1600] [shutter : 1/50.0] "
+        "[fnum : 280] [latitude: {:.7f}] [longitude: 18.2] [abs_alt: 105.1]\n\n",
+        n + 1, 4 * n, 4 * n + 4, 4 * n, 59.1 + 2.2e-6 * n);
+  test::write_file(folder / "night.srt", log);
+  const FirstProject logged =
+      made_and_opened({.video = folder / "night", .timing = {.frame_rate_hz = 25}, .out = folder / "logged.json"});
+  CHECK(logged.project.light.white_cdpm2 == doctest::Approx(120 * 2.8 * 2.8 / (1600 / 50.0)).epsilon(1e-4));
+  CHECK(note_on(logged, "light.white_cdpm2").text.find("by the log") != std::string::npos);
+  CHECK(!logged.project.camera.exposure_s);  // as the log says
 }
 
 }  // namespace sigs

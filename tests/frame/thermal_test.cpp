@@ -67,6 +67,63 @@ TEST_CASE("thermal footage in colours is refused with a reason, gray footage wit
   }
 }
 
+TEST_CASE("heat in colours is what colours of the heat are: composing and colouring may be exchanged") {
+  Scenario scenario(kHeatImage);
+  add_block(scenario);
+  scenario.project.intruders[0].heat.skin = 120;
+  scenario.project.appearance.psf_sigma_px = 1.2;
+  scenario.project.appearance.thermal.halo = 0.4;
+  // From cold to warm from left to right.
+  Frame gray = full_range(even_frame(kHeatImage, kSkyCode, PixelLayout::gray));
+  for (int x = 0; x < kHeatImage.width; ++x) gray.planes[0].col(x).setTo(60 + x / 4);
+  const ComposedFrame in_gray = composed(scenario.opened(), 1, gray);
+  const auto colored = [&](const Frame& heat, PixelLayout layout) {  // OpenCV's own map
+    cv::Mat bgr;
+    cv::applyColorMap(heat.planes[0], bgr, cv::COLORMAP_INFERNO);
+    return frame_of_bgr(bgr, layout, gray.color);
+  };
+  scenario.project.footage.palette = HeatPalette::inferno;
+  const ComposedFrame exact = composed(scenario.opened(), 1, colored(gray, PixelLayout::rgb));
+  CHECK(same_planes(exact.image, colored(in_gray.image, PixelLayout::rgb)));
+  CHECK(cv::norm(exact.mask, in_gray.mask, cv::NORM_INF) == 0);
+  CHECK(exact.truth.intruders[0].visible_box == in_gray.truth.intruders[0].visible_box);
+
+  // With halved chroma colours are known less well: by some codes in the mean.
+  const Frame background = colored(gray, PixelLayout::yuv420);
+  const ComposedFrame shared = composed(scenario.opened(), 1, background);
+  cv::Mat off;
+  cv::absdiff(bgr_of(shared.image), bgr_of(colored(in_gray.image, PixelLayout::yuv420)), off);
+  CHECK(cv::mean(off(cv::Rect(130, 90, 60, 60)))[0] < 2);
+  cv::Mat changed;
+  cv::compare(shared.image.planes[0], background.planes[0], changed, cv::CMP_NE);
+  CHECK(cv::countNonZero(changed & (shared.mask == 0)) == 0);
+
+  // Of 10 bits the colours are the same.
+  const Frame deep = with_bit_depth(background, 10);
+  const ComposedFrame ten = composed(scenario.opened(), 1, deep);
+  CHECK(ten.image.bit_depth == 10);
+  cv::absdiff(bgr_of(ten.image), bgr_of(shared.image), off);
+  CHECK(cv::norm(off, cv::NORM_INF) <= 4);
+
+  // Where nothing is drawn, each sample keeps its bits.
+  scenario.project.intruders[0].trajectory.waypoints[0].position_m.y = 5000;
+  CHECK(same_planes(composed(scenario.opened(), 1, background).image, background));
+}
+
+TEST_CASE("colours that are not those of the palette are refused, with how far they are off") {
+  Scenario scenario(kHeatImage);
+  add_block(scenario);
+  scenario.project.footage.palette = HeatPalette::iron;
+  const Scene scene = scenario.opened();
+  ComposeContext context;
+  cv::Mat green(kHeatImage, CV_8UC3, cv::Scalar(40, 200, 60));
+  const Result<ComposedFrame> done = compose_frame(
+      scene, 1, frame_of_bgr(green, PixelLayout::yuv420, even_frame(kHeatImage, 0, PixelLayout::gray).color), context);
+  REQUIRE_FALSE(done);
+  CHECK(done.error().where == "footage.palette");
+  CHECK(done.error().what.find("not those of iron") != std::string::npos);
+}
+
 TEST_CASE("half of a pixel that a body covers has half of its heat; beyond white it clips after the edge") {
   Scenario scenario(kHeatImage);
   add_block(scenario);
@@ -95,25 +152,27 @@ TEST_CASE("the halo takes away the mean of what the body adds, by OpenCV's own G
     scenario.project.intruders[0].heat.skin = 140;
     const Frame background = full_range(even_frame(kHeatImage, kSkyCode, layout));
     const ComposedFrame plain = composed(scenario.opened(), 1, background);
-    scenario.project.appearance.thermal.halo = 0.4;
-    scenario.project.appearance.thermal.halo_px = 9;
-    const ComposedFrame done = composed(scenario.opened(), 1, background);
-    cv::Mat added, mean;
-    plain.image.planes[0].convertTo(added, CV_64F, 1, -kSkyCode);
-    cv::GaussianBlur(added, mean, {}, 9, 9, cv::BORDER_CONSTANT);
-    double darkest = 255;
-    for (int y = 0; y < kHeatImage.height; ++y)
-      for (int x = 0; x < kHeatImage.width; ++x) {
-        const double expected = kSkyCode + added.at<double>(y, x) - 0.4 * mean.at<double>(y, x);
-        const int code = done.image.planes[0].at<uchar>(y, x);
-        CHECK(std::abs(code - std::clamp(expected, 0.0, 255.0)) <= 1.0);
-        darkest = std::min(darkest, double(code));
-      }
-    CHECK(darkest < kSkyCode - 15);
-    // What the mask has is what was rewritten.
-    for (int y = 0; y < kHeatImage.height; ++y)
-      for (int x = 0; x < kHeatImage.width; ++x)
-        if (done.image.planes[0].at<uchar>(y, x) != kSkyCode) CHECK(done.mask.at<uchar>(y, x) > 0);
+    for (const double sigma_px : {9.0, 23.0, 50.0}) {
+      scenario.project.appearance.thermal.halo = 0.4;
+      scenario.project.appearance.thermal.halo_px = sigma_px;
+      const ComposedFrame done = composed(scenario.opened(), 1, background);
+      cv::Mat added, mean;
+      plain.image.planes[0].convertTo(added, CV_64F, 1, -kSkyCode);
+      cv::GaussianBlur(added, mean, {}, sigma_px, sigma_px, cv::BORDER_CONSTANT);
+      double darkest = 255;
+      for (int y = 0; y < kHeatImage.height; ++y)
+        for (int x = 0; x < kHeatImage.width; ++x) {
+          const double expected = kSkyCode + added.at<double>(y, x) - 0.4 * mean.at<double>(y, x);
+          const int code = done.image.planes[0].at<uchar>(y, x);
+          CHECK(std::abs(code - std::clamp(expected, 0.0, 255.0)) <= 1.0);
+          darkest = std::min(darkest, double(code));
+        }
+      CHECK(darkest < kSkyCode - (sigma_px < 30 ? 9 : 4));
+      // What the mask has is what was rewritten.
+      for (int y = 0; y < kHeatImage.height; ++y)
+        for (int x = 0; x < kHeatImage.width; ++x)
+          if (done.image.planes[0].at<uchar>(y, x) != kSkyCode) CHECK(done.mask.at<uchar>(y, x) > 0);
+    }
   }
 }
 

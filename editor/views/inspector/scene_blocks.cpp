@@ -62,7 +62,9 @@ void draw_inputs(const ViewContext& context, FieldRows& rows) {
     if (!field.key.starts_with("footage.") || field.key == "footage.video") continue;
     if (field.key.starts_with("footage.occluder_") || field.key.starts_with("footage.cloud_"))
       continue;  // with the own body
-    rows.row(field.key, field.key == "footage.last_frame" ? last : RowOptions());
+    RowOptions options = field.key == "footage.last_frame" ? last : RowOptions();
+    options.is_hidden = field.key == "footage.palette" && context.project().footage.spectrum != Spectrum::thermal;
+    rows.row(field.key, options);
     if (field.key == "footage.calibration" && scene != nullptr && !rows.problems().contains(field.key))
       note(lens_text(scene->draft.scene.camera));
   }
