@@ -95,11 +95,12 @@ Result<void> check_spectrum(const Scene& scene, const Frame& background) {
     off = std::max(off, differs / static_cast<double>(codes.total()) / code);
   }
   if (off <= kGray_codes) return {};
-  return fail("footage.spectrum",
-              fmt::format("thermal, but the footage is in colours: set footage.palette to the camera's palette ({}), where "
-                          "it is one of these; else record it white-hot or black-hot",
-                          fmt::join(kHeatPaletteNames.begin() + 1, kHeatPaletteNames.end(), ", ")),
-              ErrorKind::bad_project);
+  return fail(
+      "footage.spectrum",
+      fmt::format("thermal, but the footage is in colours: set footage.palette to the camera's palette ({}), where "
+                  "it is one of these; else record it white-hot or black-hot",
+                  fmt::join(kHeatPaletteNames.begin() + 1, kHeatPaletteNames.end(), ", ")),
+      ErrorKind::bad_project);
 }
 
 // Fills `contrail`: through haze, blurred by the lens. How warm ice looks is not modelled.
@@ -238,11 +239,12 @@ Result<ComposedFrame> composed_in_colors(Frame&& background, const Scene& scene,
   const HeatColors& colors = context.colors_of(scene.palette);
   HeatColors::Heat heat = colors.heat_of(background);
   if (heat.off_codes > kMaxOffPalette_codes)
-    return fail("footage.palette",
-                fmt::format("the footage's colours are not those of {}: in frame {} they are off by {:.0f} codes in the "
-                            "mean; set it to the camera's palette, or record white-hot or black-hot",
-                            kHeatPaletteNames[static_cast<std::size_t>(scene.palette)], frame, heat.off_codes),
-                ErrorKind::bad_project);
+    return fail(
+        "footage.palette",
+        fmt::format("the footage's colours are not those of {}: in frame {} they are off by {:.0f} codes in the "
+                    "mean; set it to the camera's palette, or record white-hot or black-hot",
+                    kHeatPaletteNames[static_cast<std::size_t>(scene.palette)], frame, heat.off_codes),
+        ErrorKind::bad_project);
   const cv::Mat before = heat.frame.planes[0].clone();
   Result<ComposedFrame> composed = composed_onto(std::move(heat.frame), scene, frame, context, stages);
   if (!composed) return composed;

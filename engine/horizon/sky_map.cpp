@@ -105,8 +105,8 @@ std::vector<bool> top_columns(const Cells& cells, const std::vector<int>& upperm
   };
   for (int x = 0; x < columns; ++x) {
     if (!is_free(x)) continue;
-    const bool goes_on = !parts.empty() && parts.back().to == x && is_smooth(x) &&
-                         std::abs(luma(x) - luma(x - 1)) <= kTopStep_codes;
+    const bool goes_on =
+        !parts.empty() && parts.back().to == x && is_smooth(x) && std::abs(luma(x) - luma(x - 1)) <= kTopStep_codes;
     if (!goes_on) parts.push_back({.from = x, .to = x});
     ++parts.back().to;
     parts.back().luma += luma(x);
@@ -119,8 +119,7 @@ std::vector<bool> top_columns(const Cells& cells, const std::vector<int>& upperm
   std::vector<bool> is_top(static_cast<std::size_t>(columns));
   for (const Part& part : parts)
     for (int x = part.from; x < part.to; ++x)
-      is_top[static_cast<std::size_t>(x)] =
-          part.luma > brightest - kTopDarker_codes && is_smooth(x);
+      is_top[static_cast<std::size_t>(x)] = part.luma > brightest - kTopDarker_codes && is_smooth(x);
   return is_top;
 }
 

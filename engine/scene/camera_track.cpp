@@ -18,7 +18,6 @@
 #include "telemetry/track_report.h"
 
 namespace sigs {
-
 namespace {
 
 constexpr double kMinCourseSpeed_mps = 1;  // below it the course over ground is mostly noise
@@ -290,17 +289,6 @@ std::vector<ExposureTime> exposures_of(const Channel<double>& channel, const Log
   return exposures;
 }
 
-// The sample that is nearest to a time of the footage.
-std::optional<double> value_near(const Channel<double>& channel, const LogTimes& times, double footage_s) {
-  std::optional<double> nearest;
-  double off_s = 0;
-  for (std::size_t i = 0; i < channel.values.size(); ++i)
-    if (const double own_off_s = std::abs(times.footage_s(channel.times_s[i]) - footage_s);
-        !nearest || own_off_s < off_s)
-      nearest = channel.values[i], off_s = own_off_s;
-  return nearest;
-}
-
 void warn_if_slow(const Track& track, const UsedParts& parts, std::vector<Warning>& warnings) {
   const auto add = [&](const std::string& source, double step_s) {
     warnings.push_back({track.file.string(), fmt::format("{} has a sample only each {:.2g} s; what the camera does in "
@@ -382,8 +370,7 @@ Result<CameraFlight, Problem> flight_by_log(const Project& project, const Track&
   }
   flight.motion.readout_s = project.camera.readout_s.value_or(track.readout_s.value_or(0));
   if (!project.camera.exposure_s) flight.motion.exposures = exposures_of(track.exposure_s, times);
-  flight.motion.logged_white_cdpm2 =
-      value_near(track.white_cdpm2, times, time_of_frame_s(footage, (range.first + range.last) / 2));
+  flight.motion.logged_white_cdpm2 = value_near(track.white_cdpm2, (times.first_s + times.last_s) / 2);
   if (track.utc_at_zero_s) flight.utc_at_frame_0_s = *track.utc_at_zero_s + settings.offset_s;
   return flight;
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,6 +61,15 @@ void warn_of_gaps(const std::vector<double>& times_s, const std::string& source,
 
 // The median of the intervals; 0 for fewer than two times.
 [[nodiscard]] double median_interval_s(const std::vector<double>& times_s);
+
+// The sample of a channel that is nearest to a time; none of an empty one.
+template <class T>
+[[nodiscard]] std::optional<T> value_near(const Channel<T>& channel, double time_s) {
+  const auto nearest =
+      std::ranges::min_element(channel.times_s, {}, [&](double own_s) { return std::abs(own_s - time_s); });
+  if (nearest == channel.times_s.end()) return std::nullopt;
+  return channel.values[static_cast<std::size_t>(nearest - channel.times_s.begin())];
+}
 
 // What becomes of stamps that came late: after stamps that are later than they are.
 enum class LateStamps { wait, leave_out, replace };

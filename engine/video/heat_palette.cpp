@@ -27,17 +27,19 @@ struct Knot {
 };
 
 // Measured in tables of cameras with FLIR's sensors; no colour is off by more than 4 codes.
-const std::vector<Knot> kIron = {{0, {0, 0, 0}},        {32, {31, 0, 118}},   {66, {116, 1, 136}},  {94, {181, 7, 141}},
-                                 {102, {194, 16, 127}}, {128, {223, 55, 59}}, {129, {224, 57, 49}}, {159, {238, 109, 12}},
-                                 {193, {247, 171, 13}}, {223, {255, 224, 30}}, {225, {255, 227, 39}}, {255, {255, 255, 249}}};
+const std::vector<Knot> kIron = {{0, {0, 0, 0}},        {32, {31, 0, 118}},    {66, {116, 1, 136}},
+                                 {94, {181, 7, 141}},   {102, {194, 16, 127}}, {128, {223, 55, 59}},
+                                 {129, {224, 57, 49}},  {159, {238, 109, 12}}, {193, {247, 171, 13}},
+                                 {223, {255, 224, 30}}, {225, {255, 227, 39}}, {255, {255, 255, 249}}};
 const std::vector<Knot> kRainbow = {
-    {0, {1, 3, 74}},       {8, {0, 3, 82}},       {23, {0, 49, 133}},    {30, {0, 56, 145}},    {49, {0, 90, 203}},
-    {64, {0, 113, 223}},   {70, {2, 124, 216}},   {75, {4, 133, 202}},   {81, {10, 144, 166}},  {85, {13, 147, 149}},
-    {87, {17, 151, 132}},  {88, {22, 153, 120}},  {90, {28, 156, 109}},  {96, {67, 171, 60}},   {103, {105, 185, 26}},
-    {116, {164, 204, 2}},  {128, {212, 215, 3}},  {137, {232, 211, 6}},  {143, {237, 208, 8}},  {158, {252, 183, 17}},
-    {163, {254, 165, 21}}, {169, {255, 155, 24}}, {192, {251, 33, 59}},  {198, {250, 27, 63}},  {206, {247, 25, 79}},
-    {215, {248, 59, 96}},  {220, {250, 93, 108}}, {225, {251, 102, 113}}, {242, {255, 191, 165}}, {248, {255, 216, 185}},
-    {251, {255, 222, 200}}, {255, {255, 233, 208}}};
+    {0, {1, 3, 74}},        {8, {0, 3, 82}},        {23, {0, 49, 133}},     {30, {0, 56, 145}},
+    {49, {0, 90, 203}},     {64, {0, 113, 223}},    {70, {2, 124, 216}},    {75, {4, 133, 202}},
+    {81, {10, 144, 166}},   {85, {13, 147, 149}},   {87, {17, 151, 132}},   {88, {22, 153, 120}},
+    {90, {28, 156, 109}},   {96, {67, 171, 60}},    {103, {105, 185, 26}},  {116, {164, 204, 2}},
+    {128, {212, 215, 3}},   {137, {232, 211, 6}},   {143, {237, 208, 8}},   {158, {252, 183, 17}},
+    {163, {254, 165, 21}},  {169, {255, 155, 24}},  {192, {251, 33, 59}},   {198, {250, 27, 63}},
+    {206, {247, 25, 79}},   {215, {248, 59, 96}},   {220, {250, 93, 108}},  {225, {251, 102, 113}},
+    {242, {255, 191, 165}}, {248, {255, 216, 185}}, {251, {255, 222, 200}}, {255, {255, 233, 208}}};
 
 cv::Mat colors_between(const std::vector<Knot>& knots) {
   cv::Mat colors(kColors, 1, CV_8UC3);
@@ -61,15 +63,24 @@ cv::Mat colors_by_opencv(int map) {
 
 cv::Mat colors_of(HeatPalette palette) {
   switch (palette) {
-    case HeatPalette::gray: break;
-    case HeatPalette::iron: return colors_between(kIron);
-    case HeatPalette::rainbow: return colors_between(kRainbow);
-    case HeatPalette::hot: return colors_by_opencv(cv::COLORMAP_HOT);
-    case HeatPalette::jet: return colors_by_opencv(cv::COLORMAP_JET);
-    case HeatPalette::turbo: return colors_by_opencv(cv::COLORMAP_TURBO);
-    case HeatPalette::inferno: return colors_by_opencv(cv::COLORMAP_INFERNO);
-    case HeatPalette::magma: return colors_by_opencv(cv::COLORMAP_MAGMA);
-    case HeatPalette::plasma: return colors_by_opencv(cv::COLORMAP_PLASMA);
+    case HeatPalette::gray:
+      break;
+    case HeatPalette::iron:
+      return colors_between(kIron);
+    case HeatPalette::rainbow:
+      return colors_between(kRainbow);
+    case HeatPalette::hot:
+      return colors_by_opencv(cv::COLORMAP_HOT);
+    case HeatPalette::jet:
+      return colors_by_opencv(cv::COLORMAP_JET);
+    case HeatPalette::turbo:
+      return colors_by_opencv(cv::COLORMAP_TURBO);
+    case HeatPalette::inferno:
+      return colors_by_opencv(cv::COLORMAP_INFERNO);
+    case HeatPalette::magma:
+      return colors_by_opencv(cv::COLORMAP_MAGMA);
+    case HeatPalette::plasma:
+      return colors_by_opencv(cv::COLORMAP_PLASMA);
   }
   return cv::Mat();
 }

@@ -15,8 +15,8 @@ namespace sigs {
 // How a thermal camera shows heat. Each but gray is a row of 256 colours from cold to warm: iron and rainbow are those
 // of FLIR's cameras, the others the colour maps of these names in OpenCV.
 enum class HeatPalette { gray, iron, rainbow, hot, jet, turbo, inferno, magma, plasma };
-inline constexpr std::array<std::string_view, 9> kHeatPaletteNames = {
-    "gray", "iron", "rainbow", "hot", "jet", "turbo", "inferno", "magma", "plasma"};
+inline constexpr std::array<std::string_view, 9> kHeatPaletteNames = {"gray",  "iron",    "rainbow", "hot",   "jet",
+                                                                      "turbo", "inferno", "magma",   "plasma"};
 
 // From here on, in 8-bit codes of red, green and blue in the mean, colours are not those of a palette.
 inline constexpr double kMaxOffPalette_codes = 20;

@@ -65,7 +65,8 @@ TEST_CASE("each dialect of DJI's subtitles gives the place and exposure that one
     if (expected.first_exposure_s > 0)
       CHECK(track.exposure_s.values.front() == doctest::Approx(expected.first_exposure_s).epsilon(1e-14));
     CHECK(track.white_cdpm2.empty() == (expected.iso == 0));
-    // ISO 12232 by saturation: an exposure of 78 / S lux seconds is white; of a luminance L the sensor gets 0.65 L t / N^2.
+    // ISO 12232 by saturation: an exposure of 78 / S lux seconds is white; of a luminance L the sensor gets 0.65 L t /
+    // N^2.
     if (expected.iso > 0)
       CHECK(track.white_cdpm2.values.front() ==
             doctest::Approx(78 / expected.iso * expected.f_number * expected.f_number /
