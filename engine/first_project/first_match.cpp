@@ -134,8 +134,9 @@ constexpr double kThermalSpread_px = 0.35, kThermalGlow = 0.4, kThermalGlow_px =
 constexpr double kHaloOfWidth = 0.1;  // sigma of the halo over the image's width: 32 px in 320
 
 // Frames that stand for all: in the middles of equal parts of the scene's range. Damaged ones are left out.
+//   look  gives back whether the next one is wanted
 Result<void> look_through(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel,
-                          const std::function<void(const Frame&)>& look) {
+                          const std::function<bool(const Frame&)>& look) {
   const int length = scene.last_frame - scene.first_frame + 1;
   const int count = std::min(kSpectrumFrames, length);
   for (int i = 0; i < count; ++i) {
@@ -143,7 +144,7 @@ Result<void> look_through(FrameSource& footage, const Scene& scene, const std::a
     const Result<Frame> frame =
         footage.read(scene.first_frame + static_cast<int>((2LL * i + 1) * length / (2LL * count)));
     if (!frame) return fail(frame.error());
-    if (!frame->damaged) look(*frame);
+    if (!frame->damaged && !look(*frame)) break;
   }
   return {};
 }
@@ -151,22 +152,24 @@ Result<void> look_through(FrameSource& footage, const Scene& scene, const std::a
 // Medians over some frames; skies and differences of those in which both sky and ground are told.
 struct Brightness {
   std::vector<double> all, skies, differences;
-  ThermalLevels levels;  // as a thermal camera would show them
+  ThermalLevels levels;  // where they may be those of a thermal camera
 
   [[nodiscard]] bool has_both() const { return 2 * skies.size() >= all.size(); }
 };
 
-Result<Brightness> brightness_of(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel) {
+Result<Brightness> brightness_of(FrameSource& footage, const Scene& scene, bool may_be_thermal,
+                                 const std::atomic<bool>* cancel) {
   Brightness seen;
   const std::optional<HeatColors> colors = heat_colors(scene.palette);
   const Result<void> looked = look_through(footage, scene, cancel, [&](const Frame& frame) {
     const Frame shown = colors ? colors->heat_of(frame).frame : frame;
     const SkyAndGround found = sky_and_ground_of(shown);
-    seen.levels.add(shown);
+    if (may_be_thermal) seen.levels.add(shown);
     seen.all.push_back(found.all);
-    if (!found.sky || !found.ground) return;
+    if (!found.sky || !found.ground) return true;
     seen.skies.push_back(*found.sky);
     seen.differences.push_back(*found.ground - *found.sky);
+    return true;
   });
   if (!looked) return fail(looked.error());
   return seen;
@@ -227,10 +230,18 @@ FirstProjectNote set_night(double code, const Scene& scene, Project& project) {
 
 Result<std::optional<FirstProjectNote>> set_palette(FrameSource& footage, const Scene& scene, Project& project,
                                                     const std::atomic<bool>* cancel) {
+  // Most footage has none, which shows in two frames; those between cost a search in the file each.
+  constexpr int kTold = 2;
   PaletteSearch search;
-  const Result<void> looked = look_through(footage, scene, cancel, [&](const Frame& frame) { search.add(frame); });
+  std::optional<PaletteSearch::Found> found;
+  int count = 0;
+  const Result<void> looked = look_through(footage, scene, cancel, [&](const Frame& frame) {
+    search.add(frame);
+    if (++count >= kTold) found = search.found();
+    return count < kTold || found.has_value();
+  });
   if (!looked) return fail(looked.error());
-  const std::optional<PaletteSearch::Found> found = search.found();
+  if (count < kTold) found = search.found();
   if (!found) return std::nullopt;
   project.footage.spectrum = Spectrum::thermal;
   project.footage.palette = found->palette;
@@ -245,14 +256,15 @@ Result<std::optional<FirstProjectNote>> set_palette(FrameSource& footage, const 
 
 Result<std::optional<FirstProjectNote>> set_dark_or_thermal(FrameSource& footage, const Scene& scene, Project& project,
                                                             const std::atomic<bool>* cancel) {
-  const Result<Brightness> seen = brightness_of(footage, scene, cancel);
+  const bool has_palette = scene.palette != HeatPalette::gray;
+  const bool may_be_thermal = has_palette || project.appearance.saturation == 0;
+  const Result<Brightness> seen = brightness_of(footage, scene, may_be_thermal, cancel);
   if (!seen) return fail(seen.error());
   if (seen->all.empty()) return std::nullopt;
   const cv::Size& size_px = scene.footage.size_px;
   const bool is_small = size_px.width <= kThermalWidth_px && size_px.height <= kThermalHeight_px;
   const bool is_warm = seen->has_both() ? median(seen->differences) >= kWarmGround_codes : is_small;
-  if (scene.palette != HeatPalette::gray || (project.appearance.saturation == 0 && is_warm))
-    return set_thermal(*seen, size_px.width, project);
+  if (has_palette || (may_be_thermal && is_warm)) return set_thermal(*seen, size_px.width, project);
   const double code = median(seen->all);
   return code < kNight_code ? std::optional(set_night(code, scene, project)) : std::nullopt;
 }
