@@ -342,7 +342,8 @@ std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& 
   const cv::Rect image({0, 0}, background.size_px());
   std::vector<cv::Rect> reaches;
   std::vector<std::vector<cv::Point2d>> earlier_px;
-  const int margin_px = post_blend_stages_margin_px(scene, background.layout);
+  constexpr int kCodedHalo_px = 36;  // beyond it a halo is too even for a codec to change it
+  const int margin_px = post_blend_stages_margin_px(scene, background.layout, kCodedHalo_px);
   for (const IntruderLayers& intruder : layers) {
     for (const Layer* const still : {&intruder.contrail, &intruder.shadow}) {  // which hardly move
       if (still->empty()) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -45,8 +46,9 @@ namespace sigs {
 // Whether anything follows the blending: the halo of a thermal camera, sharpening, chroma blur, grain.
 [[nodiscard]] bool has_post_blend_stages(const Scene& scene);
 
-// How far these stages carry a change beyond the layer, px.
-[[nodiscard]] int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout);
+// How far these stages carry a change beyond the layer, px; the halo counts up to max_halo_px.
+[[nodiscard]] int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout,
+                                              int max_halo_px = std::numeric_limits<int>::max());
 
 // Called with the name of each stage that is not left out, when the frame holds its result.
 using StageDone = std::function<void(const std::string& name)>;
