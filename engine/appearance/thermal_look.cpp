@@ -107,20 +107,28 @@ Estimate halo_of(const std::vector<double>& found, int frames, double otherwise)
   return estimate;
 }
 
-}  // namespace
+// A frame's display codes on a reduced grid, and which of them the own body hides.
+struct DisplayCodes {
+  ReducedLuma reduced;
+  cv::Mat hidden;  // CV_8UC1, above 127; may be empty
+};
 
-SkyAndGround sky_and_ground_of(const Frame& frame, const cv::Mat& own_body) {
+DisplayCodes display_codes(const Frame& frame, const cv::Mat& own_body) {
   cv::Mat gray;
   cv::extractChannel(bgr_of(frame), gray, 1);
-  const ReducedLuma reduced = reduced_luma(gray);
-  const SkyMap map = sky_map_of(reduced.luma, own_body);
-  cv::Mat hidden;
-  if (!own_body.empty()) cv::resize(own_body, hidden, reduced.luma.size(), 0, 0, cv::INTER_NEAREST);
+  DisplayCodes codes{.reduced = reduced_luma(gray), .hidden = {}};
+  if (!own_body.empty()) cv::resize(own_body, codes.hidden, codes.reduced.luma.size(), 0, 0, cv::INTER_NEAREST);
+  return codes;
+}
+
+SkyAndGround sky_and_ground_in(const DisplayCodes& codes, const cv::Mat& own_body) {
+  const cv::Mat& luma = codes.reduced.luma;
+  const SkyMap map = sky_map_of(luma, own_body);
   std::vector<double> sky, ground, all;
-  for (int y = 0; y < reduced.luma.rows; ++y)
-    for (int x = 0; x < reduced.luma.cols; ++x) {
-      if (!hidden.empty() && hidden.at<uchar>(y, x) > 127) continue;
-      const double code = reduced.luma.at<uchar>(y, x);
+  for (int y = 0; y < luma.rows; ++y)
+    for (int x = 0; x < luma.cols; ++x) {
+      if (!codes.hidden.empty() && codes.hidden.at<uchar>(y, x) > 127) continue;
+      const double code = luma.at<uchar>(y, x);
       all.push_back(code);
       (map.is_sky(x, y) ? sky : ground).push_back(code);
     }
@@ -132,21 +140,23 @@ SkyAndGround sky_and_ground_of(const Frame& frame, const cv::Mat& own_body) {
   return found;
 }
 
+}  // namespace
+
+SkyAndGround sky_and_ground_of(const Frame& frame, const cv::Mat& own_body) {
+  return sky_and_ground_in(display_codes(frame, own_body), own_body);
+}
+
 void ThermalLevels::add(const Frame& frame, const cv::Mat& own_body) {
   if (frame.planes[0].empty()) return;
-  const SkyAndGround found = sky_and_ground_of(frame, own_body);
+  const DisplayCodes codes = display_codes(frame, own_body);
+  const SkyAndGround found = sky_and_ground_in(codes, own_body);
   if (found.sky) skies_.push_back(*found.sky);
   if (found.ground) grounds_.push_back(*found.ground);
   ++frames_;
-  cv::Mat gray;
-  cv::extractChannel(bgr_of(frame), gray, 1);
-  const ReducedLuma reduced = reduced_luma(gray);
-  cv::Mat hidden;
-  if (!own_body.empty()) cv::resize(own_body, hidden, reduced.luma.size(), 0, 0, cv::INTER_NEAREST);
-  const SkyProfile profile = sky_profile(reduced.luma, hidden);
-  const std::optional<Halo> halo = fitted_halo(profile.codes, reduced.luma.cols);
+  const SkyProfile profile = sky_profile(codes.reduced.luma, codes.hidden);
+  const std::optional<Halo> halo = fitted_halo(profile.codes, codes.reduced.luma.cols);
   if (!halo) return;
-  halos_px_.push_back(halo->sigma_px * reduced.scale);
+  halos_px_.push_back(halo->sigma_px * codes.reduced.scale);
   const double step = profile.ground - (halo->sky - halo->dip / 2);
   if (profile.ground < kWhite_code && step > 0) halos_.push_back(halo->dip / step);
 }
