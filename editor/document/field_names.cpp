@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 88> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 89> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
@@ -42,6 +42,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 88> kNames{{
     {"appearance.sharpening_px", "Sharpening radius"},
     {"appearance.chroma_blur_px", "Blur of colours"},
     {"appearance.black", "Flare"},
+    {"appearance.grain.source", "Noise from"},
     {"appearance.grain.sd_dark", "Noise, dark"},
     {"appearance.grain.sd_bright", "Noise, bright"},
     {"appearance.grain.sd_chroma", "Noise, colours"},

@@ -144,6 +144,8 @@ class Estimators {
                                                        if (look_around) surroundings_.add(frame, view);
                                                        if (look_around && is_thermal_)
                                                          levels_.add(frame, view.own_body);
+                                                       if (look_around && !is_thermal_)
+                                                         glare_.add(frame, view.own_body);
                                                        codec_.add(frame, look_for_traces);
                                                      }};
     // Each estimator has state of its own; they share nothing but the frames, which none of them changes.
@@ -157,6 +159,7 @@ class Estimators {
     appearance.noise = noise_.finish();
     appearance.surroundings = surroundings_.finish(sun);
     if (is_thermal_) appearance.levels = levels_.finish();
+    if (glare_.has_dark_frames()) appearance.glare = glare_.finish();
     appearance.tone_histogram = surroundings_.tone().histogram();
     appearance.codec = codec_.finish();
     appearance.haze_curve = surroundings_.haze().curve();
@@ -167,6 +170,7 @@ class Estimators {
   Noise noise_;
   Surroundings surroundings_;
   ThermalLevels levels_;
+  Glare glare_;
   bool is_thermal_;
   CodecEstimator codec_;
   int surroundings_every_;

@@ -9,6 +9,7 @@
 
 #include "appearance/codec.h"
 #include "appearance/estimate.h"
+#include "appearance/glare.h"
 #include "appearance/light_image.h"
 #include "appearance/noise.h"
 #include "appearance/point_spread.h"
@@ -52,6 +53,7 @@ struct Appearance {
   NoiseFound noise;
   SurroundingsEstimate surroundings;     // haze, tone, light, sun
   std::optional<LevelsEstimate> levels;  // of thermal footage
+  std::optional<GlareFound> glare;       // of dark footage
   ToneHistogram tone_histogram{};
   HazeCurve haze_curve;
   CodecEstimate codec;

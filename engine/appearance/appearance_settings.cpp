@@ -158,6 +158,10 @@ std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance) {
   const SunEvidence of_elevation = sun.evidence == SunEvidence::shadows ? SunEvidence::sky : sun.evidence;
   list.push_back({"sun's elevation", "deg", in_degrees(sun.elevation_rad), "light.sun.elevation_deg",
                   sun.elevation_rad.is_known ? how_found(of_elevation) : ""});
+  if (appearance.glare) {
+    list.push_back({"glare", "of the light", appearance.glare->share, "appearance.glare"});
+    list.push_back({"glare's radius", "px", appearance.glare->sigma_px, "appearance.glare_px"});
+  }
   if (appearance.levels) {
     list.push_back({"sky's code", "codes", appearance.levels->sky, "appearance.thermal.sky"});
     if (appearance.levels->ground.is_known) list.push_back({"ground's code", "codes", appearance.levels->ground, ""});
@@ -199,6 +203,7 @@ std::vector<std::string> applied_settings(const Appearance& appearance) {
   if (light_is_known(appearance)) add("light.");
   keys.emplace_back("compositing.blur_px_per_m");
   add("appearance.");
+  keys.emplace_back("appearance.grain.source");
   keys.emplace_back("appearance.haze.airlight");
   keys.emplace_back("appearance.codec.match");
   keys.emplace_back("appearance.codec.predicted_frames");
@@ -243,6 +248,7 @@ void apply(const Appearance& appearance, Project& project) {
     for (const AppearanceQuantity& quantity : quantities_of(appearance))
       if (quantity.setting == field.key && field.key.starts_with("appearance."))
         if (double* const* const number = std::get_if<double*>(&field.value)) **number = quantity.estimate.value;
+  project.appearance.grain.source = GrainSource::footage;
   const SurroundingsEstimate& around = appearance.surroundings;
   apply_haze(around.haze, project.appearance.haze);
   if (light_is_known(appearance)) {

@@ -231,6 +231,33 @@ cv::Mat noise_over(const PatchPlane& plane, const cv::Rect& part, const cv::Mat&
   return change;
 }
 
+constexpr double kNoiseMean_px = 2;   // sigma of the Gaussian that noise is told by
+constexpr int kNoiseVariance_px = 7;  // side of the square that its variance is taken over
+constexpr double kTexture = 2;        // times the noise's variance: beyond it there is texture
+
+// Takes what the layer hides of the footage's own noise in place of what was made, as far as it is noise.
+//   clipped  codes at and beyond which nothing is known
+template <class Variance>
+void use_hidden_noise(const PatchPlane& plane, const cv::Rect& part, const cv::Vec2d& clipped, const Variance& variance,
+                      cv::Mat& change) {
+  const cv::Mat kernel = sampled_gaussian(kNoiseMean_px, blur_margin_px(kNoiseMean_px));
+  cv::Mat mean, squares;
+  cv::sepFilter2D(plane.before, mean, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_REFLECT_101);
+  const cv::Mat noise = plane.before - mean;
+  cv::boxFilter(noise.mul(noise), squares, CV_32F, {kNoiseVariance_px, kNoiseVariance_px}, {-1, -1}, true,
+                cv::BORDER_REFLECT_101);
+  for (int y = part.y; y < part.y + part.height; ++y)
+    for (int x = part.x; x < part.x + part.width; ++x) {
+      const float opacity = plane.opacity.at<float>(y, x), around = mean.at<float>(y, x);
+      const double there = variance(around);
+      if (!(opacity > 0) || !(there > 0) || around <= clipped[0] || around >= clipped[1]) continue;
+      const double weight = std::min(1.0, kTexture * there / std::max(double{squares.at<float>(y, x)}, 1e-9));
+      const double hidden = opacity * noise.at<float>(y, x) * std::sqrt(variance(plane.after.at<float>(y, x)) / there);
+      float& sample = change.at<float>(y, x);
+      sample = static_cast<float>(weight * hidden + std::sqrt(1 - weight * weight) * sample);
+    }
+}
+
 // Noise for one plane, by the luma that its samples are worth, or by none.
 class PlaneGrain {
  public:
@@ -245,10 +272,18 @@ class PlaneGrain {
     samples_ += static_cast<std::int64_t>(noise.total());
     const double dark = sd_black * sd_black;
     const double bright = sd_white * sd_white;
-    return noise_over(plane, part, noise, [&](float code) {
+    const auto variance = [&](float code) {
       const double luma = (double{code} - black_and_white_[0]) / (black_and_white_[1] - black_and_white_[0]);
       return dark + std::clamp(luma, 0.0, 1.0) * (bright - dark);
-    });
+    };
+    cv::Mat change = noise_over(plane, part, noise, variance);
+    if (source_.grain.source == GrainSource::footage) {
+      constexpr double kAnyCode = 1e9;
+      const double one = (black_and_white_[1] - black_and_white_[0]) / 219;
+      const cv::Vec2d clipped = index == 0 ? black_and_white_ + cv::Vec2d(one, -one) : cv::Vec2d(-kAnyCode, kAnyCode);
+      use_hidden_noise(plane, part, clipped, variance, change);
+    }
+    return change;
   }
 
   [[nodiscard]] std::int64_t samples() const { return samples_; }
@@ -264,11 +299,19 @@ void add_to(PatchPlane& plane, const cv::Mat& change, double times = 1) {
   if (!change.empty()) plane.after += times * change;
 }
 
-// Of R'G'B', beside luma, which red has already. BT.709, full range: R' = Y' + 1.5748 Cr, B' = Y' + 1.8556 Cb, and G'
-// such that luma stays.
+constexpr double kRedOfCr = 1.5748, kBlueOfCb = 1.8556;  // BT.709, full range
+
+// Cr by the plane of red, 0, or Cb by that of blue, 2.
+PatchPlane chroma_of_rgb(const FloatPatch& patch, std::size_t color) {
+  PatchPlane plane = luma_of_rgb(patch);
+  const double scale = color == 0 ? kRedOfCr : kBlueOfCb;
+  plane.before = (patch.planes[color].before - plane.before) / scale;
+  plane.after = (patch.planes[color].after - plane.after) / scale;
+  return plane;
+}
+
+// Of R'G'B', beside luma, which red has already: R' = Y' + 1.5748 Cr, B' = Y' + 1.8556 Cb, and G' such that luma stays.
 void add_chroma_to_rgb(FloatPatch& patch, const cv::Mat& of_luma, const cv::Mat& cb, const cv::Mat& cr) {
-  constexpr double kRedOfCr = 1.5748;
-  constexpr double kBlueOfCb = 1.8556;
   add_to(patch.planes[1], of_luma);
   add_to(patch.planes[2], of_luma);
   add_to(patch.planes[0], cr, kRedOfCr);
@@ -303,8 +346,8 @@ std::int64_t add_grain(FloatPatch& patch, const GrainSettings& grain, std::int64
       noise.change_of(is_rgb ? luma_of_rgb(patch) : patch.planes[0], 0, grain.sd_dark * step, grain.sd_bright * step);
   add_to(patch.planes[0], of_luma);
   if (patch.plane_count() > 1) {
-    const cv::Mat cb = noise.change_of(patch.planes[1], 1, sd_chroma, sd_chroma);
-    const cv::Mat cr = noise.change_of(patch.planes[2], 2, sd_chroma, sd_chroma);
+    const cv::Mat cb = noise.change_of(is_rgb ? chroma_of_rgb(patch, 2) : patch.planes[1], 1, sd_chroma, sd_chroma);
+    const cv::Mat cr = noise.change_of(is_rgb ? chroma_of_rgb(patch, 0) : patch.planes[2], 2, sd_chroma, sd_chroma);
     if (is_rgb) {
       add_chroma_to_rgb(patch, of_luma, cb, cr);
     } else {
@@ -313,6 +356,12 @@ std::int64_t add_grain(FloatPatch& patch, const GrainSettings& grain, std::int64
     }
   }
   return noise.samples();
+}
+
+int grain_margin_px(PixelLayout layout, const GrainSettings& grain) {
+  if (grain.is_none() || grain.source == GrainSource::made) return 0;
+  const cv::Size step = layout == PixelLayout::gray ? cv::Size(1, 1) : chroma_step(layout);
+  return (blur_margin_px(kNoiseMean_px) + kNoiseVariance_px / 2 + 1) * std::max(step.width, step.height);
 }
 
 }  // namespace sigs

@@ -102,6 +102,15 @@ void blur_chroma(FloatPatch& patch, double sigma_samples);
 // footage, so that both together have the footage's. Rounding to whole codes of the patch's depth adds a variance of
 // 1/12 of such a code by itself, which is left out of the noise; of 8 bits, grain below a standard deviation of 0.29 so
 // adds nothing. Gives back how many samples of noise were made.
+//
+// GrainSource::footage: in place of it comes what the layer hides of the noise that the footage has in this very place,
+// so that what is fixed to the sensor stays and what the codec did to it is in it: r = before - Gaussian(before), times
+// opacity and the ratio of the standard deviations at the two brightnesses. Where r has more than twice the variance v
+// of the footage's noise, there is texture: r is weighted by w = 2 v / mean(r^2), and sqrt(1 - w^2) of noise that is
+// made is added. w is 0 where the footage is clipped.
 std::int64_t add_grain(FloatPatch& patch, const GrainSettings& grain, std::int64_t frame, int intruder = 0);
+
+// Pixels beyond the layer that are looked at for it.
+[[nodiscard]] int grain_margin_px(PixelLayout layout, const GrainSettings& grain);
 
 }  // namespace sigs

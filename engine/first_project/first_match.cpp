@@ -39,6 +39,7 @@ const NoteGroup kGroups[] = {
     {"appearance.black", {"appearance.black"}},
     {"appearance.saturation", {"appearance.saturation"}},
     {"appearance.haze.visibility_m", {"appearance.haze.visibility_m"}},
+    {"appearance.glare", {"appearance.glare", "appearance.glare_px"}},
 };
 
 bool is_in(const NoteGroup& group, std::string_view setting) {
@@ -113,7 +114,8 @@ Result<std::vector<FirstProjectNote>> match_appearance(FrameSource& footage, con
   apply(*seen, project);
   std::vector<FirstProjectNote> notes;
   const std::vector<AppearanceQuantity> quantities = quantities_of(*seen);
-  for (const NoteGroup& group : kGroups) notes.push_back(note_of(group, quantities));
+  for (const NoteGroup& group : kGroups)
+    if (FirstProjectNote note = note_of(group, quantities); !note.text.empty()) notes.push_back(std::move(note));
   notes.push_back(codec_note(*seen, project));
   const std::vector<FirstProjectNote> light = light_notes(seen->surroundings);
   notes.insert(notes.begin(), light.begin(), light.end());

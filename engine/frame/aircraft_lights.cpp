@@ -49,7 +49,8 @@ constexpr std::array<AngleFactor, 6> kFlashUpDown{{{0, 1}, {5, 1}, {10, 0.6}, {2
 constexpr double kTailOfAhead = 0.5;
 constexpr double kSector_deg = 110;  // from ahead to where the tail light takes over
 // Lights of one side fade over so much of the other one: else nobody straight ahead, between them, would see either,
-// nor a beacon who is level with the aircraft. 25.1395 leaves the first 10 degrees free.
+// nor a beacon who is level with the aircraft; and at the end of the sectors neither a side's light nor that of the
+// tail, which are apart. 25.1395 leaves the first 10 degrees free.
 constexpr double kOverlap_deg = 3;
 
 const char* name_of(Lamp::Kind kind) {
@@ -161,22 +162,24 @@ double intensity_cd(const Lamp& lamp, const LampSettings& settings, const glm::d
   const double off_deg = std::abs(right_deg);
   const double left = std::clamp(1 - right_deg / kOverlap_deg, 0.0, 1.0);
   const double right = std::clamp(1 + right_deg / kOverlap_deg, 0.0, 1.0);
-  const bool is_ahead = off_deg <= kSector_deg;
+  const double beside = std::clamp(1 - (off_deg - kSector_deg) / kOverlap_deg, 0.0, 1.0);
+  const double behind = std::clamp(1 + (off_deg - kSector_deg) / kOverlap_deg, 0.0, 1.0);
+  const double ahead = beside * factor_at(kPositionAhead, std::min(off_deg, kSector_deg));
   const double flash_cd = during_flash_cd(1, settings.flash_s) * factor_at(kFlashUpDown, std::abs(up_deg));
   const double position_cd = settings.position_cd * factor_at(kPositionUpDown, std::abs(up_deg));
   switch (lamp.kind) {
     case Kind::left:
-      return left * position_cd * factor_at(kPositionAhead, off_deg);
+      return left * ahead * position_cd;
     case Kind::right:
-      return right * position_cd * factor_at(kPositionAhead, off_deg);
+      return right * ahead * position_cd;
     case Kind::tail:
-      return is_ahead ? 0 : kTailOfAhead * position_cd;
+      return behind * kTailOfAhead * position_cd;
     case Kind::strobe_left:
-      return is_ahead ? left * settings.strobe_cd * flash_cd : 0;
+      return left * beside * settings.strobe_cd * flash_cd;
     case Kind::strobe_right:
-      return is_ahead ? right * settings.strobe_cd * flash_cd : 0;
+      return right * beside * settings.strobe_cd * flash_cd;
     case Kind::strobe_tail:
-      return is_ahead ? 0 : settings.strobe_cd * flash_cd;
+      return behind * settings.strobe_cd * flash_cd;
     case Kind::beacon_top:
       return std::clamp(1 + up_deg / kOverlap_deg, 0.0, 1.0) * settings.beacon_cd * flash_cd;
     case Kind::beacon_bottom:

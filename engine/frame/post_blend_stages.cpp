@@ -106,7 +106,7 @@ double halo_of(const Scene& scene) {
 int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout, int max_halo_px) {
   const AppearanceSettings& appearance = scene.appearance;
   return std::max({sharpening_margin_px(appearance.sharpening, appearance.sharpening_px),
-                   chroma_blur_margin_px(layout, appearance.chroma_blur_px),
+                   chroma_blur_margin_px(layout, appearance.chroma_blur_px), grain_margin_px(layout, appearance.grain),
                    halo_of(scene) > 0 ? std::min(blur_margin_px(appearance.thermal.halo_px), max_halo_px) : 0});
 }
 

@@ -50,6 +50,8 @@ void add_appearance(FieldList list, AppearanceSettings& appearance) {
               "share of the light of aircraft's lights that the lens spreads wide");
   list.number("glare_px", &appearance.glare_px, "px", 0.2, 100, "sigma of that spread");
   GrainSettings& grain = appearance.grain;
+  list.add("grain.source", choice_of(grain.source, {"made", "footage"}), "",
+           "made: by the numbers below; footage: the noise that the intruder hides, made where that is texture");
   list.number("grain.sd_dark", &grain.sd_dark, "code", 0, 64, "noise of luma where the image is black");
   list.number("grain.sd_bright", &grain.sd_bright, "code", 0, 64, "noise of luma where the image is white");
   list.number("grain.sd_chroma", &grain.sd_chroma, "code", 0, 64, "noise of chroma");

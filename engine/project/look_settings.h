@@ -45,8 +45,13 @@ struct CompositingSettings {
   return compositing.quality == QualityChoice::draft ? 1 : compositing.supersampling;
 }
 
+// Where an intruder's noise comes from: it is made by the numbers, or it is that of the footage which the intruder
+// hides, and made where that is textured or clipped.
+enum class GrainSource { made, footage };
+
 // Random noise of the footage, in 8-bit code values, as the codec left it. Its variance is linear in brightness.
 struct GrainSettings {
+  GrainSource source = GrainSource::made;
   double sd_dark = 0;    // standard deviation of luma where the image is black
   double sd_bright = 0;  // where it is white
   double sd_chroma = 0;  // of both chroma planes

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <thread>
 #include <vector>
 
@@ -137,6 +138,115 @@ TEST_CASE("where the footage shows through, its own noise and the added one make
     // The even image below has no noise. Rounding's 1/12 is left out by its share, and comes back whole.
     CHECK(variance_of(image.planes[0]) == doctest::Approx((16 - 1.0 / 12) * added + 1.0 / 12).epsilon(0.03));
   }
+}
+
+namespace {
+
+// Gray, of a code, with white noise and noise that is the same along each row.
+Frame noisy(double code, double sd, double sd_of_rows = 0) {
+  Frame image = even(sort_named("gray BT.709 full"), {320, 256}, 100);
+  cv::RNG random(11);
+  cv::Mat noise(image.planes[0].size(), CV_32FC1), rows(noise.rows, 1, CV_32FC1);
+  random.fill(noise, cv::RNG::NORMAL, 0, sd);
+  random.fill(rows, cv::RNG::NORMAL, 0, sd_of_rows);
+  cv::Mat(noise + cv::repeat(rows, 1, noise.cols) + code).convertTo(image.planes[0], CV_8U);
+  return image;
+}
+
+constexpr int kBorder = 30;
+
+// A flat surface of a code before all but the border, with noise.
+cv::Mat covered(const Frame& footage, double code, const GrainSettings& grain, float opacity = 1,
+                int further_margin_px = 0) {
+  Frame image = cloned(footage);
+  const cv::Rect place(kBorder, kBorder, 320 - 2 * kBorder, 256 - 2 * kBorder);
+  const auto light = static_cast<float>(linear_value(code / 255)) * opacity;
+  FloatPatch patch = blended_patch(image, even_layer(place, {light, light, light, opacity}), BlendChoice::display,
+                                   grain_margin_px(image.layout, grain) + further_margin_px, {});
+  add_grain(patch, grain, 3);
+  write_patch(patch, image);
+  return image.planes[0](place).clone();
+}
+
+// What OpenCV's Gaussian leaves of it.
+cv::Mat fine(const cv::Mat& codes) {
+  cv::Mat sharp, mean;
+  codes.convertTo(sharp, CV_32F);
+  cv::GaussianBlur(sharp, mean, {}, 2);
+  return sharp - mean;
+}
+
+GrainSettings of_footage(double sd_dark, double sd_bright) {
+  return {.source = GrainSource::footage, .sd_dark = sd_dark, .sd_bright = sd_bright};
+}
+
+}  // namespace
+
+TEST_CASE("the footage's own noise stays where an intruder hides it, rows and all") {
+  const Frame image = noisy(100, 2.5, 1.5);
+  const cv::Mat before = fine(image.planes[0])({kBorder, kBorder, 260, 196});
+  const double sd = std::hypot(2.5, 1.5);
+  for (const float opacity : {1.0F, 0.6F}) {
+    const cv::Mat after = covered(image, 180, of_footage(sd, sd), opacity);
+    CHECK(correlation_of(after, before) > (opacity < 1 ? 0.97 : 0.99));
+    CHECK(variance_of(after) == doctest::Approx(sd * sd).epsilon(0.1));
+    CHECK(cv::mean(after)[0] == doctest::Approx(100 + 80 * opacity).epsilon(0.003));
+  }
+  // Made noise has none of it.
+  CHECK(std::abs(correlation_of(covered(image, 180, {.sd_dark = sd, .sd_bright = sd}), before)) < 0.03);
+}
+
+TEST_CASE("the footage's own noise grows with brightness as the footage's does") {
+  // Variances: 1 + 15 / 4 at a quarter of white, 1 + 45 / 4 at three quarters.
+  const cv::Mat after = covered(noisy(255.0 / 4, std::sqrt(1 + 15.0 / 4)), 255 * 0.75, of_footage(1, 4));
+  CHECK(variance_of(after) == doctest::Approx(1 + 45.0 / 4).epsilon(0.1));
+}
+
+TEST_CASE(
+    "texture that an intruder hides does not show through it, and has noise of the footage's variance before it") {
+  Frame image = noisy(120, 2);
+  for (int y = 0; y < image.planes[0].rows; ++y)
+    for (int x = 0; x < image.planes[0].cols; ++x)
+      image.planes[0].at<uchar>(y, x) = cv::saturate_cast<uchar>(image.planes[0].at<uchar>(y, x) + (x / 3 % 2) * 80);
+  const cv::Mat texture = fine(image.planes[0])({kBorder, kBorder, 260, 196});
+  const cv::Mat after = covered(image, 60, of_footage(2, 2));
+  CHECK(variance_of(texture) > 1000);
+  CHECK(variance_of(after) == doctest::Approx(4).epsilon(0.1));
+  CHECK(std::abs(correlation_of(after, texture)) < 0.15);  // it adds a hundredth of the variance
+}
+
+TEST_CASE("before what is clipped noise is made") {
+  for (const int code : {0, 255}) {
+    Frame image = even(sort_named("gray BT.709 full"), {320, 256}, 100);
+    image.planes[0].setTo(code);
+    CHECK(variance_of(covered(image, 120, of_footage(3, 3))) == doctest::Approx(9).epsilon(0.05));
+  }
+}
+
+TEST_CASE("the footage's own noise does not depend on how much around the layer is looked at") {
+  const Frame image = noisy(100, 3);
+  CHECK(cv::norm(covered(image, 50, of_footage(3, 3)), covered(image, 50, of_footage(3, 3), 1, 9), cv::NORM_INF) == 0);
+  CHECK(grain_margin_px(PixelLayout::gray, of_footage(0, 0)) == 0);
+}
+
+TEST_CASE("the noise of red, green and blue that an intruder hides stays in each of them") {
+  Frame image = even(sort_named("RGB"), {320, 256}, 100);
+  cv::RNG random(5);
+  std::array<cv::Mat, 3> before;
+  const cv::Rect place(kBorder, kBorder, 260, 196);
+  for (std::size_t c = 0; c < 3; ++c) {
+    cv::Mat noise(image.planes[c].size(), CV_32FC1);
+    random.fill(noise, cv::RNG::NORMAL, 100, 3);
+    noise.convertTo(image.planes[c], CV_8U);
+    before[c] = fine(image.planes[c])(place).clone();
+  }
+  // Of three planes of sd 3: luma 3 |(0.2126, 0.7152, 0.0722)|, and the differences from it.
+  const GrainSettings grain{.source = GrainSource::footage, .sd_dark = 2.25, .sd_bright = 2.25, .sd_chroma = 2};
+  FloatPatch patch = blended_patch(image, even_layer(place, {0.5F, 0.5F, 0.5F, 1}), BlendChoice::display,
+                                   grain_margin_px(image.layout, grain), {});
+  add_grain(patch, grain, 3);
+  write_patch(patch, image);
+  for (std::size_t c = 0; c < 3; ++c) CHECK(correlation_of(image.planes[c](place), before[c]) > 0.9);
 }
 
 TEST_CASE("noise of red, green and blue is that of luma and of its two colour differences") {

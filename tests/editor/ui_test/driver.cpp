@@ -189,13 +189,21 @@ int EditorDriver::exit_status() {
   return exit_status_;
 }
 
+std::shared_ptr<const nlohmann::json> EditorDriver::look() const {
+  std::string text = read(probe_);
+  if (state_ && text == read_) return state_;
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  state_ = std::make_shared<nlohmann::json>(json.is_object() ? std::move(json) : nlohmann::json::object());
+  read_ = std::move(text);
+  return state_;
+}
+
 nlohmann::json EditorDriver::state() const {
-  const nlohmann::json json = nlohmann::json::parse(read(probe_), nullptr, false);
-  return json.is_object() ? json : nlohmann::json::object();
+  return *look();
 }
 
 bool EditorDriver::has_place(const std::string& name) const {
-  return shows(state(), name);
+  return shows(*look(), name);
 }
 
 ScreenPlace EditorDriver::place(const std::string& name) {
@@ -210,7 +218,7 @@ ScreenPlace EditorDriver::place(const std::string& name) {
 
 void EditorDriver::wait_for(const std::string& what, const std::function<bool(const nlohmann::json&)>& is_so) {
   const Clock::time_point end = after(kPatience_s);
-  while (!is_so(state())) {
+  while (!is_so(*look())) {
     if (!running())
       throw std::runtime_error("the editor ended with " + std::to_string(exit_status_) + " while waiting for " + what +
                                ": " + read(home_ / "editor.log"));
@@ -230,7 +238,7 @@ void EditorDriver::settle() {
 
 void EditorDriver::wait_until_seen(const std::string& what, const std::function<bool(const nlohmann::json&)>& is_so) {
   const Clock::time_point end = after(kPatience_s);
-  while (!is_so(state()) && running()) {
+  while (!is_so(*look()) && running()) {
     if (Clock::now() > end) throw std::runtime_error("the editor does not see " + what + "; " + state().dump());
     rest(kLook_s);
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -84,6 +85,7 @@ class EditorDriver {
   void screenshot(const std::filesystem::path& file, bool with_mouse = false) const;  // PNG
 
  private:
+  [[nodiscard]] std::shared_ptr<const nlohmann::json> look() const;  // state()
   // Those that do not wait for the result: one update has processed the event.
   void point_at(double x, double y);
   void press(int button);
@@ -94,6 +96,8 @@ class EditorDriver {
 
   std::filesystem::path home_;
   std::filesystem::path probe_;
+  mutable std::string read_;  // of the probe, whose state this is: parsed when it has changed
+  mutable std::shared_ptr<const nlohmann::json> state_;
   std::string display_;
   int width_px_;
   int height_px_;
