@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -53,9 +54,13 @@ MaskCover cover_of(const cv::Mat& mask) {
   double shown = 0;  // samples
   for (int first = 0; first < kApart; ++first)
     for (int y = first; y < mask.rows; y += kApart) {
-      const cv::Mat row = mask.row(y);
-      shown += mask.cols - cv::countNonZero(row >= kOccludingOpacity);
-      cover.hides_any = cover.hides_any || cv::countNonZero(row) > 0;
+      int shown_of_row = 0, hides_of_row = 0;
+      for (const float opacity : std::span(mask.ptr<float>(y), static_cast<std::size_t>(mask.cols))) {
+        shown_of_row += opacity >= kOccludingOpacity ? 0 : 1;
+        hides_of_row += opacity != 0 ? 1 : 0;
+      }
+      shown += shown_of_row;
+      cover.hides_any = cover.hides_any || hides_of_row > 0;
       if (cover.hides_any && shown >= (1 - kOccludesAll) * total) return cover;
     }
   const double share = 1 - shown / total;
