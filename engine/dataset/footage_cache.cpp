@@ -182,10 +182,23 @@ std::optional<Visibility> VideoVisibility::visibility_of(const Project& project,
   return estimated_visibilities(*scene, frames).front();
 }
 
+bool VideoVisibility::last_differs_by_a_flight(const Project& project) {
+  if (!last_ || project.intruders.empty() || last_->project.intruders.size() != project.intruders.size()) return false;
+  last_->project.intruders.back().trajectory = project.intruders.back().trajectory;
+  if (last_->project != project) return false;
+  Result<Trajectory, Problem> flight = scene_trajectory(project, project.intruders.size() - 1, last_->scene);
+  if (flight) last_->scene.intruders.back().trajectory = *std::move(flight);
+  return flight.has_value();
+}
+
 std::optional<VisibilityEstimate> VideoVisibility::last_intruder_at(const Project& project, int frame) {
-  const std::optional<Scene> scene = scene_of(project);
-  if (!scene || scene->intruders.empty()) return std::nullopt;
-  return VisibilityEstimator(*scene).at(static_cast<int>(scene->intruders.size()) - 1, frame);
+  if (!last_differs_by_a_flight(project)) {
+    last_.reset();
+    std::optional<Scene> scene = scene_of(project);
+    if (!scene || scene->intruders.empty()) return std::nullopt;
+    last_ = Opened{project, *std::move(scene)};
+  }
+  return VisibilityEstimator(last_->scene).at(static_cast<int>(project.intruders.size()) - 1, frame);
 }
 
 Result<void> VideoVisibility::look_for_sky(const FootageSettings& footage, const std::set<int>& frames,

@@ -53,7 +53,8 @@ class VideoVisibility {
   // names cannot be opened.
   [[nodiscard]] std::optional<Visibility> visibility_of(const Project& project, int frames);
 
-  // What is known of the project's last intruder in a frame of the footage. None as above.
+  // What is known of the project's last intruder in a frame of the footage. None as above. Soon told where nothing but
+  // this intruder's flight differs from the project that was asked for before.
   [[nodiscard]] std::optional<VisibilityEstimate> last_intruder_at(const Project& project, int frame);
 
   // Finds the sky in frames of footage (horizon/sky_map.h), which are decoded. Errors as FrameSource::read();
@@ -74,9 +75,15 @@ class VideoVisibility {
   [[nodiscard]] std::optional<Scene> scene_of(const Project& project);
 
  private:
+  struct Opened {
+    Project project;
+    Scene scene;
+  };
   [[nodiscard]] std::optional<FootageShape> shape_of_footage(const FootageSettings& footage);
+  [[nodiscard]] bool last_differs_by_a_flight(const Project& project);  // then last_ is made to have it
 
   SceneFiles files_;
+  std::optional<Opened> last_;                                // that was asked for by last_intruder_at()
   std::map<FootageKey, std::optional<FootageShape>> shapes_;  // by what decides its frames; none: it cannot be opened
   struct Sky {
     SkyMap map;
