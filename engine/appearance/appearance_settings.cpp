@@ -165,6 +165,7 @@ std::vector<AppearanceQuantity> quantities_of(const Appearance& appearance) {
   if (appearance.levels) {
     list.push_back({"sky's code", "codes", appearance.levels->sky, "appearance.thermal.sky"});
     if (appearance.levels->ground.is_known) list.push_back({"ground's code", "codes", appearance.levels->ground, ""});
+    list.push_back({"noise of the sky", "codes", appearance.levels->noise, ""});  // sd_dark and sd_bright
     list.push_back({"halo", "", appearance.levels->halo, "appearance.thermal.halo"});
     list.push_back({"halo's radius", "px", appearance.levels->halo_px, "appearance.thermal.halo_px"});
   }
@@ -232,7 +233,7 @@ void keep_thermal(const Project& before, const Appearance& appearance, Project& 
   if (!appearance.levels || !appearance.levels->sky.is_known) thermal.sky = stated.sky;
   if (!appearance.levels || !appearance.levels->halo.is_known) thermal.halo = stated.halo;
   if (!appearance.levels || !appearance.levels->halo_px.is_known) thermal.halo_px = stated.halo_px;
-  even_out_noise(project.appearance);
+  even_out_noise(project.appearance, appearance.levels ? appearance.levels->noise : Estimate());
   if (appearance.point_spread.sigma_px.is_known) return;
   project.appearance.psf_sigma_px = before.appearance.psf_sigma_px;
   project.appearance.sharpening = before.appearance.sharpening;

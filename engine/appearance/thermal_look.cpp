@@ -19,14 +19,17 @@ namespace {
 constexpr double kMinShare = 0.08, kMaxShare = 0.9;  // of sky: beyond them sky or ground is not told from the other
 constexpr double kBrightGround = 0.75;  // quantile of the ground: dark things and the camera's halo are left out
 
-// 1.4826 times the median deviation from the median, as of a normal distribution, and the deviation of rounding.
-Estimate level_of(const std::vector<double>& codes, int frames, double otherwise, const char* what) {
+constexpr double kRounding_code2 = 1.0 / 12;  // variance
+
+// 1.4826 times the median deviation from the median, as of a normal distribution, and what else is stated.
+Estimate level_of(const std::vector<double>& codes, int frames, double otherwise, const char* what,
+                  double variance = kRounding_code2) {
   if (codes.empty() || 2 * static_cast<int>(codes.size()) < frames)
     return {.value = otherwise, .why = std::string("most frames show no ") + what};
   const double middle = median(codes);
   std::vector<double> off;
   for (const double code : codes) off.push_back(std::abs(code - middle));
-  return {.value = middle, .sd = std::hypot(1.4826 * median(off), std::sqrt(1.0 / 12)), .is_known = true};
+  return {.value = middle, .sd = std::hypot(1.4826 * median(off), std::sqrt(variance)), .is_known = true};
 }
 
 // In widths of the image, but for codes.
@@ -107,6 +110,26 @@ Estimate halo_of(const std::vector<double>& found, int frames, double otherwise)
   return estimate;
 }
 
+// Variance of what the sky has beyond the mean of 7 x 7 pixels, less that of rounding, square codes: the median over
+// squares of that size, which passes over targets and the edges of clouds.
+std::optional<double> sky_noise(const Frame& frame, const SkyMap& sky, double scale, const cv::Mat& own_body) {
+  constexpr int kSide_px = 7, kApart_px = 4;
+  constexpr std::size_t kMinSquares = 200;
+  constexpr double kLeft = 1 - 1.0 / (kSide_px * kSide_px);
+  cv::Mat luma, mean, squares;
+  frame.planes[frame.layout == PixelLayout::rgb ? 1 : 0].convertTo(luma, CV_32F,
+                                                                   1.0 / codes_per_8_bit_step(frame.bit_depth));
+  cv::blur(luma, mean, {kSide_px, kSide_px});
+  cv::blur((luma - mean).mul(luma - mean), squares, {kSide_px, kSide_px});
+  std::vector<double> variances;
+  for (int y = kSide_px; y < luma.rows - kSide_px; y += kApart_px)
+    for (int x = kSide_px; x < luma.cols - kSide_px; x += kApart_px)
+      if (sky.is_sky(x / scale, y / scale) && !is_own_body(own_body, x, y))
+        variances.push_back(squares.at<float>(y, x));
+  if (variances.size() < kMinSquares) return std::nullopt;
+  return std::max(median(std::move(variances)) / kLeft - kRounding_code2, 0.0);
+}
+
 // A frame's display codes on a reduced grid, and which of them the own body hides.
 struct DisplayCodes {
   ReducedLuma reduced;
@@ -121,9 +144,8 @@ DisplayCodes display_codes(const Frame& frame, const cv::Mat& own_body) {
   return codes;
 }
 
-SkyAndGround sky_and_ground_in(const DisplayCodes& codes, const cv::Mat& own_body) {
+SkyAndGround sky_and_ground_in(const DisplayCodes& codes, const SkyMap& map) {
   const cv::Mat& luma = codes.reduced.luma;
-  const SkyMap map = sky_map_of(luma, own_body);
   std::vector<double> sky, ground, all;
   for (int y = 0; y < luma.rows; ++y)
     for (int x = 0; x < luma.cols; ++x) {
@@ -143,16 +165,21 @@ SkyAndGround sky_and_ground_in(const DisplayCodes& codes, const cv::Mat& own_bod
 }  // namespace
 
 SkyAndGround sky_and_ground_of(const Frame& frame, const cv::Mat& own_body) {
-  return sky_and_ground_in(display_codes(frame, own_body), own_body);
+  const DisplayCodes codes = display_codes(frame, own_body);
+  return sky_and_ground_in(codes, sky_map_of(codes.reduced.luma, own_body));
 }
 
 void ThermalLevels::add(const Frame& frame, const cv::Mat& own_body) {
   if (frame.planes[0].empty()) return;
   const DisplayCodes codes = display_codes(frame, own_body);
-  const SkyAndGround found = sky_and_ground_in(codes, own_body);
+  const SkyMap sky = sky_map_of(codes.reduced.luma, own_body);
+  const SkyAndGround found = sky_and_ground_in(codes, sky);
   if (found.sky) skies_.push_back(*found.sky);
   if (found.ground) grounds_.push_back(*found.ground);
   ++frames_;
+  if (found.sky)
+    if (const std::optional<double> noise = sky_noise(frame, sky, codes.reduced.scale, own_body))
+      noises_.push_back(std::sqrt(*noise));
   const SkyProfile profile = sky_profile(codes.reduced.luma, codes.hidden);
   const std::optional<Halo> halo = fitted_halo(profile.codes, codes.reduced.luma.cols);
   if (!halo) return;
@@ -165,14 +192,16 @@ LevelsEstimate ThermalLevels::finish() const {
   return {.sky = level_of(skies_, frames_, ThermalSettings{}.sky, "sky"),
           .ground = level_of(grounds_, frames_, 0, "ground"),
           .halo = halo_of(halos_, frames_, ThermalSettings{}.halo),
-          .halo_px = halo_of(halos_px_, frames_, ThermalSettings{}.halo_px)};
+          .halo_px = halo_of(halos_px_, frames_, ThermalSettings{}.halo_px),
+          .noise = level_of(noises_, frames_, 0, "sky", 0)};
 }
 
-void even_out_noise(AppearanceSettings& appearance) {
+void even_out_noise(AppearanceSettings& appearance, const Estimate& noise_of_sky) {
   GrainSettings& grain = appearance.grain;
   const double dark = grain.sd_dark * grain.sd_dark, bright = grain.sd_bright * grain.sd_bright;
   const double at_sky = dark + std::clamp(appearance.thermal.sky / 255, 0.0, 1.0) * (bright - dark);
-  grain.sd_dark = grain.sd_bright = std::round(1000 * std::sqrt(at_sky)) / 1000;
+  const double sd = noise_of_sky.is_known ? noise_of_sky.value : std::sqrt(at_sky);
+  grain.sd_dark = grain.sd_bright = std::round(1000 * sd) / 1000;
 }
 
 }  // namespace sigs

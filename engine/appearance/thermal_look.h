@@ -33,6 +33,7 @@ struct LevelsEstimate {
   Estimate sky;
   Estimate ground;         // codes; neither is known where most frames do not show it
   Estimate halo, halo_px;  // ThermalSettings::halo, halo_px; known where three frames and a third of all show them
+  Estimate noise;          // standard deviation of the sky's, 8-bit codes of luma, what is fixed to the sensor included
 };
 class ThermalLevels {
  public:
@@ -40,12 +41,13 @@ class ThermalLevels {
   [[nodiscard]] LevelsEstimate finish() const;
 
  private:
-  std::vector<double> skies_, grounds_, halos_, halos_px_;
+  std::vector<double> skies_, grounds_, halos_, halos_px_, noises_;
   int frames_ = 0;
 };
 
-// Makes the noise the same from black to white, as it is at the sky's code, by which it was mostly seen: that of a
-// thermal sensor does not depend on what it looks at, and what lies between the sky and white is not enough to go by.
-void even_out_noise(AppearanceSettings& appearance);
+// Makes the noise the same from black to white, since that of a thermal sensor does not depend on what it looks at: the
+// sky's, where it is known, else as it is at the sky's code. The sky is smooth to such a camera, so that what it has of
+// detail is noise, also where it does not change from frame to frame, as what is fixed to the sensor.
+void even_out_noise(AppearanceSettings& appearance, const Estimate& noise_of_sky);
 
 }  // namespace sigs

@@ -192,7 +192,7 @@ FirstProjectNote set_thermal(const Brightness& seen, int width_px, Project& proj
   const auto rounded = [](double value, double parts) { return std::round(value * parts) / parts; };
   project.appearance.thermal.halo_px =
       rounded(levels.halo_px.is_known ? levels.halo_px.value : kHaloOfWidth * width_px, 10);
-  even_out_noise(project.appearance);
+  even_out_noise(project.appearance, levels.noise);
   if (levels.halo.is_known) project.appearance.thermal.halo = rounded(levels.halo.value, 100);
   FirstProjectNote note{.field = "footage.spectrum", .is_guess = true};
   note.text = fmt::format(

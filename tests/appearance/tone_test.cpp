@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
@@ -153,8 +154,40 @@ TEST_CASE("codes of sky and ground of a thermal camera are found, without what a
       REQUIRE(found.ground.is_known);
       CHECK(found.ground.value > sky + 45);
       CHECK(found.ground.value < sky + 75);
+      REQUIRE(found.noise.is_known);
+      CHECK(found.noise.value == doctest::Approx(3).epsilon(0.05));
     }
   }
+}
+
+TEST_CASE("noise of a thermal sky that is fixed to the sensor is found, beside targets and in ten bits") {
+  for (const int step : {1, 4}) {
+    ThermalLevels levels;
+    const cv::Mat fixed = thermal(100, 150, 3);  // every frame has this noise of 3 codes
+    for (int i = 0; i < 5; ++i) {
+      cv::Mat codes = fixed.clone();
+      codes(cv::Rect(20 + 30 * i, 40, 30, 20)).setTo(250);
+      Frame frame = gray_frame(codes);
+      if (step == 4) {
+        frame.bit_depth = 10;
+        codes.convertTo(frame.planes[0], CV_16U, 4);
+      }
+      levels.add(frame);
+    }
+    const Estimate noise = levels.finish().noise;
+    REQUIRE(noise.is_known);
+    CHECK(noise.value == doctest::Approx(3).epsilon(0.05));
+    AppearanceSettings appearance;
+    even_out_noise(appearance, noise);
+    CHECK(appearance.grain.sd_dark == doctest::Approx(noise.value).epsilon(0.001));
+    CHECK(appearance.grain.sd_bright == appearance.grain.sd_dark);
+  }
+  AppearanceSettings seen;  // the sky does not tell: what was found at its code stays
+  seen.grain.sd_dark = 1;
+  seen.grain.sd_bright = 3;
+  seen.thermal.sky = 255 / 2.0;
+  even_out_noise(seen, {});
+  CHECK(seen.grain.sd_dark == doctest::Approx(std::sqrt(5.0)).epsilon(0.001));
 }
 
 TEST_CASE("the halo of a thermal camera is found by how the sky darkens above warm ground") {
