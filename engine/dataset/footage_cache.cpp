@@ -187,8 +187,9 @@ bool VideoVisibility::last_differs_by_a_flight(const Project& project) {
   last_->project.intruders.back().trajectory = project.intruders.back().trajectory;
   if (last_->project != project) return false;
   Result<Trajectory, Problem> flight = scene_trajectory(project, project.intruders.size() - 1, last_->scene);
-  if (flight) last_->scene.intruders.back().trajectory = *std::move(flight);
-  return flight.has_value();
+  if (!flight) return false;
+  last_->scene.intruders.back().trajectory = *std::move(flight);
+  return true;
 }
 
 std::optional<VisibilityEstimate> VideoVisibility::last_intruder_at(const Project& project, int frame) {
