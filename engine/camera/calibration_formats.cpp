@@ -24,6 +24,7 @@
 
 #include "base/nesting.h"
 #include "base/text.h"
+#include "base/threads.h"
 
 namespace sigs::calibration {
 namespace {
@@ -156,6 +157,7 @@ Result<Fields> plain_yaml_fields(const std::string& text, const std::string& fil
   } catch (const YAML::Exception& error) {
     return fail(file_name, fmt::format("line {}: {}", error.mark.line + 1, error.msg));
   } catch (const std::exception& error) {
+    if (is_out_of_memory()) return fail(thrown_error(file_name));
     return fail(file_name, fmt::format("not readable as YAML: {}", error.what()));
   }
 }
@@ -212,8 +214,10 @@ Result<Fields> opencv_xml_fields(const std::string& text, const std::string& fil
     if (!storage.isOpened()) return fail(file_name, "not an OpenCV calibration file");
     return fields_of(storage.root());
   } catch (const cv::Exception& error) {
+    if (is_out_of_memory()) return fail(thrown_error(file_name));
     return fail(file_name, "not readable as an OpenCV file: " + reason(error));
   } catch (const std::exception& error) {
+    if (is_out_of_memory()) return fail(thrown_error(file_name));
     return fail(file_name, fmt::format("not readable as an OpenCV file: {}", error.what()));
   }
 }
@@ -346,6 +350,7 @@ Result<Fields> json_fields(const std::string& text, const std::string& file_name
     const auto line = 1 + std::count(text.begin(), text.begin() + std::min(error.byte, text.size()), '\n');
     return fail(file_name, fmt::format("line {}: not readable as JSON", line));
   } catch (const std::exception& error) {
+    if (is_out_of_memory()) return fail(thrown_error(file_name));
     return fail(file_name, fmt::format("not readable as JSON: {}", error.what()));
   }
 }
