@@ -218,7 +218,6 @@ GlareFound Glare::finish() const {
     all.push_back(&points_[i]);
     halves[i % 2].push_back(&points_[i]);
   }
-  found.points_used = static_cast<int>(all.size());
   const Fit fit = fitted(all);
   if (fit.off_without < fit.off + kMinLikelihood) return unknown("bright points have no glare that can be told");
   const Fit one = fitted(halves[0]), other = fitted(halves[1]);

@@ -12,7 +12,6 @@ namespace sigs {
 struct GlareFound {
   Estimate share;     // settings appearance.glare, .glare_px
   Estimate sigma_px;  // as wide as it is
-  int points_used = 0;
 };
 
 // How widely the lens of footage by night spreads light, by its bright points: lamps far away.

@@ -231,28 +231,40 @@ cv::Mat noise_over(const PatchPlane& plane, const cv::Rect& part, const cv::Mat&
   return change;
 }
 
-constexpr double kNoiseMean_px = 2;   // sigma of the Gaussian that noise is told by
-constexpr int kNoiseVariance_px = 7;  // side of the square that its variance is taken over
-constexpr double kTexture = 2;        // times the noise's variance: beyond it there is texture
+constexpr double kNoiseMean_px = 2;    // sigma of the Gaussian that noise is told by
+constexpr int kNoiseVariance_px = 7;   // side of the square that its variance is taken over
+constexpr double kTexture = 2;         // times the noise's variance: beyond it there is texture
+constexpr double kFaint_code = 0.025;  // of 8 bits: a tenth of a code of 10 bits, which rounding takes away
+constexpr int kNoiseReach_px = 1 + kNoiseVariance_px / 2;  // and that of the Gaussian
+
+// Whether noise of this standard deviation is looked for in the footage.
+bool is_felt(const GrainSettings& grain, double sd_code) {
+  return grain.source == GrainSource::footage && sd_code >= kFaint_code;
+}
 
 // Takes what the layer hides of the footage's own noise in place of what was made, as far as it is noise.
 //   clipped  codes at and beyond which nothing is known
 template <class Variance>
 void use_hidden_noise(const PatchPlane& plane, const cv::Rect& part, const cv::Vec2d& clipped, const Variance& variance,
                       cv::Mat& change) {
-  const cv::Mat kernel = sampled_gaussian(kNoiseMean_px, blur_margin_px(kNoiseMean_px));
+  const int margin_px = blur_margin_px(kNoiseMean_px);
+  const cv::Mat kernel = sampled_gaussian(kNoiseMean_px, margin_px);
+  const cv::Rect seen = grown(part, margin_px + kNoiseReach_px) & cv::Rect({0, 0}, plane.before.size());
+  const cv::Mat before = plane.before(seen);
   cv::Mat mean, squares;
-  cv::sepFilter2D(plane.before, mean, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_REFLECT_101);
-  const cv::Mat noise = plane.before - mean;
+  cv::sepFilter2D(before, mean, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_REFLECT_101);
+  const cv::Mat noise = before - mean;
   cv::boxFilter(noise.mul(noise), squares, CV_32F, {kNoiseVariance_px, kNoiseVariance_px}, {-1, -1}, true,
                 cv::BORDER_REFLECT_101);
   for (int y = part.y; y < part.y + part.height; ++y)
     for (int x = part.x; x < part.x + part.width; ++x) {
-      const float opacity = plane.opacity.at<float>(y, x), around = mean.at<float>(y, x);
+      const cv::Point in_seen = cv::Point(x, y) - seen.tl();
+      const float opacity = plane.opacity.at<float>(y, x), around = mean.at<float>(in_seen);
       const double there = variance(around);
       if (!(opacity > 0) || !(there > 0) || around <= clipped[0] || around >= clipped[1]) continue;
-      const double weight = std::min(1.0, kTexture * there / std::max(double{squares.at<float>(y, x)}, 1e-9));
-      const double hidden = opacity * noise.at<float>(y, x) * std::sqrt(variance(plane.after.at<float>(y, x)) / there);
+      const double weight = std::min(1.0, kTexture * there / std::max(double{squares.at<float>(in_seen)}, 1e-9));
+      const double hidden =
+          opacity * noise.at<float>(in_seen) * std::sqrt(variance(plane.after.at<float>(y, x)) / there);
       float& sample = change.at<float>(y, x);
       sample = static_cast<float>(weight * hidden + std::sqrt(1 - weight * weight) * sample);
     }
@@ -261,8 +273,9 @@ void use_hidden_noise(const PatchPlane& plane, const cv::Rect& part, const cv::V
 // Noise for one plane, by the luma that its samples are worth, or by none.
 class PlaneGrain {
  public:
-  PlaneGrain(const NoiseSource& source, std::int64_t frame, const cv::Vec2d& black_and_white)
-      : source_(source), frame_(frame), black_and_white_(black_and_white) {}
+  //   code  of 8 bits, in those of the patch
+  PlaneGrain(const NoiseSource& source, std::int64_t frame, const cv::Vec2d& black_and_white, double code)
+      : source_(source), frame_(frame), black_and_white_(black_and_white), code_(code) {}
 
   // What is to be added to the plane's samples; empty: nothing. sd at black and at white, in code values.
   [[nodiscard]] cv::Mat change_of(const PatchPlane& plane, int index, double sd_black, double sd_white) {
@@ -277,10 +290,10 @@ class PlaneGrain {
       return dark + std::clamp(luma, 0.0, 1.0) * (bright - dark);
     };
     cv::Mat change = noise_over(plane, part, noise, variance);
-    if (source_.grain.source == GrainSource::footage) {
+    if (is_felt(source_.grain, std::max(sd_black, sd_white) / code_)) {
       constexpr double kAnyCode = 1e9;
-      const double one = (black_and_white_[1] - black_and_white_[0]) / 219;
-      const cv::Vec2d clipped = index == 0 ? black_and_white_ + cv::Vec2d(one, -one) : cv::Vec2d(-kAnyCode, kAnyCode);
+      const cv::Vec2d clipped =
+          index == 0 ? black_and_white_ + cv::Vec2d(code_, -code_) : cv::Vec2d(-kAnyCode, kAnyCode);
       use_hidden_noise(plane, part, clipped, variance, change);
     }
     return change;
@@ -292,6 +305,7 @@ class PlaneGrain {
   const NoiseSource& source_;
   std::int64_t frame_;
   cv::Vec2d black_and_white_;
+  double code_;
   std::int64_t samples_ = 0;
 };
 
@@ -340,14 +354,15 @@ std::int64_t add_grain(FloatPatch& patch, const GrainSettings& grain, std::int64
   const double step = codes_per_8_bit_step(patch.bit_depth);
   const cv::Vec2d range = is_limited ? cv::Vec2d(16 * step, 235 * step) : cv::Vec2d(0, max_code(patch.bit_depth));
   const NoiseSource source{grain, intruder};
-  PlaneGrain noise(source, frame, range);
+  PlaneGrain noise(source, frame, range, step);
   const double sd_chroma = grain.sd_chroma * step;
   const cv::Mat of_luma =
       noise.change_of(is_rgb ? luma_of_rgb(patch) : patch.planes[0], 0, grain.sd_dark * step, grain.sd_bright * step);
   add_to(patch.planes[0], of_luma);
   if (patch.plane_count() > 1) {
-    const cv::Mat cb = noise.change_of(is_rgb ? chroma_of_rgb(patch, 2) : patch.planes[1], 1, sd_chroma, sd_chroma);
-    const cv::Mat cr = noise.change_of(is_rgb ? chroma_of_rgb(patch, 0) : patch.planes[2], 2, sd_chroma, sd_chroma);
+    const bool of_rgb = is_rgb && is_felt(grain, grain.sd_chroma);
+    const cv::Mat cb = noise.change_of(of_rgb ? chroma_of_rgb(patch, 2) : patch.planes[1], 1, sd_chroma, sd_chroma);
+    const cv::Mat cr = noise.change_of(of_rgb ? chroma_of_rgb(patch, 0) : patch.planes[2], 2, sd_chroma, sd_chroma);
     if (is_rgb) {
       add_chroma_to_rgb(patch, of_luma, cb, cr);
     } else {
@@ -359,9 +374,12 @@ std::int64_t add_grain(FloatPatch& patch, const GrainSettings& grain, std::int64
 }
 
 int grain_margin_px(PixelLayout layout, const GrainSettings& grain) {
-  if (grain.is_none() || grain.source == GrainSource::made) return 0;
-  const cv::Size step = layout == PixelLayout::gray ? cv::Size(1, 1) : chroma_step(layout);
-  return (blur_margin_px(kNoiseMean_px) + kNoiseVariance_px / 2 + 1) * std::max(step.width, step.height);
+  const int samples = blur_margin_px(kNoiseMean_px) + kNoiseReach_px;
+  if (layout != PixelLayout::gray && is_felt(grain, grain.sd_chroma)) {
+    const cv::Size step = chroma_step(layout);
+    return samples * std::max(step.width, step.height);
+  }
+  return is_felt(grain, std::max(grain.sd_dark, grain.sd_bright)) ? samples : 0;
 }
 
 }  // namespace sigs

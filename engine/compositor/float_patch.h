@@ -107,7 +107,7 @@ void blur_chroma(FloatPatch& patch, double sigma_samples);
 // so that what is fixed to the sensor stays and what the codec did to it is in it: r = before - Gaussian(before), times
 // opacity and the ratio of the standard deviations at the two brightnesses. Where r has more than twice the variance v
 // of the footage's noise, there is texture: r is weighted by w = 2 v / mean(r^2), and sqrt(1 - w^2) of noise that is
-// made is added. w is 0 where the footage is clipped.
+// made is added. w is 0 where the footage is clipped. Noise below a fortieth of an 8-bit code is not looked for.
 std::int64_t add_grain(FloatPatch& patch, const GrainSettings& grain, std::int64_t frame, int intruder = 0);
 
 // Pixels beyond the layer that are looked at for it.

@@ -65,7 +65,6 @@ TEST_CASE("the glare of a lens is found by lamps in the dark") {
   for (const Lamps& lamps :
        {Lamps{}, Lamps{.share = 0.15, .sigma_px = 4}, Lamps{.core_px = 1.2, .share = 0.1, .sigma_px = 10}}) {
     const GlareFound found = found_in(lamps);
-    CAPTURE(found.points_used);
     REQUIRE_MESSAGE(found.sigma_px.is_known, found.sigma_px.why);
     REQUIRE_MESSAGE(found.share.is_known, found.share.why);
     CHECK(found.sigma_px.value == doctest::Approx(lamps.sigma_px).epsilon(0.15));
