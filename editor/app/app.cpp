@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/app/app.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -142,7 +144,7 @@ App::App(Window& window, Settings settings, ProbeWriter probe)
 
 // What comes next has to see the edit that uses the mask: it is not saved either.
 void App::keep_mask_then(std::function<void()> next) {
-  own_body_.ask_keep(document_.project(), [this, next = std::move(next)] {
+  own_body_.ask_keep(document_, [this, next = std::move(next)] {
     take_edits();
     next();
   });
@@ -327,6 +329,14 @@ void App::count_updates() {
   counted_since_s_ = now_s_;
 }
 
+bool App::finish_typing() {
+  has_left_text_ = !has_left_text_ && ImGui::GetIO().WantTextInput;
+  if (!has_left_text_) return false;
+  ImGui::ClearActiveID();
+  redraw_updates_left_ = kUpdatesToSettle;
+  return true;
+}
+
 void App::update(double now_s, bool something_happened) {
   now_s_ = now_s;
   redraw_updates_left_ = something_happened ? kUpdatesToSettle : std::max(0, redraw_updates_left_ - 1);
@@ -353,16 +363,19 @@ void App::update(double now_s, bool something_happened) {
                        .released_keys = window_.released_keys(),
                        .has_input_left = window_.has_input_left()});
   take_edits();
-  for (const std::filesystem::path& path : window_.take_dropped()) shell_.handle_dropped(path, edits_);
-  take_edits();
+  const std::uint64_t document = document_.first_number();
+  if (!(window_.wants_to_close() || window_.has_dropped()) || !finish_typing()) {
+    for (const std::filesystem::path& path : window_.take_dropped()) shell_.handle_dropped(path, edits_);
+    take_edits();
+  }
   for (const Request& request : edits_.take_requests()) handle(request);
-  if (window_.wants_to_close()) {
+  if (window_.wants_to_close() && !has_left_text_) {
     window_.refuse_to_close();
     shell_.handle(Quit{});
   }
-  const std::uint64_t document = document_.first_number();
   shell_.update(now_s_);
   if (document_.first_number() != document) {
+    ImGui::ClearActiveID();  // what is being typed belongs to the other project
     playback_.pause();
     own_body_.forget();
     ego_motion_.forget();

@@ -120,6 +120,9 @@ class App {
   [[nodiscard]] PreviewOutput active_of(const std::vector<PreviewOutput>& rig) const;
   // Moves the playhead while it plays.
   void advance(const PreviewOutput& shown);
+  // Takes the keyboard from a text that is being typed, which becomes an edit in the next update: true. False where
+  // none is, or where it was taken in the update before.
+  [[nodiscard]] bool finish_typing();
   // Lets the document apply what is queued; playing goes on from where the playhead was moved to.
   void take_edits();
   // Asks to save the own-body mask; next: once the edit that uses it is applied.
@@ -167,6 +170,7 @@ class App {
   double updates_per_second_ = 0;
   // Updates that follow at once: ImGui needs some to show all that an event leads to.
   int redraw_updates_left_ = 0;
+  bool has_left_text_ = false;  // finish_typing() took the keyboard in the update before
   bool done_ = false;
 };
 

@@ -258,6 +258,10 @@ void Window::set_title(const std::string& title) {
   glfwSetWindowTitle(state_->window, title.c_str());
 }
 
+bool Window::has_dropped() const {
+  return !state_->incoming.dropped.empty();
+}
+
 std::vector<std::filesystem::path> Window::take_dropped() {
   return std::exchange(state_->incoming.dropped, {});
 }

@@ -116,6 +116,7 @@ class Window {
   [[nodiscard]] bool wants_to_close() const;
   void refuse_to_close();
   void set_title(const std::string& title);
+  [[nodiscard]] bool has_dropped() const;
   // Files that were dropped onto the window since the last call.
   [[nodiscard]] std::vector<std::filesystem::path> take_dropped();
 

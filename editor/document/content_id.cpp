@@ -9,6 +9,7 @@
 
 #include "camera/camera.h"
 #include "project/json.h"
+#include "scene/opened_project.h"
 
 namespace sigs::editor {
 
@@ -74,7 +75,7 @@ void add(Digest& digest, const std::vector<WaypointSettings>& waypoints) {
   }
 }
 
-// Calls for each path that names a file to read.
+// Calls for each path that names a file to read, but those of models.
 template <class ProjectOrConst, class Call>
 void for_each_input(ProjectOrConst& project, const Call& call) {
   const auto call_for = [&call](auto& footage) {
@@ -93,22 +94,9 @@ void for_each_input(ProjectOrConst& project, const Call& call) {
   }
   call(project.camera.attitude_file);
   call(project.camera.track.file);
-  for (auto& intruder : project.intruders) call(intruder.model.file);
 }
 
 }  // namespace
-
-FileStamp stamp_of(const fs::path& path) {
-  FileStamp stamp{.path = path};
-  if (path.empty()) return stamp;
-  std::error_code code;
-  stamp.bytes = fs::file_size(path, code);
-  if (code) stamp.bytes = 0;
-  stamp.changed = fs::last_write_time(path, code);
-  stamp.exists = !code;
-  if (code) stamp.changed = {};
-  return stamp;
-}
 
 ContentId id_of(const FileStamp& stamp) {
   Digest digest;
@@ -145,6 +133,8 @@ ContentId content_id_of(const Project& project) {
     digest.add(path);
   });
   for (IntruderSettings& intruder : kept.intruders) {
+    intruder.model.file = whole_path(project, intruder.model.file);
+    digest.add(intruder.model.file);
     intruder.unknown_json.clear();
     // The text below has other bytes in place of what is no UTF-8.
     digest.add(intruder.name + '\n' + intruder.category);
@@ -156,12 +146,15 @@ ContentId content_id_of(const Project& project) {
   return digest.id();
 }
 
-ContentId input_files_id_of(const Project& project) {
+ContentId input_files_id_of(const Project& project, ModelStamps& models) {
   Digest digest;
   // Of one camera of a rig (rig.yaml#cam1) the file.
   for_each_input(project, [&](const std::string& path) {
     add(digest, stamp_of(calibration_name(whole_path(project, path)).file));
   });
+  add(digest, footage_stamp_of(project));
+  for (const IntruderSettings& intruder : project.intruders)
+    for (const FileStamp& stamp : models.of(whole_path(project, intruder.model.file))) add(digest, stamp);
   return digest.id();
 }
 
@@ -170,10 +163,6 @@ ContentId combined_id(const ContentId& content, const ContentId& input_files) {
   digest.add(content);
   digest.add(input_files);
   return digest.id();
-}
-
-FileStamp footage_stamp_of(const Project& project) {
-  return stamp_of(whole_path(project, project.footage.video));
 }
 
 }  // namespace sigs::editor

@@ -4,8 +4,9 @@
 #include <chrono>
 #include <compare>
 #include <cstdint>
-#include <filesystem>
 
+#include "base/file_stamp.h"
+#include "mesh/model_files.h"
 #include "project/project.h"
 
 namespace sigs::editor {
@@ -24,33 +25,19 @@ struct ContentId {
 // that this program does not know. Reads nothing from disk.
 [[nodiscard]] ContentId content_id_of(const Project& project);
 
-// Digest of the stamps of all files that a project names (footage, calibration, mask, attitude, flight log, models):
-// another one as soon as one of them appears, disappears or is written. Asks the file system.
-[[nodiscard]] ContentId input_files_id_of(const Project& project);
+// Digest of the stamps of all files that a project names (footage, calibration, mask, attitude, flight log, models with
+// their materials and textures): another one as soon as one of them appears, disappears or is written. Of images named
+// by a pattern it is their folder. Asks the file system.
+//   models  keeps which files belong to a model
+[[nodiscard]] ContentId input_files_id_of(const Project& project, ModelStamps& models);
 
 // Digest of both: images with equal ids are the same.
 [[nodiscard]] ContentId combined_id(const ContentId& content, const ContentId& input_files);
 
-// A file as it lies on disk at one moment. What was made from a file is out of date once its stamp is another one.
-struct FileStamp {
-  std::filesystem::path path;  // "": none is named
-  std::uintmax_t bytes = 0;
-  std::filesystem::file_time_type changed;
-  bool exists = false;
-
-  [[nodiscard]] bool operator==(const FileStamp&) const = default;
-};
-
 // How often files are looked at for changes from outside.
 inline constexpr std::chrono::milliseconds kFileCheckInterval(1000);
 
-// Stamp of a file; exists is false where it cannot be read or the path is empty. Asks the file system.
-[[nodiscard]] FileStamp stamp_of(const std::filesystem::path& path);
-
 // Digest of one stamp.
 [[nodiscard]] ContentId id_of(const FileStamp& stamp);
-
-// Stamp of the project's video, under its absolute path.
-[[nodiscard]] FileStamp footage_stamp_of(const Project& project);
 
 }  // namespace sigs::editor

@@ -10,8 +10,11 @@
 #include <utility>
 
 #include "base/input_file.h"
+#include "base/numbered_files.h"
 #include "base/paths.h"
+#include "camera/camera.h"
 #include "project/fields.h"
+#include "video/image_sequence.h"
 
 namespace sigs::editor {
 
@@ -26,6 +29,13 @@ fs::path normal(const fs::path& path) {
 bool is_file(const fs::path& path) {
   std::error_code code;
   return fs::is_regular_file(path, code);
+}
+
+// Whether what a field names is there. Footage may be a folder of images or a pattern of their names, a calibration the
+// camera of a rig ("rig.yaml#cam1").
+bool is_there(std::string_view field, const fs::path& place) {
+  if (field.ends_with("footage.video") && is_image_sequence(place)) return files_of_sequence(place).has_value();
+  return is_file(field.ends_with("footage.calibration") ? calibration_name(place).file : place);
 }
 
 // A folder that moved, at its old and its new place.
@@ -48,13 +58,13 @@ std::vector<Move> moves_of(const fs::path& from, const fs::path& to) {
   return moves;
 }
 
-fs::path place_after(const std::vector<Move>& moves, const fs::path& old_place) {
+fs::path place_after(const std::vector<Move>& moves, const MissingFile& missing) {
   for (const Move& move : moves) {
-    const fs::path candidate = (move.to / old_place.lexically_relative(move.from)).lexically_normal();
-    if (is_file(candidate)) return candidate;
+    const fs::path candidate = (move.to / missing.place.lexically_relative(move.from)).lexically_normal();
+    if (is_there(missing.field, candidate)) return candidate;
   }
-  const fs::path beside = moves.back().to / old_place.filename();
-  return is_file(beside) ? beside : fs::path();
+  const fs::path beside = moves.back().to / missing.place.filename();
+  return is_there(missing.field, beside) ? beside : fs::path();
 }
 
 using namespace std::string_view_literals;
@@ -151,7 +161,7 @@ std::vector<MissingFile> missing_files(const Project& project) {
     const std::string& path = *std::get<std::string*>(field.value);
     if (path.empty()) continue;
     const fs::path place = normal(resolved(project, path));
-    if (!is_file(place)) missing.push_back({field.key, path, place});
+    if (!is_there(field.key, place)) missing.push_back({field.key, path, place});
   }
   return missing;
 }
@@ -163,10 +173,19 @@ std::vector<Relinked> suggested_places(const std::vector<MissingFile>& missing, 
   std::vector<Relinked> suggested;
   for (const MissingFile& other : missing) {
     if (other.field == found.field) continue;
-    const fs::path place = other.place == found.place ? to : place_after(moves, other.place);
-    if (is_file(place)) suggested.push_back({other.field, place});
+    const fs::path place = other.place == found.place ? to : place_after(moves, other);
+    if (is_there(other.field, place)) suggested.push_back({other.field, place});
   }
   return suggested;
+}
+
+fs::path place_at(const MissingFile& missing, const fs::path& chosen) {
+  if (missing.field.ends_with("footage.calibration"))
+    if (const std::string camera = calibration_name(missing.place).camera; !camera.empty())
+      return fs::path(chosen) += "#" + camera;
+  const fs::path pattern = chosen.parent_path() / missing.place.filename();
+  const bool is_of_pattern = missing.field.ends_with("footage.video") && is_number_pattern(pattern);
+  return is_of_pattern && files_of_sequence(pattern) ? pattern : chosen;
 }
 
 void relink(Project& project, const std::vector<Relinked>& places) {

@@ -30,6 +30,10 @@ struct MissingFile {
 };
 [[nodiscard]] std::vector<MissingFile> missing_files(const Project& project);
 
+// What a field gets whose file was found: the file itself; of a rig's calibration the same camera of it, of a pattern
+// of images, one of which was chosen, the pattern in that folder.
+[[nodiscard]] std::filesystem::path place_at(const MissingFile& missing, const std::filesystem::path& chosen);
+
 // A field's file at another place.
 struct Relinked {
   std::string field;

@@ -84,7 +84,7 @@ std::optional<FileStamp> stamp_from(const Json& json, const fs::path& path) {
   return stamp;
 }
 
-std::string text_of_recovery(const Document& document, const fs::path& mask_file, bool mask_has_strokes) {
+std::string text_of_recovery(const Document& document, const fs::path& mask_file, const MaskToKeep& mask) {
   const Project& project = document.whole();
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   Json json;
@@ -95,7 +95,8 @@ std::string text_of_recovery(const Document& document, const fs::path& mask_file
   json["written_unix_s"] = std::chrono::duration_cast<std::chrono::seconds>(now).count();
   if (!mask_file.empty()) {
     json["mask"] = mask_file.filename().string();
-    json["mask_has_strokes"] = mask_has_strokes;
+    json["mask_has_strokes"] = mask.has_strokes;
+    json["mask_camera"] = mask.camera;
   }
   json["project"] = text_of(project);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -106,6 +107,7 @@ struct RecoveryContent {
   std::string project;
   fs::path mask_file;  // "": none
   bool mask_has_strokes = false;
+  std::size_t mask_camera = 0;
   std::optional<FileStamp> as_read;
 };
 
@@ -130,6 +132,8 @@ Result<RecoveryContent> read_recovery(const fs::path& file) {
   if (const fs::path mask = fs::path(text_at("mask")).filename(); !mask.empty())
     content.mask_file = file.parent_path() / mask;
   content.mask_has_strokes = json.value("mask_has_strokes", Json(false)) == Json(true);
+  if (const auto camera = json.find("mask_camera"); camera != json.end() && camera->is_number_unsigned())
+    content.mask_camera = camera->get<std::size_t>();
   content.head.has_mask = !content.mask_file.empty();
   return content;
 }
@@ -201,7 +205,7 @@ Result<void> Recovery::write(const Document& document, const MaskToKeep& mask) {
   if (const Result<void> held = hold_lock(); !held) return held;
   if (const Result<void> done = write_mask_of(mask); !done) return done;
   const fs::path mask_file = mask.state != 0 ? mask_of(file_) : fs::path();
-  const std::string text = text_of_recovery(document, mask_file, mask.has_strokes);
+  const std::string text = text_of_recovery(document, mask_file, mask);
   if (const Result<void> done = write_text(file_, text, true); !done) return done;
   remove_mask_other_than(mask_file);
   written_ = true;
@@ -285,7 +289,7 @@ Result<RecoveredProject> Recovery::take_over(const AbandonedProject& abandoned) 
   if (mask_file_.empty()) return recovered;
   Result<cv::Mat> mask = read_mask(mask_file_);
   if (mask)
-    recovered.mask = RecoveredMask{std::move(*mask), content->mask_has_strokes};
+    recovered.mask = RecoveredMask{std::move(*mask), content->mask_has_strokes, content->mask_camera};
   else
     recovered.mask_problem = mask.error().text();
   return recovered;

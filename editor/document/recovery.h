@@ -34,12 +34,14 @@ struct MaskToKeep {
   std::uint64_t state = 0;
   cv::Mat pixels;            // CV_8UC1
   bool has_strokes = false;  // as MaskPainting::has_strokes()
+  std::size_t camera = 0;    // of a rig, that it is for
   bool is_changing = false;  // in the middle of a stroke: it is kept when that is over
 };
 // A mask that recovery gave back.
 struct RecoveredMask {
   cv::Mat pixels;  // CV_8UC1
   bool has_strokes = false;
+  std::size_t camera = 0;
 };
 // An abandoned project that was taken over.
 struct RecoveredProject {

@@ -47,6 +47,14 @@ Result<EstimatedMotion> estimated_motion(const EgoMotionRequest& request, const 
 
 HorizonWatch::HorizonWatch(std::function<void()> wake) : job_(std::move(wake), found) {}
 
+// Of another project files of the same names may be others.
+FootageSettings HorizonWatch::with_absolute_paths(const Project& project) {
+  FootageSettings footage = project.footage;
+  for (std::string* const path : {&footage.video, &footage.timestamps, &footage.calibration, &footage.own_body_mask})
+    if (!path->empty()) *path = std::filesystem::absolute(resolved(project, *path)).lexically_normal().string();
+  return footage;
+}
+
 Result<SeenHorizons> HorizonWatch::found(const Request& request, const JobControl& control) {
   Result<FrameSource> footage = open_footage(*request.scene->project, control.cancel);
   if (!footage) return fail(footage.error());
@@ -56,7 +64,7 @@ Result<SeenHorizons> HorizonWatch::found(const Request& request, const JobContro
 void HorizonWatch::follow(const std::shared_ptr<const OpenedScene>& shown) {
   const bool can_be_looked_at = shown && shown->footage && shown->footage->video && shown->draft.problems.empty();
   if (!can_be_looked_at) return seen_.reset();
-  const FootageSettings& wanted = shown->project->footage;
+  const FootageSettings wanted = with_absolute_paths(*shown->project);
   if (asked_ != wanted || !shown->draft.scene.horizon_is_known) seen_.reset();
   if (!shown->draft.scene.horizon_is_known) return;
   if (job_.is_running()) {

@@ -88,9 +88,10 @@ class HorizonWatch {
     std::shared_ptr<const OpenedScene> scene;
   };
   [[nodiscard]] static Result<SeenHorizons> found(const Request& request, const JobControl& control);
+  [[nodiscard]] static FootageSettings with_absolute_paths(const Project& project);
 
   BackgroundJob<Request, SeenHorizons> job_;
-  FootageSettings asked_;  // for which it was begun
+  FootageSettings asked_;  // for which it was begun, with absolute paths
   std::shared_ptr<const SeenHorizons> seen_;
 };
 

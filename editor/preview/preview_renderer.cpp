@@ -298,7 +298,7 @@ class PreviewRenderer {
     const Revision& revision = snapshot.wanted->revision;
     const Clock::time_point now = Clock::now();
     if (revision.number == revision_ && now - files_checked_ < kFileCheckInterval) return;
-    const ContentId input_files = input_files_id_of(*revision.project);
+    const ContentId input_files = input_files_id_of(*revision.project, model_stamps_);
     content_ = combined_id(revision.content, input_files);
     input_files_ = input_files;
     footage_ = footage_id_of(revision.project);
@@ -339,6 +339,7 @@ class PreviewRenderer {
   // combined_id() of that revision and its files, and the footage among them.
   ContentId content_;
   ContentId input_files_;
+  ModelStamps model_stamps_;
   FootageId footage_;
 
   // The scene that is open, and the id of the footage that it was opened with.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "camera/camera.h"
 #include "editor/widgets/dialog.h"
 
 namespace sigs::editor {
@@ -192,11 +193,15 @@ void RelinkDialog::found(const MissingFile& missing, const fs::path& place) {
 }
 
 void RelinkDialog::browse(const ViewContext& context, const MissingFile& missing) {
-  const std::string extension = missing.place.extension().string();
-  context.edits.ask(AskForFile{.title = fmt::format("Where is {}?", missing.place.filename().string()),
-                               .extensions = extension.empty() ? std::vector<std::string>() : std::vector{extension},
-                               .start = missing.place.parent_path(),
-                               .chosen = [this, missing](const fs::path& place) { found(missing, place); }});
+  const bool is_calibration = missing.field.ends_with("footage.calibration");
+  const fs::path file = is_calibration ? calibration_name(missing.place).file : missing.place;
+  const std::string extension = file.extension().string();
+  context.edits.ask(
+      AskForFile{.title = fmt::format("Where is {}?", file.filename().string()),
+                 .extensions = extension.empty() ? std::vector<std::string>() : std::vector{extension},
+                 .of_folder = extension.empty() && missing.field.ends_with("footage.video"),
+                 .start = missing.place.parent_path(),
+                 .chosen = [this, missing](const fs::path& place) { found(missing, place_at(missing, place)); }});
 }
 
 void RelinkDialog::apply(const ViewContext& context) const {

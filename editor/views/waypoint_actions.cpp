@@ -35,6 +35,11 @@ glm::dvec3 ahead_of_camera(const ViewContext& context, int frame, double forward
   return glm::round((camera.translation_m + forward_m * ahead + right_m * right) * 100.0) / 100.0;
 }
 
+bool is_range_known(const ViewContext& context) {
+  const auto& scene = context.shown.scene;
+  return context.project().footage.last_frame || (scene && scene->footage && scene->footage->video);
+}
+
 }  // namespace
 
 std::optional<int> current_intruder(const ViewContext& context) {
@@ -76,6 +81,17 @@ std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder
                          context.document.last_frame());
 }
 
+bool can_fix_frames(const ViewContext& context, int intruder) {
+  const std::vector<WaypointSettings>& waypoints = plan_of(context, intruder).waypoints;
+  if (is_range_known(context) || std::ranges::all_of(waypoints, [](const auto& w) { return w.frame.has_value(); }))
+    return true;
+  context.edits.ask(
+      ShowMessage{"Its waypoints are spread evenly over the footage, which is not open. Show where it is "
+                  "(File > Find missing files), or give it a last frame, first.",
+                  true});
+  return false;
+}
+
 bool has_headings(const ViewContext& context, int intruder) {
   return plan_of(context, intruder).attitude != AttitudeKind::path;
 }
@@ -100,6 +116,7 @@ std::optional<glm::dvec3> position_of(const ViewContext& context, int intruder, 
 }
 
 void add_waypoint(const ViewContext& context, int intruder, double frame, const glm::dvec3& position_m) {
+  if (!can_fix_frames(context, intruder)) return;
   const std::vector<double> frames = frames_of_waypoints(context, intruder);
   TrajectoryPlan trial = plan_of(context, intruder);
   const int number = put_waypoint(trial, frame, position_m, frames);
@@ -144,6 +161,7 @@ void delete_selected(const ViewContext& context) {
     context.edits.ask(ShowMessage{"An intruder needs one waypoint at least; delete the intruder instead.", true});
     return;
   }
+  if (!can_fix_frames(context, selection.intruder)) return;
   context.edits.change("delete waypoint",
                        [=, frames = frames_of_waypoints(context, selection.intruder)](Project& project) {
                          delete_waypoint(plan_of(project, selection.intruder), selection.waypoint, frames);
@@ -153,7 +171,7 @@ void delete_selected(const ViewContext& context) {
 void duplicate_selected(const ViewContext& context) {
   const Selection selection = context.document.selection();
   if (selection.kind == Selected::intruder) duplicate_intruder(context, selection.intruder);
-  if (selection.kind != Selected::waypoint) return;
+  if (selection.kind != Selected::waypoint || !can_fix_frames(context, selection.intruder)) return;
   const std::vector<double> frames = frames_of_waypoints(context, selection.intruder);
   TrajectoryPlan trial = plan_of(context, selection.intruder);
   const int copy = duplicate_waypoint(trial, selection.waypoint, frames);
@@ -204,6 +222,9 @@ IntruderSettings new_intruder(const ViewContext& context) {
       {.frame = first, .position_m = ahead_of_camera(context, first, 300, -120)},
       {.frame = last, .position_m = ahead_of_camera(context, last, 300, 120)},
   };
+  // Without frames they are at the ends of the footage, wherever these turn out to be.
+  if (!is_range_known(context))
+    for (WaypointSettings& waypoint : intruder.trajectory.waypoints) waypoint.frame.reset();
   return intruder;
 }
 

@@ -30,6 +30,10 @@ namespace sigs::editor {
 // The moment of each of an intruder's waypoints, in frames of the footage; not whole where frames are spread evenly.
 [[nodiscard]] std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder);
 
+// Whether an edit may give every waypoint of an intruder the frame at which it stands now. Not where some are spread
+// evenly over a range that nobody knows, as the footage is missing or not open yet: then a message says so.
+[[nodiscard]] bool can_fix_frames(const ViewContext& context, int intruder);
+
 // Whether its waypoints have headings of their own: what flies along its nose has none.
 [[nodiscard]] bool has_headings(const ViewContext& context, int intruder);
 // Turns the nose at a waypoint, in degrees from world X to the right; none: as the other waypoints or the path have it.

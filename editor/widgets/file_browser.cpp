@@ -27,6 +27,12 @@ namespace fs = std::filesystem;
 
 constexpr double kTypingPause_s = 1;  // after it, a new word begins
 
+bool has_extension(const std::string& name, const std::vector<std::string>& extensions) {
+  if (extensions.empty()) return true;
+  const std::string extension = lower_extension(name);
+  return std::ranges::any_of(extensions, [&](const std::string& wanted) { return lower_case(wanted) == extension; });
+}
+
 fs::path home() {
   const char* folder = std::getenv("HOME");
   return folder != nullptr && *folder != '\0' ? fs::path(folder) : fs::path("/");
@@ -146,7 +152,8 @@ void FileBrowser::answer_by_name() {
   fs::path path = folder_ / name_;
   if (name_.empty() || !path.has_filename()) return;
   if (is_folder(path)) return enter(path.lexically_normal());
-  if (!path.has_extension() && !question_.extensions.empty()) path += question_.extensions.front();
+  // A dot in a name begins no extension: "flight 2024.06.01".
+  if (!has_extension(path.filename().string(), question_.extensions)) path += question_.extensions.front();
   if (!is_folder(path.parent_path())) {
     problem_ = "there is no folder " + path.parent_path().string();
     return;
@@ -278,12 +285,6 @@ std::string number_at(const std::string& text, std::size_t& place) {
 template <class Value>
 int sign_of(const Value& a, const Value& b) {
   return a < b ? -1 : (b < a ? 1 : 0);
-}
-
-bool has_extension(const std::string& name, const std::vector<std::string>& extensions) {
-  if (extensions.empty()) return true;
-  const std::string extension = lower_extension(name);
-  return std::ranges::any_of(extensions, [&](const std::string& wanted) { return lower_case(wanted) == extension; });
 }
 
 int compared(const FolderEntry& a, const FolderEntry& b, SortBy by) {

@@ -19,7 +19,7 @@
 #include "base/json.h"
 #include "base/staged_outputs.h"
 #include "base/threads.h"
-#include "mesh/materials.h"
+#include "mesh/model_files.h"
 #include "project/fields.h"
 #include "project/json.h"
 #include "video/image_sequence.h"
@@ -67,7 +67,10 @@ Result<std::string> fingerprint_of(const Project& project, const std::string& pr
     if (!field.is_path) continue;
     std::string& written = *std::get<std::string*>(field.value);
     if (written.empty()) continue;
-    const fs::path file = resolved(project, written);
+    fs::path file = resolved(project, written);
+    // Of one camera of a rig (rig.yaml#cam1) the file; its name in the list has the camera.
+    const std::string name = file.filename().string();
+    if (field.key.ends_with("footage.calibration")) file = calibration_name(file).file;
     std::error_code code;
     const bool is_sequence = field.key.ends_with("footage.video") && is_image_sequence(file);
     if (is_sequence || fs::is_regular_file(file, code)) {
@@ -77,7 +80,7 @@ Result<std::string> fingerprint_of(const Project& project, const std::string& pr
       if (!checksum) return fail(checksum.error());
       list += checksum_line(*checksum, field.key);
     }
-    written = file.filename().string();
+    written = name;
   }
   return checksum_of_text(fmt::format("{}\n{}{}", program, list, text_of(pathless)));
 }

@@ -13,7 +13,7 @@
 #include "base/resources.h"
 #include "base/text.h"
 #include "mesh/geometry.h"
-#include "mesh/materials.h"
+#include "mesh/model_files.h"
 
 namespace sigs {
 

@@ -54,11 +54,6 @@ class TextureCache {
 // Both CV_8UC4, RGBA.
 [[nodiscard]] cv::Mat with_opacity_map(const cv::Mat& texture, const cv::Mat& opacity_map);
 
-// All files that read_obj() reads: the OBJ file, the MTL files that its lines name, and the images that lines of those
-// name, as far as they exist. A line with blanks may name one file or several: each file that could be meant is listed.
-// Error cannot_read for the OBJ file.
-[[nodiscard]] Result<std::vector<std::filesystem::path>> files_of_model(const std::filesystem::path& file);
-
 // Transforms texture coordinates: uv_in_texture = uv * scale + offset (the options -s and -o of map_Kd).
 struct TexturePlacement {
   glm::vec2 scale{1, 1};

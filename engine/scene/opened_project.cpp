@@ -9,9 +9,10 @@
 #include <utility>
 #include <variant>
 
+#include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/text.h"
-#include "mesh/materials.h"
+#include "mesh/model_files.h"
 #include "project/fields.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"
@@ -109,6 +110,12 @@ SequenceTiming timing_of(const Project& project) {
   const FootageSettings& footage = project.footage;
   return {.frame_rate_hz = footage.frame_rate_hz.value_or(0),
           .times_file = footage.timestamps.empty() ? fs::path() : resolved(project, footage.timestamps)};
+}
+
+FileStamp footage_stamp_of(const Project& project) {
+  if (project.footage.video.empty()) return {};
+  const fs::path video = fs::absolute(resolved(project, project.footage.video)).lexically_normal();
+  return stamp_of(is_number_pattern(video) ? video.parent_path() : video);
 }
 
 Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel, Quantisers quantisers) {
@@ -255,7 +262,7 @@ std::vector<fs::path> files_read_by(const Project& project) {
     if (!field.is_path) continue;
     const fs::path file = resolved(project, *std::get<std::string*>(field.value));
     if (file.empty()) continue;
-    files.push_back(file);
+    files.push_back(field.key.ends_with("footage.calibration") ? calibration_name(file).file : file);
     if (field.key.ends_with("footage.video") && is_image_sequence(file))
       if (const Result<std::vector<fs::path>> images = files_of_sequence(file))
         files.insert(files.end(), images->begin(), images->end());

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/file_stamp.h"
 #include "base/result.h"
 #include "base/threads.h"
 #include "project/project.h"
@@ -57,6 +58,10 @@ struct OpenedProject {
 // part. Errors and arguments are those of FrameSource::open() and crop(); they do not name the project.
 [[nodiscard]] Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel = nullptr,
                                                Quantisers quantisers = Quantisers::leave_out);
+
+// Stamp of the project's video or folder of images, under its absolute path. A pattern names no file: the stamp is that
+// of the images' folder.
+[[nodiscard]] FileStamp footage_stamp_of(const Project& project);
 
 // The footage that was opened for a project whose crop leaves all of it, as this project crops it.
 [[nodiscard]] Result<FrameSource> cropped_footage(FrameSource whole, const Project& project);

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/file_stamp.h"
 #include "base/image.h"
 #include "base/image_file.h"
 #include "base/input_file.h"
@@ -26,6 +27,7 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "camera/camera.h"
+#include "mesh/model_files.h"
 #include "scene/opened_project.h"
 #include "telemetry/read_track.h"
 
@@ -113,20 +115,13 @@ bool is_used(const std::shared_ptr<const T>& shared) {
 
 }  // namespace
 
-// Distinguishes states of a file without reading it.
-struct FileStamp {
-  std::uintmax_t size = std::numeric_limits<std::uintmax_t>::max();  // this value: no such file
-  std::filesystem::file_time_type changed{};
-
-  [[nodiscard]] bool operator==(const FileStamp&) const = default;
-};
-
-// Values by key, each with the state of its file when it was read. Those unused for longest are dropped.
-template <class Key, class T>
+// Values by key, each with the state of its file, or of its files, when it was read. Those unused for longest are
+// dropped.
+template <class Key, class T, class Stamp = FileStamp>
 class FileCache {
  public:
   template <class Read>
-  Result<T> take(const Key& key, const FileStamp& stamp, const Read& read) {
+  Result<T> take(const Key& key, const Stamp& stamp, const Read& read) {
     ++clock_;
     if (const auto known = entries_.find(key); known != entries_.end() && known->second.stamp == stamp) {
       known->second.last_used = clock_;
@@ -142,7 +137,7 @@ class FileCache {
 
  private:
   struct Entry {
-    FileStamp stamp;
+    Stamp stamp;
     Result<T> value;
     std::uint64_t last_used = 0;
   };
@@ -162,14 +157,6 @@ class FileCache {
 };
 
 namespace {
-
-FileStamp stamp_of(const std::filesystem::path& file) {
-  std::error_code code;
-  FileStamp stamp;
-  stamp.size = std::filesystem::file_size(file, code);
-  stamp.changed = std::filesystem::last_write_time(file, code);
-  return stamp;
-}
 
 // Numbers by their bits, so that NaN has a place in the order too.
 using ModelKey = std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t, bool, std::string,
@@ -298,7 +285,8 @@ Result<cv::Mat> read_own_body_mask(const std::filesystem::path& path, cv::Size f
 
 struct SceneFiles::Caches {
   std::mutex mutex;  // of all of them
-  FileCache<ModelKey, std::shared_ptr<const Model>> models;
+  ModelStamps model_stamps;
+  FileCache<ModelKey, std::shared_ptr<const Model>, std::vector<FileStamp>> models;
   FileCache<CameraKey, Camera> cameras;
   FileCache<ImageKey, cv::Mat> masks;
   FileCache<FootageKey, FootageShape> footage;
@@ -317,7 +305,7 @@ Result<std::shared_ptr<const Model>> SceneFiles::model(const std::filesystem::pa
                                                        const ModelSurfaces& surfaces,
                                                        const std::optional<HeatLevels>& heat) {
   const std::lock_guard lock(caches_->mutex);
-  return caches_->models.take(key_of(file, axes, surfaces, heat), stamp_of(file),
+  return caches_->models.take(key_of(file, axes, surfaces, heat), caches_->model_stamps.of(name_of(file)),
                               [&] { return read_model(file, axes, surfaces, heat); });
 }
 
@@ -329,7 +317,7 @@ Result<Camera> SceneFiles::camera(const std::filesystem::path& calibration, cons
                                   part.whole_px.height, part.corner_px.x, part.corner_px.y};
   const CameraKey key{name_of(calibration), pixels, model};
   const std::lock_guard lock(caches_->mutex);
-  return caches_->cameras.take(key, stamp_of(calibration_name(calibration).file),
+  return caches_->cameras.take(key, stamp_of(name_of(calibration_name(calibration).file)),
                                [&] { return read_calibration(calibration, size, model, footage.part); });
 }
 
@@ -340,17 +328,17 @@ Result<FootageShape> SceneFiles::footage_shape(const Project& project) {
     return shape_of(source->info());
   };
   const std::lock_guard lock(caches_->mutex);
-  return caches_->footage.take(footage_key(project), stamp_of(resolved(project, project.footage.video)), read);
+  return caches_->footage.take(footage_key(project), footage_stamp_of(project), read);
 }
 
 Result<std::vector<AttitudeAtFrame>> SceneFiles::attitudes(const std::filesystem::path& file) {
   const std::lock_guard lock(caches_->mutex);
-  return caches_->attitudes.take(name_of(file), stamp_of(file), [&] { return read_attitude_file(file); });
+  return caches_->attitudes.take(name_of(file), stamp_of(name_of(file)), [&] { return read_attitude_file(file); });
 }
 
 Result<BoxesByFrame> SceneFiles::boxes(const std::filesystem::path& csv) {
   const std::lock_guard lock(caches_->mutex);
-  return caches_->boxes.take(name_of(csv), stamp_of(csv), [&] { return read_boxes_by_frame(csv); });
+  return caches_->boxes.take(name_of(csv), stamp_of(name_of(csv)), [&] { return read_boxes_by_frame(csv); });
 }
 
 Result<std::shared_ptr<const Track>> SceneFiles::track(const std::filesystem::path& file) {
@@ -360,12 +348,12 @@ Result<std::shared_ptr<const Track>> SceneFiles::track(const std::filesystem::pa
     return std::make_shared<const Track>(*std::move(track));
   };
   const std::lock_guard lock(caches_->mutex);
-  return caches_->tracks.take(name_of(file), stamp_of(file), read);
+  return caches_->tracks.take(name_of(file), stamp_of(name_of(file)), read);
 }
 
 Result<cv::Mat> SceneFiles::own_body_mask(const std::filesystem::path& file, cv::Size footage_size_px) {
   const std::lock_guard lock(caches_->mutex);
-  return caches_->masks.take(key_of(file, footage_size_px), stamp_of(file),
+  return caches_->masks.take(key_of(file, footage_size_px), stamp_of(name_of(file)),
                              [&] { return read_own_body_mask(file, footage_size_px); });
 }
 

@@ -17,7 +17,7 @@
 #include "first_project/first_model.h"
 #include "first_project/first_project.h"
 #include "made_project.h"
-#include "mesh/materials.h"
+#include "mesh/model_files.h"
 #include "project/json.h"
 #include "scene/opened_project.h"
 #include "support/files.h"

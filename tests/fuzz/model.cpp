@@ -3,8 +3,8 @@
 
 #include "base/ensure.h"
 #include "fuzz/fuzz_input.h"
-#include "mesh/materials.h"
 #include "mesh/mesh.h"
+#include "mesh/model_files.h"
 
 namespace sigs::fuzz {
 

@@ -89,12 +89,15 @@ void cover_with_end_of(const std::string& path) {
 }
 
 std::optional<Edited> typed_text_input(const std::string& value, const Field& field, float width, TypedText& typed) {
-  std::string text = typed.key == field.key ? typed.text : value;
+  const bool was_typed = typed.key == field.key;
+  std::string text = was_typed ? typed.text : value;
   ImGui::SetNextItemWidth(width);
   text_input("##text", text, field.required ? "required" : "none");
-  const bool is_finished = ImGui::IsItemDeactivatedAfterEdit();
+  // The keyboard can be taken away between two updates too: by the window that is to be closed.
+  const bool is_left = ImGui::IsItemDeactivated() || (was_typed && !ImGui::IsItemActive());
+  const bool is_finished = is_left && (was_typed || ImGui::IsItemDeactivatedAfterEdit());
   if (ImGui::IsItemActive()) typed = {field.key, text};
-  if (ImGui::IsItemDeactivated()) typed = {};
+  if (is_left) typed = {};
   if (field.is_path && !ImGui::IsItemActive()) cover_with_end_of(text);
   if (is_finished && text != value) return Edited{text, true};
   return std::nullopt;

@@ -61,6 +61,7 @@ bool ButtonFlow::button(const char* label, const char* tooltip, bool enabled) {
 }
 
 void RowMemory::refresh(const ViewContext& context) {
+  if (std::exchange(document, context.document.first_number()) != document) typed = {};
   if (sheet && sheet_revision == context.document.revision().number) return;
   sheet.emplace(context.project());
   sheet_revision = context.document.revision().number;

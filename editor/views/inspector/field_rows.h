@@ -66,8 +66,9 @@ struct RowMemory {
   // The project's fields, of the revision with this number.
   std::optional<FieldSheet> sheet;
   std::uint64_t sheet_revision = 0;
+  std::uint64_t document = 0;  // Document::first_number(): what is being typed belongs to that project
 
-  // Once per update: lists the fields anew for another revision.
+  // Once per update: lists the fields anew for another revision, and forgets what was typed into another project.
   void refresh(const ViewContext& context);
 };
 

@@ -125,7 +125,7 @@ void WaypointTable::draw_frame(const ViewContext& context, int intruder, int way
   tooltip_for_item(is_own ? "Frame in which it is passed; drag, or click to type"
                           : "Spread evenly between its neighbours; give it a frame by dragging or typing");
   if (ImGui::IsItemActivated()) context.edits.select({Selected::waypoint, intruder, waypoint});
-  if (has_changed)
+  if (has_changed && can_fix_frames(context, intruder))
     context.edits.change(
         "move waypoint in time",
         [=, frames = frames_](Project& project) {

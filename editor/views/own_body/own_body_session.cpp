@@ -66,6 +66,7 @@ void OwnBodySession::forget() {
   job_.forget();
   detection_ = {};
   painting_ = {};
+  camera_ = 0;
   footage_px_ = {};
   project_mask_ = cv::Mat();
   taken_ = nullptr;
@@ -88,11 +89,13 @@ MaskToKeep OwnBodySession::to_keep() const {
   return {.state = unsaved(),
           .pixels = painting_.mask(),
           .has_strokes = painting_.has_strokes(),
+          .camera = camera_,
           .is_changing = painting_.is_stroking()};
 }
 
 void OwnBodySession::recover(const RecoveredMask& mask) {
   begin(mask.pixels, "recovered");
+  camera_ = mask.camera;
   edge_px_ = mask_edge_px_ = -1;  // as the settings have it, which are not known yet
   painting_.mark_unsaved();
   if (mask.has_strokes) {
@@ -120,9 +123,13 @@ void OwnBodySession::measure_share() {
   share_ = mask.empty() ? 0 : static_cast<double>(cv::countNonZero(hard(mask))) / static_cast<double>(mask.total());
 }
 
+void OwnBodySession::note_active_camera(const Document& document) {
+  is_elsewhere_ = document.active_camera() != camera_ && painting_.has_unsaved_changes();
+}
+
 void OwnBodySession::follow(const Document& document, const OpenedScene* scene) {
   const Project& project = document.project();
-  is_elsewhere_ = document.active_camera() != camera_ && painting_.has_unsaved_changes();
+  note_active_camera(document);
   if (is_elsewhere_) return;
   if (document.active_camera() != camera_) forget();
   camera_ = document.active_camera();
@@ -331,8 +338,11 @@ void OwnBodySession::ask_use_as_occluder(const Project& project, int frame) {
   });
 }
 
-void OwnBodySession::ask_keep(const Project& project, std::function<void()> next) {
-  fits() ? ask_save_and_use(project, std::move(next)) : ask_save_as(project, std::move(next));
+void OwnBodySession::ask_keep(const Document& document, std::function<void()> next) {
+  note_active_camera(document);
+  const std::shared_ptr<const Project> project = revision_of_camera(document.state(), camera_).project;
+  painting_.mask().size() == footage_px_ ? ask_save_and_use(*project, std::move(next))
+                                         : ask_save_as(*project, std::move(next));
 }
 
 bool OwnBodySession::could_replace(const Project& project) const {

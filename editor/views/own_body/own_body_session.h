@@ -90,8 +90,9 @@ class OwnBodySession {
   // distance gets that of the project's clouds, where it states one; painted clouds take the place of those that are
   // found.
   void ask_use_as_occluder(const Project& project, int frame);
-  // Before the painting is left behind: the same, or only saved where it does not fit the footage.
-  void ask_keep(const Project& project, std::function<void()> next);
+  // Before the painting is left behind: the same, of the camera that it was painted for, or only saved where it does
+  // not fit the footage.
+  void ask_keep(const Document& document, std::function<void()> next);
   // The same, into the file that the project names already: only after the person has agreed.
   void replace_and_use(const Project& project);
   // Whether that can be asked at all: the project names a PNG, and the painting is not in a file yet and has none of
@@ -101,6 +102,8 @@ class OwnBodySession {
  private:
   void ask_save(const std::filesystem::path& proposed, std::function<void()> next);
   [[nodiscard]] bool write(const std::filesystem::path& path);
+  // Whether the painting is unsaved and another camera than the one that it is for is active.
+  void note_active_camera(const Document& document);
   void name_in_project();
   void take_found();
   void take_project_mask(const Project& project, const cv::Mat& own_body);

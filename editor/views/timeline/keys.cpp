@@ -134,6 +134,7 @@ void select(const ViewContext& context, int intruder, int waypoint) {
 }
 
 void set_frame(const ViewContext& context, int intruder, int waypoint, double frame, const std::string& gesture) {
+  if (!can_fix_frames(context, intruder)) return;
   context.edits.change(
       "move waypoint in time",
       [=, frames = frames_of_waypoints(context, intruder)](Project& project) {

@@ -113,17 +113,29 @@ bool is_in_frame(const WaypointMark& mark, int frame) {
   return std::abs(mark.frame - frame) < 0.5;
 }
 
-constexpr int kFramesBetweenCorners = 25;  // the path's own corners are not known here where speed is constant
+// The path's own corners are not known here where speed is constant. Long clips have fewer and longer pieces, which are
+// halved where the path is not straight in the image.
+constexpr int kFramesBetweenCorners = 25;
+constexpr int kMaxPieces = 300;
+constexpr std::size_t kMaxPolyline = 8000;  // ImGui numbers the corners of what it draws by 16 bits
 
 glm::dvec2 size_of(const cv::Size& size) {
   return {size.width, size.height};
 }
 
-// Moments from one frame to another; one alone where they are the same.
-std::vector<double> times_between(const FootageShape& footage, int from, int to) {
+// Moments from one frame to another, those of waypoints among them where there are not more; one alone where the frames
+// are the same.
+std::vector<double> times_between(const FootageShape& footage, int from, int to, std::span<const double> waypoints) {
   std::vector<double> times;
-  for (int frame = from; frame < to; frame += kFramesBetweenCorners) times.push_back(time_of_frame_s(footage, frame));
+  const int step = std::max(kFramesBetweenCorners, (to - from) / kMaxPieces);
+  for (int frame = from; frame < to; frame += step) times.push_back(time_of_frame_s(footage, frame));
   times.push_back(time_of_frame_s(footage, to));
+  if (step == kFramesBetweenCorners || std::ssize(waypoints) > kMaxPieces) return times;
+  for (const double frame : waypoints)
+    if (frame > from && frame < to) times.push_back(time_of_frame_s(footage, frame));
+  std::ranges::sort(times);
+  const auto repeated = std::ranges::unique(times);
+  times.erase(repeated.begin(), repeated.end());
   return times;
 }
 
@@ -132,7 +144,9 @@ void draw_lines(const ImageCanvas& canvas, const std::vector<PixelLine>& lines, 
   for (const PixelLine& line : lines) {
     points.clear();
     for (const glm::dvec2& pixel : line) points.push_back(im(canvas.view.screen_of(pixel)));
-    canvas.draw.AddPolyline(points.data(), static_cast<int>(points.size()), color, ImDrawFlags_None, thick);
+    for (std::size_t first = 0; first + 1 < points.size(); first += kMaxPolyline - 1)
+      canvas.draw.AddPolyline(points.data() + first, static_cast<int>(std::min(kMaxPolyline, points.size() - first)),
+                              color, ImDrawFlags_None, thick);
   }
 }
 
@@ -222,14 +236,17 @@ void draw_waypoints(const ImageCanvas& canvas, const ViewContext& context, std::
   canvas.draw.PopClipRect();
 }
 
-void PathOverlay::make(const Scene& scene, const FootageCamera& eye) {
+void PathOverlay::make(const ViewContext& context, const FootageCamera& eye) {
+  const Scene& scene = context.shown.scene->draft.scene;
   pieces_.clear();
   const CountedFrames counted = counted_frames(scene);
   const int here = std::clamp(eye.frame, counted.first_frame, counted.last_frame);
   for (std::size_t i = 0; i < scene.intruders.size(); ++i) {
     const Trajectory& trajectory = scene.intruders[i].trajectory;
+    const std::optional<int> intruder = project_intruder(context, static_cast<int>(i));
+    const std::vector<double> waypoints = intruder ? frames_of_waypoints(context, *intruder) : std::vector<double>();
     const auto add = [&](int from, int to, bool past) {
-      const std::vector<double> times = times_between(counted.footage, from, to);
+      const std::vector<double> times = times_between(counted.footage, from, to, waypoints);
       if (times.size() < 2) return;
       const auto position = [&](double time_s) { return trajectory.position_m(time_s); };
       pieces_.push_back(
@@ -243,9 +260,8 @@ void PathOverlay::make(const Scene& scene, const FootageCamera& eye) {
 
 void PathOverlay::draw(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye) {
   if (!context.shown.scene) return;
-  const OpenedScene& opened = *context.shown.scene;
-  if (scene_ != opened.revision || frame_ != eye.frame) make(opened.draft.scene, eye);
-  scene_ = opened.revision;
+  if (scene_ != context.shown.scene || frame_ != eye.frame) make(context, eye);
+  scene_ = context.shown.scene;
   frame_ = eye.frame;
   const std::optional<int> current = current_intruder(context);
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <span>
 #include <string>
@@ -75,9 +76,9 @@ class PathOverlay {
     std::vector<PixelLine> lines;
   };
   // Computes the polylines, in pixels of the image.
-  void make(const Scene& scene, const FootageCamera& eye);
+  void make(const ViewContext& context, const FootageCamera& eye);
 
-  std::uint64_t scene_ = 0;
+  std::shared_ptr<const OpenedScene> scene_;  // that the polylines are of; a revision is opened anew for changed files
   int frame_ = -1;
   std::vector<PathPiece> pieces_;
 };

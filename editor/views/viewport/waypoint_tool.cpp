@@ -63,8 +63,9 @@ int frame_of_overlays(const ViewContext& context) {
 }
 
 const std::vector<WaypointMark>& WaypointMarks::of(const ViewContext& context, const FootageCamera& eye) {
-  const MadeFor wanted{context.document.revision().number, context.shown.scene ? context.shown.scene->revision : 0,
-                       eye.frame};
+  const Document& document = context.document;
+  const MadeFor wanted{document.revision().number, context.shown.scene, eye.frame, document.first_frame(),
+                       document.last_frame()};
   if (wanted == made_for_) return marks_;
   made_for_ = wanted;
   marks_.clear();
@@ -176,6 +177,7 @@ bool WaypointTool::begin(const ToolContext& tool) {
     start_m = waypoint->position_m;
   if (!start_m) return false;
   if (!makes_one && !is_under_press(tool, *start_m)) return false;
+  if (makes_one && !can_fix_frames(tool.context, taken.intruder)) return false;
   taken.gesture.name = fmt::format("over the footage {}", ++gestures_);
   // Where a waypoint stands within a frame of this one, that is the one it gets.
   if (makes_one)

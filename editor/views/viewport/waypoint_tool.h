@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -55,8 +56,10 @@ class WaypointMarks {
   // Revision of the document and of the scene, and the frame, that the marks are of.
   struct MadeFor {
     std::uint64_t document = 0;
-    std::uint64_t scene = 0;
+    std::shared_ptr<const OpenedScene> scene;
     int frame = 0;
+    int first_frame = 0;  // of the document's range, over which waypoints without frames are spread
+    int last_frame = 0;
     [[nodiscard]] bool operator==(const MadeFor&) const = default;
   };
   MadeFor made_for_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "editor/views/waypoint_actions.h"
@@ -62,7 +63,7 @@ OrbitCamera behind_camera(const WorldViewTargets& targets) {
 
 void WorldView::refresh_model(const ViewContext& context) {
   const auto& scene = context.shown.scene;
-  if (scene && scene->revision != model_.revision) model_ = world_model(*scene);
+  if (scene && std::exchange(scene_, scene) != scene) model_ = world_model(*scene);
 }
 
 // A project with no history whose revision is another one has been opened. It is framed at once, and again when its

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -254,8 +255,8 @@ class WorldView {
   void draw_world(WorldCanvas& canvas, const WorldContext& world);
 
   WorldViewState look_;
-  // Of the scene that was open last.
-  WorldModel model_;
+  std::shared_ptr<const OpenedScene> scene_;  // that was open last
+  WorldModel model_;                          // of it
   RigBorders borders_;
   BodyShapes shapes_;
   WorldTools tools_;

@@ -9,6 +9,7 @@
 #include "base/staged_outputs.h"
 #include "editor/document/document.h"
 #include "project/json.h"
+#include "scene/opened_project.h"
 #include "support/test_data.h"
 
 using namespace sigs;
@@ -79,23 +80,67 @@ TEST_CASE("a file that appears or changes on disk changes the id of the files al
   Project project;
   project.file = folder / "p.json";
   project.footage.video = "a.mp4";
+  ModelStamps models;
   const ContentId content = content_id_of(project);
-  const ContentId without = input_files_id_of(project);
+  const ContentId without = input_files_id_of(project, models);
   const FileStamp footage_without = footage_stamp_of(project);
   REQUIRE(write_text(folder / "a.mp4", "a", true));
-  const ContentId with = input_files_id_of(project);
+  const ContentId with = input_files_id_of(project, models);
   CHECK_FALSE(with == without);
   CHECK_FALSE(footage_stamp_of(project) == footage_without);
   CHECK_FALSE(id_of(footage_stamp_of(project)) == id_of(footage_without));
   REQUIRE(write_text(folder / "a.mp4", "ab", true));
-  CHECK_FALSE(input_files_id_of(project) == with);
+  CHECK_FALSE(input_files_id_of(project, models) == with);
   CHECK(content_id_of(project) == content);
   project.camera.track.file = "flight.csv";
-  const ContentId without_log = input_files_id_of(project);
+  const ContentId without_log = input_files_id_of(project, models);
   REQUIRE(write_text(folder / "flight.csv", "time_s,roll_deg", true));
-  CHECK_FALSE(input_files_id_of(project) == without_log);
+  CHECK_FALSE(input_files_id_of(project, models) == without_log);
   CHECK_FALSE(combined_id(content, with) == combined_id(content, without));
   CHECK_FALSE(combined_id(content, with) == combined_id(with, content));
+}
+
+TEST_CASE("the materials and textures of a model count among its files, those too that were missing") {
+  const TemporaryFolder folder;
+  Project project;
+  project.file = folder / "p.json";
+  project.intruders.resize(1);
+  project.intruders[0].model.file = "a.obj";
+  ModelStamps models;
+  ContentId last = input_files_id_of(project, models);
+  const auto is_seen = [&] {
+    const ContentId before = std::exchange(last, input_files_id_of(project, models));
+    return !(before == last);
+  };
+  CHECK_FALSE(is_seen());
+  REQUIRE(write_text(folder / "a.obj", "mtllib a.mtl\n", true));
+  CHECK(is_seen());
+  REQUIRE(write_text(folder / "a.mtl", "newmtl skin\nmap_Kd maps/skin.png\n", true));
+  CHECK(is_seen());
+  std::filesystem::create_directory(folder / "maps");
+  CHECK_FALSE(is_seen());
+  REQUIRE(write_text(folder / "maps/skin.png", "1", true));
+  REQUIRE(write_text(folder / "a.mtl", "newmtl skin\n\nmap_Kd maps/skin.png\n", true));
+  CHECK(is_seen());
+  REQUIRE(write_text(folder / "maps/skin.png", "12", true));
+  CHECK(is_seen());
+  REQUIRE(write_text(folder / "other.png", "1", true));
+  CHECK_FALSE(is_seen());
+  std::filesystem::remove(folder / "maps/skin.png");
+  CHECK(is_seen());
+}
+
+TEST_CASE("images that are named by a pattern change the id with their folder") {
+  const TemporaryFolder folder;
+  Project project;
+  project.footage.video = (folder / "%03d.png").string();
+  ModelStamps models;
+  const ContentId before = input_files_id_of(project, models);
+  const FileStamp footage = footage_stamp_of(project);
+  CHECK(footage.exists);
+  std::filesystem::last_write_time(folder.path(), footage.changed + std::chrono::seconds(1));
+  CHECK_FALSE(input_files_id_of(project, models) == before);
+  CHECK_FALSE(footage_stamp_of(project) == footage);
 }
 
 TEST_CASE("undo brings the content id back with the revision, and saving elsewhere keeps it") {

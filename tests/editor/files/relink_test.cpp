@@ -49,6 +49,40 @@ TEST_CASE("missing files are named by field and path; existing and unnamed ones 
   CHECK(missing[2].field == "intruders[1].model.file");
 }
 
+TEST_CASE("a folder or a pattern of images, and a camera of a rig's calibration, are no missing files") {
+  const TemporaryFolder folder;
+  Project project;
+  project.file = folder / "p.json";
+  for (const char* file : {"images/01.png", "images/02.png", "rig.yaml"}) touch(folder / file);
+  project.footage.calibration = "rig.yaml#cam1";
+  for (const char* video : {"images", "images/%02d.png"}) {
+    project.footage.video = video;
+    CHECK(missing_files(project).empty());
+  }
+  project.footage.video = "images/%03d.png";
+  project.footage.calibration = "another.yaml#cam1";
+  const std::vector<MissingFile> missing = missing_files(project);
+  REQUIRE(missing.size() == 2);
+  CHECK(place_at(missing[1], folder / "rig.yaml") == folder / "rig.yaml#cam1");
+}
+
+TEST_CASE("a sequence and a rig's calibration that have moved are found with one of them") {
+  const TemporaryFolder folder;
+  for (const char* file : {"images/01.png", "images/02.png", "rig.yaml"}) touch(folder / "disk2" / file);
+  Project project;
+  project.file = folder / "p.json";
+  project.footage.video = "images/%02d.png";
+  project.footage.calibration = "rig.yaml#cam1";
+  const std::vector<MissingFile> missing = missing_files(project);
+  REQUIRE(missing.size() == 2);
+  const fs::path video = place_at(missing[0], folder / "disk2/images/01.png");
+  CHECK(video == folder / "disk2/images/%02d.png");
+  const auto places = suggested_places(missing, missing[0], video);
+  CHECK(place_of(places, "footage.calibration") == folder / "disk2/rig.yaml#cam1");
+  relink(project, {{"footage.video", video}, places.front()});
+  CHECK(missing_files(project).empty());
+}
+
 TEST_CASE("a folder tree that moved as a whole is found from one of its files") {
   const TemporaryFolder folder;
   for (const char* file : {"footage/day/clip.mp4", "calibrations/cam.xml", "models/a.obj"})

@@ -78,10 +78,10 @@ TEST_CASE("before leaving, the mask is saved under a free name and used; only sa
   b.update();
   b.stroke(30);
   bool has_gone_on = false;
-  b.session.ask_keep(b.document.project(), [&] { has_gone_on = true; });
+  b.session.ask_keep(b.document, [&] { has_gone_on = true; });
   CHECK(b.proposed() == b.folder / "flight_own_body.png");
   CHECK_FALSE(has_gone_on);
-  b.session.ask_keep(b.document.project(), [&] {
+  b.session.ask_keep(b.document, [&] {
     has_gone_on = true;
     b.document.apply(b.edits.take_edits());  // what comes next sees the edit
     CHECK(b.document.project().footage.own_body_mask == "flight_own_body.png");
@@ -91,10 +91,31 @@ TEST_CASE("before leaving, the mask is saved under a free name and used; only sa
   b.stroke(10);
   b.scene.draft.scene.footage.size_px = {64, 48};
   b.update();
-  b.session.ask_keep(b.document.project(), {});
+  b.session.ask_keep(b.document, {});
   REQUIRE(b.choose(b.folder / "other.png"));
   b.update();
   CHECK(b.document.project().footage.own_body_mask == "flight_own_body.png");
+}
+
+TEST_CASE("a mask is kept for the camera that it was painted for, whichever is active by then") {
+  MaskFixture b;
+  Project rig = b.document.whole();
+  rig.cameras.resize(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    rig.cameras[i].name = i == 0 ? "left" : "right";
+    rig.cameras[i].footage.video = "flight.mp4";
+  }
+  b.document = Document(rig);
+  b.document.apply(ActivateCamera{1});
+  b.update();
+  b.stroke(30);
+  CHECK(b.session.to_keep().camera == 1);
+  b.document.apply(ActivateCamera{0});  // and the tab is not drawn again
+  b.session.ask_keep(b.document, {});
+  REQUIRE(b.choose(b.folder / "right.png"));
+  b.document.apply(b.edits.take_edits());
+  CHECK(b.document.whole().cameras[1].footage.own_body_mask == "right.png");
+  CHECK(b.document.whole().cameras[0].footage.own_body_mask.empty());
 }
 
 TEST_CASE("a detected mask follows the soft edge at once, and is restored with it") {
@@ -166,7 +187,7 @@ TEST_CASE(
     MaskFixture b;
     b.update();
     b.session.forget();
-    b.session.recover({disk(25), has_strokes_of_user});
+    b.session.recover({.pixels = disk(25), .has_strokes = has_strokes_of_user});
     b.use_mask_of_scene(disk(10));
     b.update();
     CHECK(is_same(b.session.painting().mask(), disk(25)));
