@@ -63,8 +63,9 @@ Result<std::vector<Visibility>> check_opened(const Project& seen) {
   if (!scene) return fail(scene.error());
   const std::vector<Visibility> visibilities = estimated_visibilities(*scene, std::numeric_limits<int>::max());
   for (Warning& warning : warnings_of(seen, *scene, visibilities)) warnings.push_back(std::move(warning));
-  if (const auto level = level_contradiction(seen_horizons(*source, *scene, &interrupt_flag()), seen, *scene))
-    warnings.insert(warnings.begin(), {seen.file.string() + ": " + level->field, level->what});
+  if (scene->horizon_is_known)
+    if (const auto level = level_contradiction(seen_horizons(*source, *scene, &interrupt_flag()), seen, *scene))
+      warnings.insert(warnings.begin(), {seen.file.string() + ": " + level->field, level->what});
   for (const Warning& warning : warnings) print_warning(warning);
   print_intruders(seen, *scene, visibilities);
   std::printf("%s: %s; frames %d to %d, %s\n", seen.file.c_str(),

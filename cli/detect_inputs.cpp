@@ -106,9 +106,10 @@ Result<std::vector<ClipFiles>> clips_of(const Paths& inputs, const std::string& 
   std::error_code code;  // a dataset has a folder labels/ too
   const bool is_dataset = inputs.size() == 1 && is_folder(inputs.front()) &&
                           (fs::exists(inputs.front() / "index.json", code) || !is_truth_folder(inputs.front()));
+  if (const Result<void> good = check_truth_options(is_dataset ? Paths() : inputs, options); !good)
+    return fail(good.error());
   if (is_dataset) return clips_of_dataset(inputs.front(), split);
   if (!split.empty()) return fail("--split", "goes with a dataset's folder", ErrorKind::usage);
-  if (const Result<void> good = check_truth_options(inputs, options); !good) return fail(good.error());
   std::vector<ClipFiles> clips;
   std::vector<std::string> names;
   for (const fs::path& labels : inputs) {

@@ -122,6 +122,9 @@ Result<RiskSettings> settings_of(const RiskOptions& options) {
   settings.sensor = *std::move(sensor);
   RiskEncounters& encounters = settings.encounters;
   encounters.importance_sampling = !options.plain_sampling;
+  const bool has_own = !options.own.empty() || !options.own_speed.empty();
+  if (!options.pairs.empty() && (has_own || !options.intruders.empty() || !options.intruder_speed.empty()))
+    return fail("--pairs", "excludes --own, --intruder and speeds: it has its flights", ErrorKind::usage);
   if (!options.own.empty()) {
     Result<EncounterModel> model = model_of_file(options.own);
     if (!model) return fail(model.error());
@@ -179,6 +182,9 @@ Result<RiskResult> flown(const RiskSettings& settings, const Logic& logic, const
     progress.update(static_cast<int>(std::min<std::int64_t>(done, total)), total, "encounters");
   });
   progress.end();
+  // A signal from the keyboard ends the logic's program too, which then gives no answer.
+  if (!result)
+    if (const Result<void> goes_on = check_interrupt(&interrupt_flag()); !goes_on) return fail(goes_on.error());
   return result;
 }
 
@@ -228,6 +234,8 @@ Result<Json> compared(const RiskOptions& options, RiskSettings settings, const L
       settings.encounters.pairs.push_back(std::move(*pair));
     }
   if (settings.encounters.pairs.empty()) return fail("--labels", "have no intruder");
+  if (settings.shards > 1)
+    return fail("--shard", "and --labels exclude each other: each of its encounters is flown once", ErrorKind::usage);
   RiskSettings images = settings;
   images.count = std::ssize(images.encounters.pairs);
   const Result<RiskResult> by_images = flown(images, logic, options);

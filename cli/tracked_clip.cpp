@@ -47,7 +47,8 @@ Result<void> check_count(const fs::path& path, int count, const ClipTruth& clip)
 bool is_image_of(const fs::path& path, ImageNames names) {
   const std::string extension = lower_extension(path);
   if (names == ImageNames::by_frame)
-    return path.filename().string().starts_with("frame_") && path.extension() == ".png";
+    return path.filename().string().starts_with("frame_") &&
+           (extension == ".png" || extension == ".jpg" || extension == ".tiff");
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".bmp";
 }
 
@@ -72,14 +73,17 @@ Result<std::vector<fs::path>> images_by_number(const fs::path& folder, ImageName
 Result<fs::path> LabelledImages::beside(const fs::path& labels) {
   std::vector<fs::path> found;
   std::error_code code;
-  for (const char* const extension : {".mkv", ".mp4", ".avi", ""})
+  for (const char* const extension : {".mkv", ".mp4", ".mov", ".avi", ".nut", ".y4m", ""})
     if (const fs::path path = fs::path(labels).replace_extension(extension); fs::exists(path, code))
       found.push_back(path);
   if (found.empty())
-    return fail(labels.string(),
-                fmt::format("has neither {}.mkv, .mp4, .avi nor a folder {} beside it; name its images with --video",
-                            labels.stem().string(), labels.stem().string()),
-                ErrorKind::cannot_read);
+    return fail(
+        labels.string(),
+        fmt::format(
+            "has neither a video {}.mkv (.mp4, .mov, .avi, .nut, .y4m) nor a folder {} beside it; name its images "
+            "with --video",
+            labels.stem().string(), labels.stem().string()),
+        ErrorKind::cannot_read);
   if (found.size() > 1)
     return fail(labels.string(),
                 fmt::format("has both {} and {} beside it; choose with --video", found[0].filename().string(),
@@ -95,9 +99,10 @@ Result<LabelledImages> LabelledImages::open(const fs::path& path, const ClipTrut
     if (!files) return fail(files.error());
     if (const Result<void> fits = check_count(path, static_cast<int>(files->size()), clip); !fits)
       return fail(fits.error());
+    const std::string extension = names == ImageNames::by_frame ? files->front().extension().string() : std::string();
     for (int frame = clip.footage.first_frame; frame <= clip.footage.last_frame && names == ImageNames::by_frame;
          ++frame)
-      (*files)[static_cast<std::size_t>(frame - clip.footage.first_frame)] = path / image_name(frame);
+      (*files)[static_cast<std::size_t>(frame - clip.footage.first_frame)] = path / image_name(frame, extension);
     images.files_ = std::move(*files);
     const Result<cv::Mat> first = images.at(clip.footage.first_frame);
     if (!first) return fail(first.error());

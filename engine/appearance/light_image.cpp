@@ -77,7 +77,7 @@ LightGrid light_grid_of(const Frame& frame, const View& view) {
     if (frame.planes[k].empty()) return grid;
     codes[k] = reduced(frame.planes[k], size);
   }
-  const CodeToRgb map = code_to_rgb(frame.layout, frame.color);
+  const CodeToRgb map = code_to_rgb(frame.layout, frame.color, frame.bit_depth);
   const cv::Matx33f bt709(cv::Matx33d(from_bt709(frame.color.primaries).value_or(cv::Matx33d::eye())).inv());
   const LightTable linear(frame.color);
   grid.light.create(size);

@@ -236,6 +236,11 @@ Result<void> StagedOutputs::commit() {
   return flushed;
 }
 
+void StagedOutputs::take(StagedOutputs other) {
+  std::ranges::move(other.stagings_, std::back_inserter(stagings_));
+  std::ranges::move(other.outputs_, std::back_inserter(outputs_));
+}
+
 std::vector<fs::path> StagedOutputs::final_paths() const {
   std::vector<fs::path> paths;
   for (const Output& output : outputs_) paths.push_back(output.final_path);

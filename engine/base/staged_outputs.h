@@ -39,6 +39,9 @@ class StagedOutputs {
   [[nodiscard]] Result<std::filesystem::path> add_folder(const std::filesystem::path& final_path,
                                                          MayReplace may_replace = {});
 
+  // The outputs of another one become outputs of this one, behind its own.
+  void take(StagedOutputs other);
+
   // Waits until all outputs are on the disk, gives them their final names, and waits until those are on the disk.
   // SIGHUP, SIGINT and SIGTERM are held back while the names change. What was replaced is removed at the end. On an
   // error everything is as before. Call it once. Errors: cannot_create where a name was taken meanwhile, write_failed.

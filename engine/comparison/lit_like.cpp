@@ -65,12 +65,13 @@ std::optional<LogLight> log_light(const Frame& any_frame, const Box& box) {
   return log;
 }
 
-// A point light becomes a sun; one without a direction gets the default, unless a log may tell it by time and place.
-void use_sun(Project& project) {
+// A point light becomes a sun; one without a direction gets the default, unless a log tells it by time and place.
+void use_sun(Project& project, const FootageShape& shape) {
   LightSettings& light = project.light;
   if (light.kind != LightKind::sun) light.exposure = 1;
   light.kind = LightKind::sun;
-  if (!project.camera.track.file.empty() || (light.sun.azimuth_deg && light.sun.elevation_deg)) return;
+  if (light.sun.azimuth_deg && light.sun.elevation_deg) return;
+  if (!project.camera.track.file.empty() && open_scene(project, shape)) return;
   light.sun = {light.sun.azimuth_deg.value_or(kUsualAzimuth_deg),
                light.sun.elevation_deg.value_or(kUsualElevation_deg)};
 }
@@ -158,7 +159,7 @@ Result<LitLike> lit_like(const Project& project, const FootageShape& shape, cons
   if (places_px.empty())
     return fail(where, "has no other place of the box's size to compare with", ErrorKind::bad_data);
   Project lit = project;
-  use_sun(lit);
+  use_sun(lit, shape);
   Views views(lit, shape, stretch, control);
   if (const Result<void> chosen = views.choose(*real, places_px); !chosen) return fail(chosen.error());
   LitLike found{.sun = lit.light.sun, .exposure = {.value = lit.light.exposure, .is_known = true}};

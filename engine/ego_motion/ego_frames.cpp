@@ -146,6 +146,7 @@ void add_log(Track& attitudes, const Track& log, const EgoMotion& motion) {
   attitudes.local_position_ned_m = placed(log.local_position_ned_m);
   attitudes.velocity_ned_mps = placed(log.velocity_ned_mps);
   attitudes.exposure_s = placed(log.exposure_s);
+  attitudes.white_cdpm2 = placed(log.white_cdpm2);
   if (log.utc_at_zero_s) attitudes.utc_at_zero_s = *log.utc_at_zero_s + offset_s;
 }
 

@@ -384,10 +384,14 @@ Result<void> ExportFiles::finish() {
   return step ? step : fail(outputs_.with_final_names(step.error()));
 }
 
-Result<std::vector<fs::path>> ExportFiles::commit() {
+Result<std::vector<fs::path>> ExportFiles::commit(StagedOutputs* later) {
   if (const Result<void> step = finish(); !step) return fail(step.error());
-  if (const Result<void> kept = outputs_.commit(); !kept) return fail(kept.error());
-  return outputs_.final_paths();
+  std::vector<fs::path> names = outputs_.final_paths();
+  if (later != nullptr)
+    later->take(std::move(outputs_));
+  else if (const Result<void> kept = outputs_.commit(); !kept)
+    return fail(kept.error());
+  return names;
 }
 
 }  // namespace sigs

@@ -112,8 +112,8 @@ class ExportFiles {
   // Waits until all frames passed to it are written. Error: that of the first frame that could not be.
   [[nodiscard]] Result<void> join();
 
-  // Completes all of them, then gives them their final names. Returns those.
-  [[nodiscard]] Result<std::vector<std::filesystem::path>> commit();
+  // Completes all of them, then gives them their final names, or leaves that to `later`. Returns those names.
+  [[nodiscard]] Result<std::vector<std::filesystem::path>> commit(StagedOutputs* later);
 
   // Seconds spent encoding and writing, added up over the outputs. Call it after join() or commit().
   [[nodiscard]] double spent_s() const;

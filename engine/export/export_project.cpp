@@ -181,7 +181,7 @@ void tell(const std::optional<SplicePlan>& splice, const ExportControl& control,
 // Gives the files their names, once all frames are written.
 Result<void> finish(const ExportRequest& request, const VideoInfo& footage, ExportFiles& files, const Stopwatch& watch,
                     const ExportControl& control, ExportReport& report) {
-  Result<std::vector<std::filesystem::path>> written = files.commit();
+  Result<std::vector<std::filesystem::path>> written = files.commit(request.outputs);
   if (!written) return fail(written.error());
   report.times.encode_s = files.spent_s();
   report.written = std::move(*written);

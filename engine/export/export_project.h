@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/staged_outputs.h"
 #include "export/frame_renderer.h"
 #include "project/project.h"
 #include "scene/scene_files.h"
@@ -35,6 +36,8 @@ struct ExportRequest {
   bool in_real_time = false;       // no frame goes out before its time has passed since the first one
   FrameSource* footage = nullptr;  // the project's, as open_project() takes it; null: is opened
   SceneFiles* files = nullptr;     // likewise; null: all are read anew
+  // Takes the finished outputs, which get their final names with its commit(); null: each gets its name at the end.
+  StagedOutputs* outputs = nullptr;
   std::function<void(const FrameTruth&)> see_truth = {};  // called with the truth of each frame, in order; empty: not
 };
 

@@ -97,16 +97,21 @@ RigTruth truth_of(const std::vector<PlannedCamera>& cameras) {
   return {std::move(geometry), cameras.front().intruders};
 }
 
+StagedOutputs::Existing existing_outputs(const ExportRequest& request) {
+  return request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse;
+}
+
 // Exports all cameras, several at a time where they share their footage.
 class RigExport {
  public:
   RigExport(const ExportRequest& request, const ExportControl& control, const std::vector<PlannedCamera>& cameras,
-            SceneFiles& files, RigTruth& truth)
+            SceneFiles& files, RigTruth& truth, StagedOutputs& outputs)
       : request_(request),
         control_(control),
         cameras_(cameras),
         files_(files),
         truth_(truth),
+        outputs_(outputs),
         done_(cameras.size()),
         reports_(cameras.size()) {
     for (const PlannedCamera& camera : cameras) total_ += camera.frames.last - camera.frames.first + 1;
@@ -150,8 +155,11 @@ class RigExport {
       const std::lock_guard lock(mutex_);
       if (control_.warn) control_.warn(warning);
     };
+    StagedOutputs outputs(existing_outputs(request_));
+    request.outputs = &outputs;
     Result<ExportReport> report = export_project(request, control);
     const std::lock_guard lock(mutex_);
+    outputs_.take(std::move(outputs));
     if (!report && !error_) error_ = report.error();
     if (report) reports_[camera] = *std::move(report);
   }
@@ -161,6 +169,7 @@ class RigExport {
   const std::vector<PlannedCamera>& cameras_;
   SceneFiles& files_;
   RigTruth& truth_;
+  StagedOutputs& outputs_;  // of all cameras: they get their names together
   int total_ = 0;
   std::mutex mutex_;  // of what follows
   std::vector<int> done_;
@@ -213,7 +222,7 @@ Result<RigReport> exported_rig(const ExportRequest& request, const ExportControl
   const Result<std::vector<PlannedCamera>> cameras = planned_cameras(request, files);
   if (!cameras) return fail(cameras.error());
   if (const Result<void> folder = make_inner_folder(request.folder); !folder) return fail(folder.error());
-  StagedOutputs outputs(request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  StagedOutputs outputs(existing_outputs(request));
   const std::string base = (request.folder / request.project.name).string();
   const Result<std::filesystem::path> json = outputs.add_file(base + std::string(kRigSuffix));
   if (!json) return fail(json.error());
@@ -225,12 +234,13 @@ Result<RigReport> exported_rig(const ExportRequest& request, const ExportControl
     if (!folder) return fail(folder.error());
     folders.push_back({kind, *folder});
   }
+  const std::vector<std::filesystem::path> of_rig = outputs.final_paths();
   RigTruth truth = truth_of(*cameras);
   if (std::ranges::count(request.project.output.rig, "kitti") > 0)  // before the work, whether the lenses allow it
     if (const Result<TextFiles> lenses = kitti_tables(truth); !lenses)
       return fail(request.project.file.string() + ": " + lenses.error().where, lenses.error().what,
                   lenses.error().kind);
-  Result<std::vector<ExportReport>> reports = RigExport(request, control, *cameras, files, truth).run();
+  Result<std::vector<ExportReport>> reports = RigExport(request, control, *cameras, files, truth, outputs).run();
   if (!reports) return fail(reports.error());
   for (std::size_t i = 0; i < truth.intruders().size(); ++i)
     if (control.warn && truth.views(static_cast<int>(i)).empty())
@@ -240,12 +250,11 @@ Result<RigReport> exported_rig(const ExportRequest& request, const ExportControl
   for (const TableFolder& folder : folders)
     if (step) step = write_tables(folder, truth, request);
   if (!step) return fail(outputs.with_final_names(step.error()));
-  step = outputs.commit();
-  if (!step) return fail(step.error());
+  if (step = outputs.commit(); !step) return fail(step.error());
   RigReport report{.cameras = *std::move(reports)};
   for (const ExportReport& camera : report.cameras)
     report.written.insert(report.written.end(), camera.written.begin(), camera.written.end());
-  for (const std::filesystem::path& path : outputs.final_paths()) report.written.push_back(path);
+  report.written.insert(report.written.end(), of_rig.begin(), of_rig.end());
   return report;
 }
 

@@ -14,6 +14,7 @@
 #include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/pose.h"
+#include "base/statistics.h"
 #include "base/text.h"
 #include "first_project/first_camera.h"
 #include "first_project/first_model.h"
@@ -178,6 +179,9 @@ class Planning {
     scene.last_frame = range_.last;
     if (project().camera.track.file.empty()) {
       set_camera_motion(scene, steady_flight(project()));
+      // What hovers has no path, but a camera with settings.
+      if (log_.track && log_.track->on_footage_time && !log_.track->white_cdpm2.values.empty())
+        scene.motion.logged_white_cdpm2 = median(log_.track->white_cdpm2.values);
     } else if (Result<CameraFlight, Problem> flight =
                    flight_by_log(project(), seen_turns_ ? *seen_turns_ : *log_.track, footage_, range_)) {
       set_camera_motion(scene, *std::move(flight));

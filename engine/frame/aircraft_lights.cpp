@@ -227,6 +227,21 @@ std::vector<LampImage> lamp_images(const Scene& scene, const SceneMoment& moment
   return images;
 }
 
+LampLayer with_layer(Layer layer) {
+  LampLayer lamp;
+  bool is_seen = false;
+  for (int y = 0; y < layer.color.rows; ++y)
+    for (int x = 0; x < layer.color.cols; ++x) {
+      const auto& pixel = layer.color.at<cv::Vec4f>(y, x);
+      const glm::dvec3 light(pixel[0], pixel[1], pixel[2]);
+      is_seen = is_seen || std::max({light.x, light.y, light.z}) >= kFaintest;
+      lamp.brightest = std::max(lamp.brightest, glm::dot(light, kLuminance));
+    }
+  if (!is_seen) return {};
+  lamp.layer = std::move(layer);
+  return lamp;
+}
+
 LampLayer lamp_layer(const LampImage& lamp, const LampSpread& spread, const cv::Rect& bounds) {
   const double light = std::max({lamp.light[0], lamp.light[1], lamp.light[2]});
   const double sharp = 1 - spread.glare;

@@ -68,6 +68,8 @@ struct LampLayer {
   Layer layer;
   double brightest = 0;  // linear light (luminance) of its brightest pixel
 };
+// What is left of a lamp's light once something hides a part of it. Empty: less than that in each pixel.
+[[nodiscard]] LampLayer with_layer(Layer layer);
 [[nodiscard]] LampLayer lamp_layer(const LampImage& lamp, const LampSpread& spread, const cv::Rect& bounds);
 
 }  // namespace sigs

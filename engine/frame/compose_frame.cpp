@@ -135,7 +135,7 @@ void add_lamps(const Scene& scene, const SceneMoment& moment, LensTable& lens, I
                             .widening = widening_at(model, lamp.pixel.y)};
     LampLayer made = lamp_layer(lamp, spread, window_around(lamp.pixel.x, model, scene.footage.size_px));
     if (made.layer.empty()) continue;
-    made.layer = without_hidden(scene, moment, made.layer, layers.placed.distance_m(), lens);
+    made = with_layer(without_hidden(scene, moment, made.layer, layers.placed.distance_m(), lens));
     if (made.layer.empty()) continue;
     layers.lamp_truths.push_back({lamp.name, lamp.pixel, lamp.share, made.brightest});
     layers.lamps.push_back(std::move(made));
@@ -276,6 +276,7 @@ Result<std::optional<FrameTruth>> truth_without_image(const Scene& scene, int fr
     if (draws) return std::optional<FrameTruth>();
     far_to_near.push_back(std::move(*layers));
   }
+  hide_behind_clouds(scene, nullptr, far_to_near);
   return std::optional(
       frame_truth(scene, moment, frame, {}, far_to_near, std::vector<FootageLuma>(far_to_near.size())));
 }

@@ -121,13 +121,19 @@ void composite_with_post_blend_stages(ComposedFrame& composed, const Scene& scen
   composed.op_counts.pixels_blended += cv::countNonZero(rewritten.changed);
 }
 
-// The mean of what a layer's blending changes luma by, weighted by its coverage.
+// The mean of what a layer's blending changes luma by, weighted by its coverage; or of what it changes squares of 7
+// pixels by, whichever is more: a body that is bright above and dark below changes the whole by nothing. In such
+// squares noise of 4 codes is less than one.
 double luma_change(const cv::Mat& before, const cv::Mat& after, const Layer& layer) {
+  constexpr int kSquare_px = 7;
   const double covered = cv::sum(layer.coverage)[0];
   if (!(covered > 0)) return 0;
   cv::Mat change;
   cv::subtract(after, before, change, cv::noArray(), CV_32F);
-  return std::abs(change.dot(layer.coverage)) / covered;
+  const double of_whole = std::abs(change.dot(layer.coverage));
+  cv::boxFilter(change.mul(layer.coverage), change, CV_32F, {kSquare_px, kSquare_px}, {-1, -1}, true,
+                cv::BORDER_CONSTANT);
+  return std::max(of_whole, cv::norm(change, cv::NORM_L1)) / covered;
 }
 
 // On the ground, which is farther than every intruder. It takes light, so it is mixed in light.

@@ -84,6 +84,14 @@ std::optional<Detectability> detectability_in(const Frame& image, const Intruder
                        scene.own_body, luminance_of_code(image));
 }
 
+// Whether a layer changes some pixel by half a code of 8 bits, between black and white.
+bool is_seen(const Layer& layer) {
+  if (layer.empty()) return false;
+  cv::Mat opacity;
+  cv::extractChannel(layer.color, opacity, 3);
+  return cv::countNonZero(opacity > 0.5 / 255) > 0;
+}
+
 // The truth of every intruder, by id: what is measured in the composed image, and what the scene says.
 std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment& moment, const ComposedFrame& composed,
                                            const std::vector<IntruderLayers>& far_to_near,
@@ -103,8 +111,8 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
     if (scene.earth) truth.place = scene.earth->place_of(moment.world_from_camera * truth.position_m);
     truth.lights = far_to_near[i].lamp_truths;
     truth.clouds = far_to_near[i].clouds;
-    truth.has_contrail = !far_to_near[i].contrail.empty();
-    truth.has_shadow = !far_to_near[i].shadow.empty();
+    truth.has_contrail = is_seen(far_to_near[i].contrail);
+    truth.has_shadow = is_seen(far_to_near[i].shadow);
     truth.is_distractor = scene.intruders[static_cast<std::size_t>(truth.id)].is_distractor;
     parts.push_back(std::move(truth));
     if (i + 1 < all.size() && all[i + 1].id == all[i].id) continue;

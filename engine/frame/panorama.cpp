@@ -40,6 +40,7 @@ IntruderLayers part_of(const IntruderLayers& whole, int by_px, const cv::Rect& i
   IntruderLayers part = whole;
   const auto cut = [&](Layer& layer) { layer = clipped(moved(layer, by_px), image); };
   if (part.silhouette) part.silhouette->box.x += by_px;
+  if (part.body) part.body->box.x += by_px;
   part.warped = moved(clipped(whole.warped, whole.window), by_px);
   for (Layer* const layer : {&part.hazed, &part.motion_blurred}) *layer = moved(*layer, by_px);
   for (Layer* const layer : {&part.blurred, &part.occluded, &part.contrail, &part.shadow}) cut(*layer);

@@ -377,7 +377,9 @@ Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, con
   const double step = std::max({1.0, box.width / kWholeAreaSteps, box.height / kWholeAreaSteps});
   LensTable coarse(coarse_camera(lens.camera(), step), lens.tolerance_px());
   const cv::Rect coarse_rect = pixels_touched(coarse_box(box, step), 1, kUnboundedRect);
-  const std::vector<VirtualCamera> views = virtual_cameras(coarse, plan.corners, coarse_rect, 1, 4 * kWholeAreaSteps);
+  const double shift_px = layers.row_motion ? layers.row_motion->max_shift_px(coarse.camera().lens) : 0;
+  const std::vector<VirtualCamera> views =
+      virtual_cameras(coarse, plan.corners, with_row_shift(coarse_rect, shift_px), 1, 4 * kWholeAreaSteps);
   const Result<std::vector<RenderedView>> rendered = rendered_views(views, plan, scene, layers, renderer);
   if (!rendered) return fail(rendered.error());
   if (rendered->empty()) return 0;

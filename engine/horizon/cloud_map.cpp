@@ -208,7 +208,11 @@ void CloudMap::find_clear_sky(const Cells& cells) {
   for (int c = 0; c < 3; ++c)
     clear_.light[static_cast<std::size_t>(c)] = fitted(
         samples, [c](const SkyPlace& sample) { return sample.light[c]; }, [](const SkyPlace&) { return 1.0; });
-  if (has_colour_)
+  // By night lamps colour the sky, and nothing of it is blue.
+  constexpr double kNight = 0.01;  // of white
+  std::vector<double> brightness;
+  for (const SkyPlace& sample : samples) brightness.push_back(luminance(sample.light));
+  if (has_colour_ && !brightness.empty() && median(std::move(brightness)) >= kNight)
     overcast_ = std::clamp((kBlue - quantile(std::move(bluest_of), 0.9)) / (kBlue - kOvercast), 0.0, 1.0);
   measure_noise(samples);
 }

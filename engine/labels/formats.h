@@ -93,9 +93,10 @@ inline constexpr std::array<std::string_view, 6> kMotFiles{"seqmaps/*.txt", "*/s
 //   calib/NAME.txt               where the sequence has a camera: the pinhole part of its lens
 //   image_02/NAME/000000.png     only where images are written
 //   evaluate_tracking.seqmap.training  TrackEval's list of the sequences
-inline constexpr std::array<std::string_view, 6> kKittiFiles{
-    "label_02/*.txt",   "calib/*.txt",      "evaluate_tracking.seqmap.training",
-    "image_02/*/#.png", "image_02/*/#.jpg", "image_02/*/#.tiff"};
+//   poses/NAME.txt, NAME.csv     only where the camera's pose is from a log or has a place on the Earth
+inline constexpr std::array<std::string_view, 8> kKittiFiles{
+    "label_02/*.txt",   "calib/*.txt",      "poses/*.txt",       "poses/*.csv",
+    "image_02/*/#.png", "image_02/*/#.jpg", "image_02/*/#.tiff", "evaluate_tracking.seqmap.training"};
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_kitti(const std::filesystem::path& path,
                                                               const LabelSequence& sequence);
 

@@ -91,7 +91,9 @@ class NuScenes {
                               {"last_sample_token", frames.empty() ? "" : sample_token(frames.back())},
                               {"name", name_},
                               {"description", ""}});
-    table("attribute") = Json::array();
+    // Its readers open all tables, whatever is in them.
+    for (const char* const name : {"attribute", "category", "instance", "sample_annotation"})
+      table(name) = Json::array();
     constexpr std::array<const char*, 4> kLevels{"v0-40", "v40-60", "v60-80", "v80-100"};
     for (std::size_t i = 0; i < kLevels.size(); ++i)
       table("visibility").push_back({{"token", std::to_string(i + 1)}, {"level", kLevels[i]}, {"description", ""}});

@@ -59,18 +59,19 @@ std::optional<Problem> axes_mistake(const ModelSettings& settings, const Model& 
 }
 
 std::optional<Problem> frames_mistake(const TrajectoryPlan& plan, const Scene& scene, const std::string& key) {
-  const int last = static_cast<int>(scene.footage.times_s.size()) - 1;
+  const Timeline used = scene.timeline.value_or(Timeline{scene.footage, scene.first_frame, scene.last_frame});
+  const int last = static_cast<int>(used.footage.times_s.size()) - 1;
   for (std::size_t i = 0; i < plan.waypoints.size(); ++i) {
     const std::optional<double>& frame = plan.waypoints[i].frame;
-    const bool all_before = i + 1 == plan.waypoints.size() && frame && *frame < scene.first_frame && i > 0;
+    const bool all_before = i + 1 == plan.waypoints.size() && frame && *frame < used.first_frame && i > 0;
     // A flight may well begin before and end after the frames used; what begins after them is a slip.
-    const bool begins_after = i == 0 && frame && *frame > scene.last_frame;
+    const bool begins_after = i == 0 && frame && *frame > used.last_frame;
     if (!all_before && !begins_after) continue;
     return Problem{
         fmt::format("{}.waypoints[{}].frame", key, i),
         fmt::format("{:.10g} is {} the frames used, {} to {} (the footage has {} frames): the intruder flies "
                     "straight on from there; set frames within them",
-                    *frame, begins_after ? "after" : "before", scene.first_frame, scene.last_frame, last + 1)};
+                    *frame, begins_after ? "after" : "before", used.first_frame, used.last_frame, last + 1)};
   }
   return std::nullopt;
 }

@@ -13,6 +13,7 @@
 
 #include "base/ensure.h"
 #include "scene/opened_project.h"
+#include "scene/scene_light.h"
 
 namespace sigs {
 
@@ -43,6 +44,7 @@ void move_camera(CameraMotion& motion, double time_s, const GivenPose& pose) {
   motion.speed_mps = 0;
   motion.attitudes.clear();
   motion.deviations.clear();
+  motion.mount.reset();
   motion.source = {.position = "given", .attitude = "given"};
   motion.path = std::make_shared<const PiecewiseCubic>(
       std::vector<double>{time_s, time_s + kPiece_s},
@@ -158,7 +160,10 @@ cv::Point2d offset_px(const IntruderPose& pose, int frames) {
 // The project that posed_scene() opens, its intruder somewhere.
 Project bare_project(const Project& project) {
   Project bare = project;
+  bare.rig_view.reset();
   bare.footage.own_body_mask.clear();
+  bare.footage.occluder_mask.clear();
+  bare.footage.cloud_distance_m.reset();
   bare.footage.first_frame = 0;
   bare.footage.last_frame.reset();
   bare.intruders.resize(1);
@@ -170,6 +175,19 @@ Project bare_project(const Project& project) {
   return bare;
 }
 
+// The sun of a frame, where the project leaves its direction to time and place of a log, which a bare project lacks.
+Result<void> keep_sun(const Project& project, const FootageShape& footage, SceneFiles& files, int frame,
+                      Project& bare) {
+  SunSettings& sun = bare.light.sun;
+  if (bare.light.kind != LightKind::sun || (sun.azimuth_deg && sun.elevation_deg)) return {};
+  const Result<Scene> scene = open_scene(project, footage, files);
+  if (!scene) return fail(scene.error());
+  const glm::dvec3 to_sun = sunlight_at(*scene, time_of_frame_s(footage, frame)).to_sun;
+  sun.azimuth_deg = deg_of_rad(std::atan2(to_sun.y, to_sun.x));
+  sun.elevation_deg = deg_of_rad(std::asin(std::clamp(-to_sun.z, -1.0, 1.0)));
+  return {};
+}
+
 }  // namespace
 
 Result<Scene> posed_scene(const Project& project, const FootageShape& footage, SceneFiles& files, int frame,
@@ -177,6 +195,7 @@ Result<Scene> posed_scene(const Project& project, const FootageShape& footage, S
   if (project.intruders.empty())
     return fail(project.file.string() + ": intruders", "is empty; name one with its model", ErrorKind::usage);
   Project bare = bare_project(project);
+  if (const Result<void> kept = keep_sun(project, footage, files, frame, bare); !kept) return fail(kept.error());
   const Result<Scene> first = open_scene(bare, footage, files);
   if (!first) return fail(first.error());
   const Lens& lens = first->camera.lens;

@@ -124,7 +124,7 @@ Sunlight sunlight_at(const Scene& scene, double time_s) {
 }
 
 Result<SceneLight, Problem> scene_light(const Project& project, const Scene& scene) {
-  if (project.light.kind == LightKind::sun && !knows_sky(scene)) {
+  if (scene.light.kind == LightKind::sun && !knows_sky(scene)) {
     if (!project.light.sun.azimuth_deg) return unknown_direction("azimuth_deg", scene);
     if (!project.light.sun.elevation_deg) return unknown_direction("elevation_deg", scene);
   }

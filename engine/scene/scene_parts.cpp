@@ -250,6 +250,9 @@ std::optional<Problem> panorama_problem(const Scene& scene) {
   if (!(scene.camera.lens.period_px() > 0)) return std::nullopt;
   if (scene.compositing.method != MethodChoice::direct)
     return Problem{"compositing.method", "needs a flat image, which 360 degree footage is not; use direct"};
+  if (scene.footage.part)
+    return Problem{"footage.crop",
+                   "leaves a part of 360 degree footage, whose lens is that of the whole; leave it out"};
   if (scene.motion.readout_s > 0)
     return Problem{
         "camera.readout_s",

@@ -106,6 +106,9 @@ TEST_CASE("files are matched to labels in order, folders by name, and a dataset'
     CHECK(report["detectors"][0]["false_alarm_boxes"] == 1);
     CHECK(report["detectors"][0]["encounters"].size() == 2);
   }
+  const Run classes = fixture.detect(fixture.dataset + " --classes airplane --results " + folder + fixture.out());
+  CHECK(classes.status == 64);
+  CHECK(classes.err.find("--classes") != std::string::npos);
   REQUIRE(fixture.detect(fixture.dataset + " --split test --results " + folder + fixture.out()).status == 0);
   CHECK(fixture.report()["videos"] == nlohmann::json({"two"}));
   CHECK(fixture.report()["detectors"][0]["false_alarm_boxes"] == 0);

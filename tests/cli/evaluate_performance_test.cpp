@@ -185,6 +185,11 @@ TEST_CASE("what performance and risk cannot use is refused with the reason") {
   refused("risk " + clips.file("sensor.json") + " --own-speed 22 --labels " + clips.file("clip0.xml") + " --results " +
               clips.file("found/clip0.csv"),
           64, "has its flights");
+  refused("risk " + clips.file("sensor.json") + " --own-speed 22 --pairs " + clips.file("clip0.xml"), 64,
+          "has its flights");
+  refused("risk " + clips.file("sensor.json") + " --shard 1/2 --labels " + clips.file("clip0.xml") + " --results " +
+              clips.file("found/clip0.csv"),
+          64, "exclude each other");
   refused("risk --merge " + clips.file("sensor.json"), 65, "sensor.json");
   // Truth without ranges.
   write_file(clips.file("coco.json"),

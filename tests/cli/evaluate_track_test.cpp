@@ -82,6 +82,18 @@ TEST_CASE("trackers score the same on a project and on its export, and from resu
   CHECK(scores_in(fixture, "report").size() == 3);
 }
 
+TEST_CASE("trackers run on the images of every format that an export writes") {
+  const TrackFixture fixture;
+  for (const std::string codec : {"jpeg", "tiff"}) {
+    const std::string out = fixture.tiny.file(codec).string();
+    REQUIRE(run_sigs("export " + fixture.tiny.project() + " --masks none --codec " + codec + " --out " + out).status ==
+            0);
+    const Run run =
+        fixture.track(out + "/tiny.xml", "--tracker mosse --out " + fixture.tiny.file("r." + codec).string());
+    CHECK_MESSAGE(run.status == 0, run.err);
+  }
+}
+
 TEST_CASE("a clip has the images that an export writes, and its ground truth") {
   const TrackFixture fixture;
   const Project project = read_project(fixture.tiny.project()).value().project;

@@ -57,6 +57,17 @@ struct Exported {
 
 }  // namespace
 
+TEST_CASE("labels of a flight with a place on the Earth are replaced in every format") {
+  const TinyProject tiny;
+  const std::string command =
+      "export " + tiny.project() + " --masks none --set geo.latitude_deg=47" +
+      " --set geo.longitude_deg=8 --labels xml,jsonl,csv,coco,yolo,voc,mot,kitti,cvat,vot,aot --out " + tiny.out();
+  REQUIRE(run_sigs(command).status == 0);
+  CHECK(fs::exists(fs::path(tiny.out()) / "tiny.kitti/poses/tiny.txt"));
+  const Run again = run_sigs(command + " --force");
+  CHECK_MESSAGE(again.status == 0, again.err);
+}
+
 TEST_CASE("killed before any of its renamings, an export has left whole results under all final names") {
   const Exported exported;
   int kills = 0;

@@ -53,6 +53,19 @@ TEST_CASE("whatever an export depends on changes the fingerprint") {
   CHECK(fingerprint(tiny, "test 2") != fingerprint(tiny));
 }
 
+TEST_CASE("a calibration counts that is named with a camera of it") {
+  TinyProject tiny;
+  const std::string first = fingerprint(tiny);
+  tiny.change("lens.xml", "lens.xml#left");
+  const std::string left = fingerprint(tiny);
+  CHECK(left != first);
+  write_file(tiny.file("lens.xml"), "another");
+  const std::string changed = fingerprint(tiny);
+  CHECK(changed != left);
+  tiny.change("lens.xml#left", "lens.xml#right");
+  CHECK(fingerprint(tiny) != changed);
+}
+
 TEST_CASE("images of a model's materials count, however their names are written") {
   for (const char* const line : {"map_Kd skin of it.png", "map_Kd -s 2 2 1 SKIN OF IT.PNG",
                                  "map_Kd C:\\art\\skin of it.png", "map_d skin.png", "bump -bm 1 skin.png"}) {

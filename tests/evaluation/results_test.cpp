@@ -170,6 +170,9 @@ TEST_CASE("one coco file covers several clips by the number of their first image
       read(text, "a.json", {.multiple_per_frame = true, .first_image_id = 4, .last_image_id = 6});
   REQUIRE_FALSE(beyond);
   CHECK(beyond.error().text().find("image_id 7 is past the last one, 6") != std::string::npos);
+  const Result<Results> named = read(R"([{"image_id": "frame_000100", "bbox": [1, 1, 1, 1]}])", "a.json", second);
+  REQUIRE_FALSE(named);
+  CHECK(named.error().text().find("does not say of which clip") != std::string::npos);
   const Result<Results> other = read("[{\"img_name\": \"100\"}]", "a.json", second);
   REQUIRE_FALSE(other);
   CHECK(other.error().text().find("coco") != std::string::npos);

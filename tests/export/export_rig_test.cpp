@@ -444,4 +444,30 @@ TEST_CASE("nothing is overwritten unasked, and an error leaves no rig files") {
   CHECK(files_below(scenario.path("stopped")).empty());
 }
 
+TEST_CASE("cameras get their names together: what fails after the first one leaves nothing, or all that was there") {
+  Scenario scenario;
+  prepare_rig(scenario);
+  for (const char* const folder : {"new", "out"}) {
+    if (std::string(folder) == "out") exported(scenario);
+    const auto before = files_below(scenario.path(folder));
+    std::vector<std::string> bytes;
+    for (const auto& file : before) bytes.push_back(text_of(file));
+    std::atomic<bool> cancel = false;
+    int begun = 0;
+    const Result<RigReport> stopped =
+        export_rig({.project = scenario.project, .folder = scenario.path(folder), .overwrite = true},
+                   {.progress =
+                        [&](int done, int total) {
+                          ++begun;
+                          if (done >= total - 2) cancel = true;
+                        },
+                    .cancel = &cancel});
+    REQUIRE_FALSE(stopped.has_value());
+    CHECK(stopped.error().kind == ErrorKind::interrupted);
+    CHECK(begun > 2);
+    CHECK(files_below(scenario.path(folder)) == before);
+    for (std::size_t i = 0; i < before.size(); ++i) CHECK(text_of(before[i]) == bytes[i]);
+  }
+}
+
 }  // namespace sigs::test

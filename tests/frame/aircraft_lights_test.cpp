@@ -248,7 +248,9 @@ TEST_CASE("lights add to the image: nothing is hidden by them, the own body hide
 
   Scene hidden = scenario.opened();
   hidden.own_body = cv::Mat::ones(kNightImage, CV_32FC1);
-  CHECK(same_planes(composed(hidden, 1, background).image, background));
+  const ComposedFrame covered = composed(hidden, 1, background);
+  CHECK(same_planes(covered.image, background));
+  CHECK(covered.truth.intruders[0].lights.empty());
 
   scenario.project.light.white_cdpm2 = std::nullopt;
   scenario.project.light.color = {1, 1, 1};

@@ -269,6 +269,11 @@ TEST_CASE("what needs a flat image or rows of one exposure is refused for 360 de
     return scene ? std::string() : scene.error().text();
   };
   CHECK(error().empty());
+  FootageShape cropped = footage;
+  cropped.part = ImagePart{{1024, 512}, {0, 0}};
+  const Result<Scene> of_part = open_scene(scenario.project, cropped);
+  REQUIRE_FALSE(of_part);
+  CHECK(of_part.error().text().find("footage.crop") != std::string::npos);
   for (const MethodChoice method : {MethodChoice::classic, MethodChoice::plain}) {
     scenario.project.compositing.method = method;
     CHECK(error().find("compositing.method") != std::string::npos);

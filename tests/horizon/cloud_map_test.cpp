@@ -95,6 +95,15 @@ TEST_CASE("a gray sky is overcast where the footage has colours, and its brightn
   CHECK(mean_where(found, sky, 1, 1) > 0.9);
 }
 
+TEST_CASE("a sky by night, coloured by lamps, is not overcast") {
+  for (const double light : {0.002, 0.006}) {
+    const Frame night = even({1.5 * light, light, 0.7 * light});
+    REQUIRE(CloudMap(night).has_sky());
+    CHECK(cv::mean(whole(night).opacity)[0] < 0.05);
+  }
+  CHECK(cv::mean(whole(even({0.30, 0.20, 0.14})).opacity)[0] > 0.95);
+}
+
 TEST_CASE("without a sky there are no clouds") {
   cv::Mat_<cv::Vec3d> rough(400, 640);
   cv::RNG(3).fill(rough, cv::RNG::UNIFORM, 0, 0.5);

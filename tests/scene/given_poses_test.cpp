@@ -67,6 +67,16 @@ TEST_CASE("around its frame a body goes on at the velocity given, without turnin
   CHECK(given->motion.source.position == "given");
 }
 
+TEST_CASE("a pose of a camera of a rig is that of the camera itself, its mounting included") {
+  Scene own = two_hovering();
+  own.motion.mount = Pose<frame::Body, frame::Camera>{rotation_of({0, 0, -1}), {0.1, -0.6, 0}};
+  const Result<Scene> given = with_poses(own, kFrame, {.camera = GivenPose{{7, 8, -9}, {0, 0, 0.5}, {3, 0, 0}}});
+  REQUIRE(given.has_value());
+  const Pose<frame::World, frame::Camera> camera = camera_at(given->motion, 1);
+  CHECK(distance_between(camera.translation_m, {7, 8, -9}) < 1e-12);
+  CHECK(attitude_of(camera.rotation).yaw_rad == doctest::Approx(0.5));
+}
+
 TEST_CASE("the camera's own poses given back change nothing") {
   const Scene own = two_hovering();
   const Pose<frame::World, frame::Camera> pose = camera_at(own.motion, 1);

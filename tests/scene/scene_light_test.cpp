@@ -170,6 +170,9 @@ TEST_CASE("a sun that nobody placed is an error that names the field and what to
   const Result<Scene> half = open_scene(project, sample_footage());
   REQUIRE_FALSE(half.has_value());
   CHECK(half.error().text().find("light.sun.elevation_deg") != std::string::npos);
+  project.footage.spectrum = Spectrum::thermal;  // its light has no effect
+  CHECK(open_scene(project, sample_footage()).has_value());
+  project.footage.spectrum = Spectrum::visible;
   project.light.kind = LightKind::point;
   CHECK(open_scene(project, sample_footage()).has_value());
 }

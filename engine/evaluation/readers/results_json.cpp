@@ -184,6 +184,11 @@ class CocoReader : public BoxReader {
   [[nodiscard]] Result<std::optional<int>> frame_in(const JsonValue& entry, const JsonValue& image) {
     const ResultsOptions& options = file().options;
     if (image.is(JsonValue::kText)) {
+      // Another clip of the file may have an image of the same name.
+      if (options.last_image_id && options.images == nullptr)
+        return wrong(entry,
+                     "image_id is a name, which does not say of which clip; use the numbers of labels/coco/, or a "
+                     "file for each clip");
       const std::optional<int> frame = frame_named(image.text);
       if (!frame && options.images == nullptr)
         return wrong(entry, fmt::format("image_id {} is neither a number nor an image's name that ends with one, as "
