@@ -3,7 +3,7 @@
 //   bench_near [--rounds N] [--set FIELD=VALUE]... [WORD]...
 // default: 3 rounds; only the cases whose names contain all of the words. --set changes a setting of the projects.
 // Prints a line a case: its name, its share of the image in percent, and the medians of drawing, compositing, both, and
-// of the processor time of all threads, in milliseconds a frame. bench/near.sh compares builds.
+// of the processor time of all threads, in milliseconds a frame. bench/near.sh compares qualities.
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What near intruders cost a frame, by another build and by each compositing.quality of this one, in turn: medians over
-# runs of the processor time of all threads, and shares of that of the other build.
-#   bench/near.sh [--write] RUNS BUILD OTHER_BUILD [WORD]...     WORDs: of bench_near's cases, those with all of them
+# What near intruders cost a frame by each compositing.quality, in turn: medians over runs of the processor time of all
+# threads, and shares of that of `exact`.
+#   bench/near.sh [--write] RUNS BUILD [WORD]...     WORDs: of bench_near's cases, those with all of them
 # --write puts the table into docs/speed.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -10,14 +10,13 @@ if [ "${1:-}" = --write ]; then
   write=1
   shift
 fi
-[ $# -ge 3 ] || { sed -n 2,5p "$0" >&2; exit 64; }
-runs=$1 build=$2 other=$3
-shift 3
+[ $# -ge 2 ] || { sed -n 2,5p "$0" >&2; exit 64; }
+runs=$1 build=$2
+shift 2
 lot=$(mktemp -d)
 trap 'rm -rf "$lot"' EXIT
 
 for _ in $(seq "$runs"); do
-  "$other/bench_near" --rounds 1 "$@" | sed "s/^/other /"
   for quality in exact auto draft; do
     "$build/bench_near" --rounds 1 --set "compositing.quality=$quality" "$@" | sed "s/^/$quality /"
   done
@@ -31,13 +30,13 @@ awk "$(cat bench/median.awk)"'
     values[name $1] = values[name $1] " " $10
   }
   END {
-    print "| aircraft | size | light | look | share of the image, % | before: processor ms | `exact` | share | `auto` | share | `draft` | share |"
-    print "|---|---|---|---|---|---|---|---|---|---|---|---|"
+    print "| aircraft | size | light | look | share of the image, % | `exact`: processor ms | `auto` | share | `draft` | share |"
+    print "|---|---|---|---|---|---|---|---|---|---|"
     for (r = 1; r <= rows; r++) {
       name = order[r]
-      printf "| %s | %s | %.1f", name, share[name], median(name "other")
-      for (q = 1; q <= split("exact auto draft", qualities, " "); q++)
-        printf " | %.1f | **%.2f**", median(name qualities[q]), median(name qualities[q]) / median(name "other")
+      printf "| %s | %s | %.1f", name, share[name], median(name "exact")
+      for (q = 1; q <= split("auto draft", qualities, " "); q++)
+        printf " | %.1f | **%.2f**", median(name qualities[q]), median(name qualities[q]) / median(name "exact")
       print " |"
     }
   }' "$lot/times" | tee "$lot/table"
