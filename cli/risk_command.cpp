@@ -45,8 +45,7 @@ struct RiskOptions {
   std::vector<fs::path> pairs;
   PerformanceInputs images;
   RiskSettings settings;
-  std::vector<double> own_speed;
-  std::vector<double> intruder_speed;
+  std::vector<double> own_speed, intruder_speed;
   std::string manoeuvre = "vertical-away";
   double alert_rate_deg_s = std::numeric_limits<double>::infinity();
   std::string volume = "small-uas";
@@ -122,9 +121,13 @@ Result<RiskSettings> settings_of(const RiskOptions& options) {
   settings.sensor = *std::move(sensor);
   RiskEncounters& encounters = settings.encounters;
   encounters.importance_sampling = !options.plain_sampling;
-  const bool has_own = !options.own.empty() || !options.own_speed.empty();
-  if (!options.pairs.empty() && (has_own || !options.intruders.empty() || !options.intruder_speed.empty()))
-    return fail("--pairs", "excludes --own, --intruder and speeds: it has its flights", ErrorKind::usage);
+  const bool has_images = !options.images.inputs.empty(), has_pairs = !options.pairs.empty();
+  const bool is_drawn = !options.own.empty() || !options.intruders.empty() || !options.own_speed.empty() ||
+                        !options.intruder_speed.empty();
+  if ((has_images && has_pairs) || (is_drawn && (has_images || has_pairs)))
+    return fail(has_images ? "--labels" : "--pairs", "has its flights: leave out all others", ErrorKind::usage);
+  if (has_images && !options.shard.empty())
+    return fail("--shard", "and --labels exclude each other: each of its encounters is flown once", ErrorKind::usage);
   if (!options.own.empty()) {
     Result<EncounterModel> model = model_of_file(options.own);
     if (!model) return fail(model.error());
@@ -183,8 +186,7 @@ Result<RiskResult> flown(const RiskSettings& settings, const Logic& logic, const
   });
   progress.end();
   // A signal from the keyboard ends the logic's program too, which then gives no answer.
-  if (!result)
-    if (const Result<void> goes_on = check_interrupt(&interrupt_flag()); !goes_on) return fail(goes_on.error());
+  if (!result && is_cancelled(&interrupt_flag())) return fail(check_interrupt(&interrupt_flag()).error());
   return result;
 }
 
@@ -217,9 +219,6 @@ Result<Json> merged(const RiskOptions& options) {
 Result<Json> compared(const RiskOptions& options, RiskSettings settings, const Logic& logic) {
   Result<ReadPerformance> read = read_performance(options.images);
   if (!read) return fail(read.error());
-  if (!options.pairs.empty() || !options.intruders.empty() || !options.own.empty() || !options.own_speed.empty() ||
-      !options.intruder_speed.empty())
-    return fail("--labels", "excludes --pairs, --own, --intruder and speeds: it has its flights", ErrorKind::usage);
   const std::vector<ObservedEncounter>& observed = read->observations.encounters;
   for (const PerformanceClip& clip : read->clips)
     for (const TargetTruth& target : clip.detected.truth.targets) {
@@ -234,8 +233,6 @@ Result<Json> compared(const RiskOptions& options, RiskSettings settings, const L
       settings.encounters.pairs.push_back(std::move(*pair));
     }
   if (settings.encounters.pairs.empty()) return fail("--labels", "have no intruder");
-  if (settings.shards > 1)
-    return fail("--shard", "and --labels exclude each other: each of its encounters is flown once", ErrorKind::usage);
   RiskSettings images = settings;
   images.count = std::ssize(images.encounters.pairs);
   const Result<RiskResult> by_images = flown(images, logic, options);
@@ -252,11 +249,9 @@ Result<Json> compared(const RiskOptions& options, RiskSettings settings, const L
 }
 
 Result<void> run(const RiskOptions& options) {
-  std::vector<fs::path> inputs = options.merge;
-  inputs.insert(inputs.end(), options.intruders.begin(), options.intruders.end());
-  inputs.insert(inputs.end(), options.pairs.begin(), options.pairs.end());
-  for (const fs::path& file : {options.sensor, options.own, options.logic})
-    if (!file.empty()) inputs.push_back(file);
+  std::vector<fs::path> inputs{options.sensor, options.own, options.logic};  // empty ones are passed over
+  for (const std::vector<fs::path>* files : {&options.merge, &options.intruders, &options.pairs})
+    inputs.insert(inputs.end(), files->begin(), files->end());
   if (const Result<void> named = check_outputs(options.outputs(), inputs); !named) return named;
   if (options.sensor.empty() == options.merge.empty())
     return fail("SENSOR", "name a sensor model, which sigs evaluate performance --out writes, or --merge shards",
@@ -311,14 +306,10 @@ void add_encounter_options(CLI::App& command, RiskOptions& options) {
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(from_to(0, 1e4));
-  command.add_option("--miss", encounters.miss_m, "horizontal offset at the closest approach, to both sides")
-      ->type_name("M")
-      ->capture_default_str()
-      ->check(from_to(0, 1e6));
-  command.add_option("--vertical-miss", encounters.vertical_miss_m, "vertical offset, up and down")
-      ->type_name("M")
-      ->capture_default_str()
-      ->check(from_to(0, 1e5));
+  for (const auto& [name, value, most, help] :
+       {std::tuple("--miss", &encounters.miss_m, 1e6, "horizontal offset at the closest approach, to both sides"),
+        std::tuple("--vertical-miss", &encounters.vertical_miss_m, 1e5, "vertical offset, up and down")})
+    command.add_option(name, *value, help)->type_name("M")->capture_default_str()->check(from_to(0, most));
   add_number(command, "--lead", encounters.lead_s, "S", 1, 3600, "whole seconds before the closest approach");
   add_number(command, "--after", encounters.after_s, "S", 0, 3600, "whole seconds after it");
   command.add_flag("--plain-sampling", options.plain_sampling, "small misses are not drawn more often");

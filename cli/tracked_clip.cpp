@@ -80,8 +80,7 @@ Result<fs::path> LabelledImages::beside(const fs::path& labels) {
     return fail(
         labels.string(),
         fmt::format(
-            "has neither a video {}.mkv (.mp4, .mov, .avi, .nut, .y4m) nor a folder {} beside it; name its images "
-            "with --video",
+            "has neither {}.mkv, .mp4, .mov, .avi, .nut, .y4m nor a folder {} beside it; name its images with --video",
             labels.stem().string(), labels.stem().string()),
         ErrorKind::cannot_read);
   if (found.size() > 1)

@@ -12,6 +12,7 @@
 
 #include "ego_motion/rotation_fit.h"
 #include "horizon/horizon.h"
+#include "project/rig.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
@@ -75,6 +76,11 @@ class Estimating {
     const FoundAttitudes of_motion = found_attitudes(found_.motion, {});
     found_.found.is_complete = of_motion.is_complete;
     found_.found.level_at_start = of_motion.level_at_start;
+    // Of a rig camera.attitude_deg is the first camera's where the level is known, else the aircraft's
+    // (camera_flight()).
+    std::optional<Attitude>& stated = found_.found.stated_at_start;
+    if (stated && project_.rig_view && !of_motion.level_at_start)
+      stated = attitude_of(glm::normalize(rotation_of(*stated) * glm::conjugate(mount_of_first())));
     return std::move(found_);
   }
 
@@ -91,11 +97,16 @@ class Estimating {
     log_ = settings.offset_s != 0 ? on_footage_time(**read, settings.offset_s) : **read;
   }
 
+  // Of a rig's first camera, whose attitude is found; no turn where there is one camera.
+  [[nodiscard]] glm::dquat mount_of_first() const {
+    return project_.rig_view ? body_from_camera(project_.rig_view->reference_mount).rotation : glm::dquat(1, 0, 0, 0);
+  }
+
   void note_stated_attitude(const FootageShape& shape) {
     const Result<FrameRange, Problem> range = scene_range(project_.footage, shape);
     if (!range) return;
     const Result<CameraFlight, Problem> flight = camera_flight(project_, shape, *range, files_);
-    if (!flight || flight->motion.attitudes.empty()) return;
+    if (!flight || (flight->motion.attitudes.empty() && mount_of_first() == glm::dquat(1, 0, 0, 0))) return;
     found_.found.stated_at_start = attitude_of(camera_at(flight->motion, time_of_frame_s(shape, 0)).rotation);
     if (flight->earth) found_.found.heading_of_world_rad = flight->earth->heading_rad();
   }

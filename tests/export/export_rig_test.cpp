@@ -448,10 +448,11 @@ TEST_CASE("cameras get their names together: what fails after the first one leav
   Scenario scenario;
   prepare_rig(scenario);
   for (const char* const folder : {"new", "out"}) {
+    std::filesystem::create_directories(scenario.path(folder));
     if (std::string(folder) == "out") exported(scenario);
     const auto before = files_below(scenario.path(folder));
     std::vector<std::string> bytes;
-    for (const auto& file : before) bytes.push_back(text_of(file));
+    for (const auto& file : before) bytes.push_back(text_of(scenario.path(std::string(folder) + "/" + file)));
     std::atomic<bool> cancel = false;
     int begun = 0;
     const Result<RigReport> stopped =
@@ -466,7 +467,8 @@ TEST_CASE("cameras get their names together: what fails after the first one leav
     CHECK(stopped.error().kind == ErrorKind::interrupted);
     CHECK(begun > 2);
     CHECK(files_below(scenario.path(folder)) == before);
-    for (std::size_t i = 0; i < before.size(); ++i) CHECK(text_of(before[i]) == bytes[i]);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      CHECK(text_of(scenario.path(std::string(folder) + "/" + before[i])) == bytes[i]);
   }
 }
 
