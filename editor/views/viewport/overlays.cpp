@@ -134,8 +134,7 @@ std::vector<double> times_between(const FootageShape& footage, int from, int to,
   for (const double frame : waypoints)
     if (frame > from && frame < to) times.push_back(time_of_frame_s(footage, frame));
   std::ranges::sort(times);
-  const auto repeated = std::ranges::unique(times);
-  times.erase(repeated.begin(), repeated.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 
