@@ -98,10 +98,10 @@ Result<LabelledImages> LabelledImages::open(const fs::path& path, const ClipTrut
     if (!files) return fail(files.error());
     if (const Result<void> fits = check_count(path, static_cast<int>(files->size()), clip); !fits)
       return fail(fits.error());
-    const std::string extension = names == ImageNames::by_frame ? files->front().extension().string() : std::string();
     for (int frame = clip.footage.first_frame; frame <= clip.footage.last_frame && names == ImageNames::by_frame;
          ++frame)
-      (*files)[static_cast<std::size_t>(frame - clip.footage.first_frame)] = path / image_name(frame, extension);
+      (*files)[static_cast<std::size_t>(frame - clip.footage.first_frame)] =
+          path / image_name(frame, files->front().extension().string());
     images.files_ = std::move(*files);
     const Result<cv::Mat> first = images.at(clip.footage.first_frame);
     if (!first) return fail(first.error());

@@ -251,10 +251,9 @@ LampLayer lamp_layer(const LampImage& lamp, const LampSpread& spread, const cv::
   const cv::Rect rect =
       pixels_touched({lamp.pixel.x - across_px, lamp.pixel.y - reach, 2 * across_px, 2 * reach}, 0, bounds);
   if (rect.empty()) return {};
-  LampLayer made{.layer = {.rect = rect,
-                           .color = cv::Mat(rect.size(), CV_32FC4, cv::Scalar::all(0)),
-                           .coverage = cv::Mat::zeros(rect.size(), CV_32FC1)}};
-  bool is_seen = false;
+  Layer layer{.rect = rect,
+              .color = cv::Mat(rect.size(), CV_32FC4, cv::Scalar::all(0)),
+              .coverage = cv::Mat::zeros(rect.size(), CV_32FC1)};
   std::vector<glm::dvec2> across;  // shares of the two Gaussians in each column
   for (int x = rect.x; x < rect.x + rect.width; ++x)
     across.emplace_back(share_on(lamp.pixel.x, spread.sigma_px * spread.widening, x),
@@ -266,14 +265,12 @@ LampLayer lamp_layer(const LampImage& lamp, const LampSpread& spread, const cv::
       const glm::dvec2& there = across[static_cast<std::size_t>(x)];
       const double share = sharp * down * there.x + spread.glare * down_wide * there.y;
       if (share * light < kFaintest) continue;
-      auto& pixel = made.layer.color.at<cv::Vec4f>(y, x);
+      auto& pixel = layer.color.at<cv::Vec4f>(y, x);
       for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(share * lamp.light[c]);
       pixel[3] = static_cast<float>(kOpacity);
-      is_seen = true;
-      made.brightest = std::max(made.brightest, share * lamp.light.dot({kLuminance.x, kLuminance.y, kLuminance.z}));
     }
   }
-  return is_seen ? made : LampLayer{};
+  return with_layer(std::move(layer));
 }
 
 }  // namespace sigs

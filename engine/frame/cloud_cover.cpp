@@ -75,10 +75,12 @@ void hide_behind_clouds(const Scene& scene, const CloudMap* map, std::vector<Int
     hide(layers.occluded);
     layers.clouds->hidden = share_hidden(whole, layers.occluded);
     hide(layers.contrail);
+    // Of 360 degrees a part of the image need not have all lamps that are named.
+    const bool are_named = layers.lamp_truths.size() == layers.lamps.size();
     for (std::size_t i = 0; i < layers.lamps.size(); ++i) {
       hide(layers.lamps[i].layer);
       layers.lamps[i] = with_layer(std::move(layers.lamps[i].layer));
-      if (i < layers.lamp_truths.size()) layers.lamp_truths[i].brightest = layers.lamps[i].brightest;
+      if (are_named) layers.lamp_truths[i].brightest = layers.lamps[i].brightest;
     }
     std::erase_if(layers.lamps, [](const LampLayer& lamp) { return lamp.layer.empty(); });
     std::erase_if(layers.lamp_truths, [](const LampTruth& lamp) { return lamp.brightest == 0; });
