@@ -9,6 +9,7 @@
 #include "compositor/blend.h"
 #include "compositor/blur.h"
 #include "compositor/float_patch.h"
+#include "video/color_space.h"
 
 namespace sigs {
 
@@ -93,9 +94,34 @@ class PostBlendStages {
   const StageDone& done_;
 };
 
-}  // namespace
+// Whether a layer only takes light, as a shadow does.
+bool is_black(const Layer& layer) {
+  return std::all_of(layer.color.begin<cv::Vec4f>(), layer.color.end<cv::Vec4f>(),
+                     [](const cv::Vec4f& color) { return color[0] == 0 && color[1] == 0 && color[2] == 0; });
+}
 
-namespace {
+// Opacities of a black layer that is mixed in light become what it takes of small differences between codes. Where it
+// leaves the share t of the light L, it leaves t d(t L) / d(L) of them, d being the slope of display values over light:
+// by a power of 1 / g that is t^(1 / g), more than of the light. L is that of the mean luma, or of green, below it.
+void count_in_codes(FloatPatch& patch) {
+  const int luma = patch.layout == PixelLayout::rgb ? 1 : 0;
+  const PatchPlane& plane = patch.planes[static_cast<std::size_t>(luma)];
+  const CodeToRgb codes = code_to_rgb(patch.layout, patch.color, patch.bit_depth);
+  const double mean_code = cv::mean(plane.before, plane.opacity > 0)[0];
+  const TransferCurve curve = transfer_curve_of(patch.color);
+  const float display = codes.to_rgb(luma, luma) * (static_cast<float>(mean_code) - codes.offset[luma]);
+  const float unshaded = std::max(curve.linear_of_display(display), 1e-4F);
+  const auto slope = [&](float light) {
+    constexpr float kStep = 0.01F;
+    return (curve.display_of_linear(light * (1 + kStep)) - curve.display_of_linear(light * (1 - kStep))) / light;
+  };
+  for (int i = 0; i < patch.plane_count(); ++i)
+    patch.planes[static_cast<std::size_t>(i)].opacity.forEach<float>([&](float& opacity, const int*) {
+      const float through = 1 - opacity;
+      if (opacity > 0 && through > 0)
+        opacity = std::clamp(1 - through * slope(through * unshaded) / slope(unshaded), 1e-6F, 1.0F);
+    });
+}
 
 double halo_of(const Scene& scene) {
   return scene.is_thermal ? scene.appearance.thermal.halo : 0;
@@ -121,6 +147,7 @@ Rewritten blend_with_post_blend_stages(ComposedFrame& composed, const Scene& sce
   const AppearanceSettings& look = scene.appearance;
   FloatPatch patch = blended_patch(composed.image, layer, space,
                                    post_blend_stages_margin_px(scene, composed.image.layout), scene.own_body);
+  if (space == BlendChoice::linear && is_black(layer)) count_in_codes(patch);
   PostBlendStages stages(patch, composed, done);
   stages.with_halo(halo_of(scene), look.thermal.halo_px);
   stages.sharpened(look.sharpening, look.sharpening_px);

@@ -9,6 +9,7 @@
 
 #include "base/transfer.h"
 #include "compositor/blend.h"
+#include "frame/composite.h"
 #include "frame/synthetic_scenes.h"
 #include "scene/scene_at.h"
 
@@ -147,6 +148,37 @@ TEST_CASE("a shadow is no part of the target, and the own body hides it") {
   hidden.own_body = cv::Mat::ones(kGroundImage, CV_32FC1);
   const ComposedFrame behind = composed(hidden, 1, even_ground(180));
   CHECK(cv::countNonZero(behind.image.planes[0] != 180) == 0);
+}
+
+TEST_CASE("a shadow takes light, not noise: noise stays what it is for its brightness, and sharpening adds none") {
+  Scenario scenario(kGroundImage);
+  scenario.project.appearance.psf_sigma_px = 0;
+  for (const int transfer : {1, 13, 16, 18}) {  // BT.709, sRGB, PQ, HLG
+    CAPTURE(transfer);
+    Frame noisy = even_ground(150);
+    noisy.color.transfer = transfer;
+    cv::Mat noise(kGroundImage, CV_32F);
+    cv::RNG(4).fill(noise, cv::RNG::NORMAL, 150, 4);
+    noise.convertTo(noisy.planes[0], CV_8U);
+    const auto sd_under_shadow = [&](double sharpening, double grain) {
+      Scene scene = scenario.opened();
+      scene.appearance.sharpening = sharpening;
+      scene.appearance.sharpening_px = 1;
+      scene.appearance.grain = {.sd_dark = grain, .sd_bright = grain};
+      const Layer shadow{.rect = {{0, 0}, kGroundImage},
+                         .color = cv::Mat(kGroundImage, CV_32FC4, cv::Scalar(0, 0, 0, 0.7))};
+      ComposedFrame frame{.image = cloned(noisy), .mask = cv::Mat::zeros(kGroundImage, CV_8UC1)};
+      (void)blend_with_post_blend_stages(frame, scene, shadow, BlendChoice::linear, 1, 0, {});
+      cv::Scalar mean, sd;
+      cv::meanStdDev(frame.image.planes[0], mean, sd);
+      return sd[0];
+    };
+    const double plain = sd_under_shadow(0, 0);
+    CHECK(plain > 1);
+    // The footage's noise has been sharpened by its camera, and noise is made for what the shadow takes of it.
+    CHECK(sd_under_shadow(1, 0) == doctest::Approx(plain).epsilon(0.03));
+    CHECK(sd_under_shadow(0, 4) == doctest::Approx(std::max(plain, 4.0)).epsilon(0.04));
+  }
 }
 
 }  // namespace sigs::test
