@@ -97,6 +97,14 @@ TEST_CASE("the grid's light is that of the code values, in every layout and rang
       const int codes[3] = {60, 120, 180};
       for (int k = 0; k < 3; ++k)  // a code of luma and one of chroma are rounded
         CHECK(code_of(static_cast<double>(light[k])) == doctest::Approx(codes[k]).epsilon(0.02));
+      // The same in 10 and 16 bits, whose codes are more.
+      for (const int bit_depth : {10, 16}) {
+        const ColorInfo color = frame_of(bgr, layout, range).color;
+        const LightGrid deep = light_grid_of(frame_of_bgr(bgr, layout, color, bit_depth));
+        for (int k = 0; k < 3; ++k)
+          CHECK(code_of(static_cast<double>(deep.light(40, 60)[k])) == doctest::Approx(codes[k]).epsilon(0.02));
+        CHECK(deep.luma(40, 60) == doctest::Approx(grid.luma(40, 60)).epsilon(0.02));
+      }
     }
   const LightGrid gray = light_grid_of(frame_of(bgr, PixelLayout::gray));
   CHECK(gray.light(5, 5)[0] == doctest::Approx(gray.light(5, 5)[2]));

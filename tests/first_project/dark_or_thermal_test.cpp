@@ -65,18 +65,27 @@ TEST_CASE(
   CHECK(night.project.intruders.front().lights == usual_lights("airplane"));
 
   // A log beside the footage with aperture, exposure and sensitivity; 6 m/s to the north.
-  std::string log;
-  for (int n = 0; n < 4; ++n)
-    log += fmt::format(
-        "{}\n00:00:00,{:02}0 --> 00:00:00,{:02}0\n2024-01-01 22:00:00,{:02}0\n[iso : 1600] [shutter : 1/50.0] "
-        "[fnum : 280] [latitude: {:.7f}] [longitude: 18.2] [abs_alt: 105.1]\n\n",
-        n + 1, 4 * n, 4 * n + 4, 4 * n, 59.1 + 2.2e-6 * n);
-  test::write_file(folder / "night.srt", log);
+  const auto log_by_steps_of = [](double latitude_deg) {
+    std::string log;
+    for (int n = 0; n < 4; ++n)
+      log += fmt::format(
+          "{}\n00:00:00,{:02}0 --> 00:00:00,{:02}0\n2024-01-01 22:00:00,{:02}0\n[iso : 1600] [shutter : 1/50.0] "
+          "[fnum : 280] [latitude: {:.7f}] [longitude: 18.2] [abs_alt: 105.1]\n\n",
+          n + 1, 4 * n, 4 * n + 4, 4 * n, 59.1 + latitude_deg * n);
+    return log;
+  };
+  test::write_file(folder / "night.srt", log_by_steps_of(2.2e-6));
   const FirstProject logged =
       made_and_opened({.video = folder / "night", .timing = {.frame_rate_hz = 25}, .out = folder / "logged.json"});
   CHECK(logged.project.light.white_cdpm2 == doctest::Approx(120 * 2.8 * 2.8 / (1600 / 50.0)).epsilon(1e-4));
   CHECK(note_on(logged, "light.white_cdpm2").text.find("by the log") != std::string::npos);
   CHECK(!logged.project.camera.exposure_s);  // as the log says
+  // One that hovers gives no path, and the camera's settings all the same.
+  test::write_file(folder / "night.srt", log_by_steps_of(0));
+  const FirstProject hovering =
+      made_and_opened({.video = folder / "night", .timing = {.frame_rate_hz = 25}, .out = folder / "hovering.json"});
+  CHECK(hovering.project.camera.track.file.empty());
+  CHECK(hovering.project.light.white_cdpm2 == logged.project.light.white_cdpm2);
 }
 
 }  // namespace sigs

@@ -306,6 +306,14 @@ TEST_CASE("an aircraft that is seen by its lights alone has their box, and says 
   CHECK_FALSE(dusk.truth.intruders[0].lights_alone);
   CHECK(dusk.truth.intruders[0].visible_box == dark.truth.intruders[0].visible_box);
   CHECK(dusk.truth.intruders[0].visible_pixels == dark.truth.intruders[0].visible_pixels);
+  // Bright above and dark below: in the mean it changes nothing, and yet it is seen.
+  write_obj(near.path("halves.obj"),
+            {{{-0.1, -6, -3}, {0.1, 6, 0}, {1, 1, 1}}, {{-0.1, -6, 0}, {0.1, 6, 3}, {0, 0, 0}}}, 4);
+  near.project.intruders[0].model.file = "halves.obj";
+  near.project.light.color = {1, 1, 1};
+  near.project.light.ambient = 1;
+  const IntruderTruth halves = composed(near.opened(), 1, gray_frame(127)).truth.intruders[0];
+  CHECK_FALSE(halves.lights_alone);
   // Too faint to be seen.
   scenario.project.intruders[0].lights = {.position_cd = 1e-6};
   CHECK_FALSE(composed(scenario.opened(), 1, night).truth.intruders[0].lights_alone);

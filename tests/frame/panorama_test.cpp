@@ -241,6 +241,31 @@ TEST_CASE("boxes across the sides: the visible one is of the larger part, the am
   CHECK(on_right > 2);
 }
 
+TEST_CASE("without its rotors an aircraft has the same boxes across the sides as in the middle") {
+  Scenario scenario(cv::Size(512, 256), kTurnFrames);
+  prepare_turn(scenario, sphere_direction(0, 5));
+  scenario.project.intruders.front().model = {.file =
+                                                  (source_dir() / "assets/models/helicopter/helicopter.obj").string()};
+  scenario.project.output.label_rotors = LabelRotorsChoice::none;
+  const IntruderTruth whole = turned_by(scenario, 0).truth.intruders.front();
+  REQUIRE((whole.visible_box && whole.amodal_box));
+  scenario.project.output.label_rotors = LabelRotorsChoice::seen;
+  CHECK(turned_by(scenario, 0).truth.intruders.front().amodal_box->width > 1.05 * whole.amodal_box->width);
+  scenario.project.output.label_rotors = LabelRotorsChoice::none;
+  for (const int columns : {255, 256, 257}) {
+    CAPTURE(columns);
+    const IntruderTruth truth = turned_by(scenario, columns).truth.intruders.front();
+    REQUIRE((truth.visible_box && truth.other_box && truth.amodal_box));
+    CHECK(truth.amodal_box->width == doctest::Approx(whole.amodal_box->width).epsilon(1e-6));
+    CHECK(truth.amodal_box->height == doctest::Approx(whole.amodal_box->height).epsilon(1e-6));
+    const double moved = truth.amodal_box->x - whole.amodal_box->x;  // beside the box of the larger part
+    CHECK(std::abs(moved - (truth.visible_box->x > 256 ? columns : columns - 512)) < 1e-6);
+    CHECK(std::abs(truth.visible_box->width + truth.other_box->width - whole.visible_box->width) <= 2);
+    CHECK(std::abs(truth.visible_pixels + truth.other_pixels - whole.visible_pixels) <= whole.visible_pixels / 20 + 2);
+    CHECK(truth.visible_fraction == doctest::Approx(whole.visible_fraction).epsilon(0.02));
+  }
+}
+
 TEST_CASE("an intruder over a pole has all columns, down from the pole's row, and one that is beside it has not") {
   Scenario scenario(cv::Size(512, 256), kTurnFrames);
   prepare_turn(scenario, sphere_direction(0, 90));

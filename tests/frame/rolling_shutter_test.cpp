@@ -25,8 +25,8 @@ std::vector<PlatformAttitude> wild_turns() {
   return turns;
 }
 
-Scene scene_of(double readout_s, const glm::dvec3& at_m) {
-  Scenario scenario;
+Scene scene_of(double readout_s, const glm::dvec3& at_m, cv::Size size_px = {320, 240}) {
+  Scenario scenario(size_px);
   add_aircraft(scenario, at_m);
   Scene scene = scenario.opened();
   scene.motion.attitudes = wild_turns();
@@ -104,6 +104,22 @@ TEST_CASE("the silhouette of a rolling shutter bounds the rows' pixels, and a fa
     CHECK(std::abs(truth.amodal_box->y + truth.amodal_box->height + 0.5 - box.br().y) < 1.1);
     CHECK(std::abs(truth.visible_box->x - box.x) <= 1);
     CHECK(std::abs(truth.visible_box->y - box.y) <= 1);
+  }
+}
+
+TEST_CASE("across the image's border a rolling shutter sees the share of the rows' pixels that lie inside") {
+  for (const double side_m : {33.0, 35.0, 37.0}) {
+    CAPTURE(side_m);
+    const glm::dvec3 at_m(60, side_m, -152);
+    const Scene scene = scene_of(kReadout_s, at_m);
+    const ComposedFrame frame = composed(scene, 1, grainy_frame(scene.footage.size_px, 1));
+    // The same camera with 320 columns more on each side.
+    const cv::Mat by_rows = coverage_by_rows(scene_of(kReadout_s, at_m, {960, 240}), 0.04, kReadout_s);
+    const double share = cv::sum(by_rows.colRange(320, 640))[0] / cv::sum(by_rows)[0];
+    REQUIRE(share > 0.1);
+    REQUIRE(share < 0.9);
+    CHECK(frame.truth.intruders[0].inside_fraction == doctest::Approx(share).epsilon(0.03));
+    CHECK(frame.truth.intruders[0].visible_fraction == doctest::Approx(share).epsilon(0.03));
   }
 }
 
