@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/staged_outputs.h"
+#include "project/rig.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
@@ -74,10 +75,10 @@ struct SteepFlight {
     return scene;
   }
 
-  // The largest error of the camera's attitude over the frames, the heading at frame 0 aside.
-  [[nodiscard]] double error_deg(const Project& changed) const {
+  // The largest error of the camera's attitude over the frames, its heading at frame 0 being this one.
+  [[nodiscard]] double error_deg(const Project& changed, double heading_deg = 0) const {
     const Scene scene = scene_of(changed);
-    const double yaw_rad = attitude_of(world_from_camera.front()).yaw_rad;
+    const double yaw_rad = attitude_of(world_from_camera.front()).yaw_rad - rad_of_deg(heading_deg);
     double most_rad = 0;
     for (int n = 0; n < kFrames; ++n) {
       const glm::dquat truth = rotation_of({0, 0, -yaw_rad}) * world_from_camera[static_cast<std::size_t>(n)];
@@ -119,6 +120,22 @@ TEST_CASE("a project whose pitch is by the horizon follows attitudes that are le
   REQUIRE(twice);
   CHECK(twice->field == "camera.track.mount");
   CHECK(twice->what.find("horizon in the image") != std::string::npos);
+}
+
+TEST_CASE("a rig whose first camera has a turned mount follows attitudes that are level by the horizon, once") {
+  const SteepFlight flight;
+  Project rig = flight.project;
+  rig.camera.roll_deg = rig.camera.pitch_deg = 0;  // the aircraft's
+  rig.cameras = {{.name = "front", .footage = rig.footage, .mount = {.pitch_deg = -18.3, .yaw_deg = 30}}};
+  Project seen = seen_by(rig, 0);
+  Result<ProjectMotion> found = estimated_project_motion(seen, {});
+  REQUIRE(found);
+  REQUIRE(found->motion.level_sd_rad);
+  REQUIRE(write_text(flight.folder / "a.csv", track_csv_text(found->track), true));
+  found->found.file = "a.csv";
+  follow_attitudes(seen, found->found);
+  CHECK(flight.error_deg(seen, 30) < 1);
+  CHECK(flight.error_deg(seen_by(put_back(rig, seen), 0), 30) < 1);
 }
 
 TEST_CASE("an attitude that contradicts the horizon in sight is named, one that agrees or is not stated is not") {

@@ -113,6 +113,21 @@ TEST_CASE("a flight that begins after the footage is told") {
   const std::string text = issues_of(project);
   CHECK(says(text, "intruders[0].trajectory.waypoints[0].frame"));
   CHECK(says(text, "0 to 199"));
+  // Waypoints of a rig count frames of its first camera, which films ten times as long here.
+  Result<Scene> scene = open_scene(project, sample_footage());
+  REQUIRE(scene);
+  Timeline longer{scene->footage, 0, 1999};
+  for (int frame = static_cast<int>(longer.footage.times_s.size()); frame < 2000; ++frame)
+    longer.footage.times_s.push_back(frame / 25.0);
+  scene->timeline = std::move(longer);
+  const auto told = [&] {
+    std::string all;
+    for (const Problem& one : lint(project, 0, *scene, 0)) all += one.field + "\n";
+    return all;
+  };
+  CHECK_FALSE(says(told(), "waypoints[0].frame"));
+  scene->timeline.reset();
+  CHECK(says(told(), "waypoints[0].frame"));
 }
 
 TEST_CASE("what the method, the light or thermal footage leaves out is said once for each setting") {
