@@ -82,6 +82,8 @@ float Flight::lamps_luma(const Landscape::Ray& ray) const {
   double luma = 16;
   for (const Lamp& lamp : settings_.lamps) {
     const glm::dvec3 way = lamp.at_infinity ? lamp.place : lamp.place - ray.camera_m;
+    // Far off the lamp the angle itself does not matter.
+    if (glm::dot(way, ray.direction) < 0.9 * glm::length(way) * glm::length(ray.direction)) continue;
     const double off = angle_between(way, ray.direction) / kLampSigma_rad;
     if (off < 6) luma += 200 * std::exp(-0.5 * off * off);
   }

@@ -2,6 +2,7 @@
 #include "attitude_flights/tile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "attitude_flights/random.h"
@@ -30,14 +31,21 @@ void add_octave(cv::Mat_<float>& sum, int distance, float strength, std::uint32_
   cv::Mat_<float> points(rows, columns);
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) points(j, i) = static_cast<float>(even(i, j, seed) * 2 - 1) * strength;
+  struct Column {
+    std::array<float, 4> weights;
+    std::array<int, 4> points;
+  };
+  std::vector<Column> across;
+  for (int x = 0; x < sum.cols; ++x) {
+    across.push_back({spline_weights(static_cast<float>(x % distance) / static_cast<float>(distance)), {}});
+    for (int k = 0; k < 4; ++k) across.back().points[k] = (x / distance + k - 1 + columns) % columns;
+  }
   for (int y = 0; y < sum.rows; ++y) {
     const auto wy = spline_weights(static_cast<float>(y % distance) / static_cast<float>(distance));
     cv::Mat_<float> row(1, columns, 0.0F);
     for (int k = 0; k < 4; ++k) row += static_cast<double>(wy[k]) * points.row((y / distance + k - 1 + rows) % rows);
-    for (int x = 0; x < sum.cols; ++x) {
-      const auto wx = spline_weights(static_cast<float>(x % distance) / static_cast<float>(distance));
-      for (int k = 0; k < 4; ++k) sum(y, x) += wx[k] * row(0, (x / distance + k - 1 + columns) % columns);
-    }
+    for (int x = 0; x < sum.cols; ++x)
+      for (int k = 0; k < 4; ++k) sum(y, x) += across[x].weights[k] * row(0, across[x].points[k]);
   }
 }
 
@@ -91,17 +99,24 @@ cv::Mat_<float> repeating_noise(const NoiseSettings& settings) {
 
 cv::Mat_<float> repeating_patches(cv::Size size_px, int patch, std::uint32_t seed) {
   const int rows = size_px.height / patch, columns = size_px.width / patch;
+  struct Point {
+    double x, y;  // in its cell, 0..1
+    float value;
+  };
+  std::vector<Point> points;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i)
+      points.push_back({even(i, j, seed), even(i, j, seed + 1), static_cast<float>(even(i, j, seed + 2) * 2 - 1)});
   const auto value = [&](int y, int x) {
     double nearest = 1e30;
     float found = 0;
     for (int j = y / patch - 1; j <= y / patch + 1; ++j)
       for (int i = x / patch - 1; i <= x / patch + 1; ++i) {
-        const int wrapped_i = (i + columns) % columns, wrapped_j = (j + rows) % rows;
-        const double dx = (i + even(wrapped_i, wrapped_j, seed)) * patch - x;
-        const double dy = (j + even(wrapped_i, wrapped_j, seed + 1)) * patch - y;
+        const Point& point = points[(j + rows) % rows * columns + (i + columns) % columns];
+        const double dx = (i + point.x) * patch - x, dy = (j + point.y) * patch - y;
         if (const double square = dx * dx + dy * dy; square < nearest) {
           nearest = square;
-          found = static_cast<float>(even(wrapped_i, wrapped_j, seed + 2) * 2 - 1);
+          found = point.value;
         }
       }
     return found;

@@ -88,13 +88,15 @@ struct TracedBody::Embree {
 };
 
 TracedBody::TracedBody(const Mesh& mesh) {
-  for (const MeshPart& part : mesh.parts)
+  for (const MeshPart& part : mesh.parts) {
+    const bool is_opaque = lets_no_light_through(mesh.materials[static_cast<std::size_t>(part.material)]);
     for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
       triangles_.push_back({{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}, part.material});
-      is_opaque_.push_back(lets_no_light_through(mesh.materials[static_cast<std::size_t>(part.material)]));
+      is_opaque_.push_back(is_opaque);
       for (const std::uint32_t corner : triangles_.back().corners)
         radius_m_ = std::max(radius_m_, glm::length(glm::dvec3(mesh.vertices[corner].position_m)));
     }
+  }
   embree_ = std::make_unique<Embree>(mesh, triangles_);
 }
 
