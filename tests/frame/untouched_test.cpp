@@ -54,7 +54,13 @@ bool is_free(const cv::Mat& mask, int x, int y, int step) {
 
 void count_plane(const cv::Mat& before, const cv::Mat& after, const cv::Mat& mask, int step, Count& count) {
   REQUIRE(before.size() == after.size());
-  for (int y = 0; y < before.rows; ++y)
+  for (int y = 0; y < before.rows; ++y) {
+    if (cv::countNonZero(mask.rowRange(y * step, std::min((y + 1) * step, mask.rows))) == 0) {  // all of it is free
+      const int changed = cv::countNonZero(before.row(y) != after.row(y));
+      count.changed_outside += changed;
+      (step == 1 ? count.kept_luma : count.kept_chroma) += before.cols - changed;
+      continue;
+    }
     for (int x = 0; x < before.cols; ++x) {
       const bool same = before.at<uchar>(y, x) == after.at<uchar>(y, x);
       if (!is_free(mask, x, y, step))
@@ -64,6 +70,7 @@ void count_plane(const cv::Mat& before, const cv::Mat& after, const cv::Mat& mas
       else
         ++(step == 1 ? count.kept_luma : count.kept_chroma);
     }
+  }
 }
 
 Count count_of(const Exported& clip) {
