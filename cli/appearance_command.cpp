@@ -154,17 +154,6 @@ std::string table_text(const Appearance& found) {
   return text + settings_lines(settings_of(found), applied_settings(found));
 }
 
-// The settings, and what --plot draws.
-Result<void> write(OutputFiles& files, const Json& settings, const std::vector<Panel>& panels,
-                   const AppearanceOptions& options) {
-  if (!options.out.empty())
-    if (const Result<void> done = files.write(options.out, json_text(settings)); !done) return done;
-  if (!options.plot.empty())
-    if (const Result<void> done = files.write(options.plot, panel_page(panels)); !done) return done;
-  const Result<std::vector<fs::path>> written = files.commit();
-  return written ? Result<void>() : fail(written.error());
-}
-
 // Puts what was found into the project of --into, where there is one.
 template <class Found>
 Result<void> write_into(const Found& found, std::optional<Project>& into, const AppearanceOptions& options) {
@@ -187,7 +176,8 @@ Result<void> find_light(const Project& project, std::optional<Project>& into, co
   progress.end();
   if (!lit) return fail(lit.error());
   const Json settings = settings_of(*lit);
-  if (const Result<void> written = write(files, settings, {}, options); !written) return written;
+  const Result<void> saved = files.write_and_commit({{options.out, [&] { return json_text(settings); }}});
+  if (!saved) return saved;
   if (const Result<void> written = write_into(*lit, into, options); !written) return written;
   const Json report{{"quantities", quantities_json(quantities_of(*lit))}, {"settings", settings}};
   const std::string text = options.json
@@ -203,8 +193,10 @@ Result<void> find_look(const std::optional<Project>& project, std::optional<Proj
   if (!frames) return fail(frames.error());
   const Result<Appearance> found = found_in(*frames, project, options);
   if (!found) return fail(found.error());
-  if (const Result<void> written = write(files, settings_of(*found), panels_of(*found), options); !written)
-    return written;
+  const Result<void> saved =
+      files.write_and_commit({{options.out, [&] { return json_text(settings_of(*found)); }},
+                              {options.plot, [&] { return png_bytes(panel_page(panels_of(*found))); }}});
+  if (!saved) return saved;
   if (const Result<void> written = write_into(*found, into, options); !written) return written;
   std::fputs((options.json ? report_json(*found) : table_text(*found)).c_str(), stdout);
   return {};

@@ -4,13 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "autocalibration/autocalibration.h"
 #include "base/paths.h"
 #include "base/pose.h"
-#include "base/staged_outputs.h"
 #include "cli/calibrate_options.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -59,47 +57,23 @@ Result<Autocalibration> found_in(const CalibrateOptions& options) {
   return found;
 }
 
-// The places of the outputs while they are written; empty: not asked for.
-struct AutocalibrationOutputs {
-  fs::path calibration, plot, json;
-};
-
-Result<AutocalibrationOutputs> begun(StagedOutputs& outputs, const CalibrateOptions& options) {
+// Takes the names of the outputs.
+Result<void> begin(OutputFiles& files, const CalibrateOptions& options) {
   if (options.inputs.size() != 1)
     return fail("INPUT", "is one video where there is no --board; there are " + std::to_string(options.inputs.size()),
                 ErrorKind::usage);
-  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
-    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  std::vector<fs::path> inputs{options.inputs[0]};
-  if (!options.log.empty()) inputs.push_back(options.log);
-  AutocalibrationOutputs staged;
-  for (const auto& [path, place] :
-       {std::pair(&options.out, &staged.calibration), {&options.plot, &staged.plot}, {&options.json, &staged.json}}) {
-    if (path->empty()) continue;
-    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{*path}, inputs); !kept)
-      return fail(path->string(), kept.error().what, ErrorKind::cannot_create);
-    const Result<fs::path> added = outputs.add_file(*path);
-    if (!added) return fail(added.error());
-    *place = *added;
+  if (!options.plot.empty())
+    if (const Result<void> named = check_png_output("--plot", options.plot, {}); !named) return named;
+  for (const CommandOutput& output : options.outputs()) {
+    if (output.path.empty()) continue;
+    if (const Result<void> kept =
+            check_inputs_not_overwritten(std::vector{output.path}, std::vector{options.inputs[0], options.log});
+        !kept)
+      return fail(output.path.string(), kept.error().what, ErrorKind::cannot_create);
+    if (const Result<void> reserved = files.reserve(output.path); !reserved) return reserved;
   }
-  return staged;
+  return {};
 }
-
-Result<void> write_all(StagedOutputs& outputs, const AutocalibrationOutputs& staged, const Autocalibration& found) {
-  const Result<CalibrationText> text = calibration_text(found);
-  if (!text) return fail(text.error());
-  if (const auto written = write_bytes(staged.calibration, calibration_xml(*text)); !written)
-    return fail(outputs.with_final_names(written.error()));
-  if (!staged.json.empty())
-    if (const auto written = write_bytes(staged.json, json_of(found)); !written)
-      return fail(outputs.with_final_names(written.error()));
-  if (!staged.plot.empty())
-    if (const auto drawn = write_png(staged.plot, autocalibration_plot(found)); !drawn)
-      return fail(outputs.with_final_names(drawn.error()));
-  return outputs.commit();
-}
-
-}  // namespace
 
 void add_autocalibration_options(CLI::App& command, CalibrateOptions& options) {
   command.add_option("--log", options.log, "without a board: a log with the camera's rates; else the video's own")
@@ -118,19 +92,22 @@ void add_autocalibration_options(CLI::App& command, CalibrateOptions& options) {
 
 Result<void> autocalibrate(const CalibrateOptions& options) {
   defer_interrupts();
-  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  const Result<AutocalibrationOutputs> staged = begun(outputs, options);
-  if (!staged) return fail(staged.error());
+  OutputFiles files(options.force);
+  if (const Result<void> begun = begin(files, options); !begun) return begun;
   const Result<Autocalibration> found = found_in(options);
   if (!found) return fail(found.error());
   for (const Warning& warning : found->warnings) print_warning(warning);
-  if (const Result<void> written = write_all(outputs, *staged, *found); !written) return written;
-  for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
+  const Result<CalibrationText> text = calibration_text(*found);
+  if (!text) return fail(text.error());
+  const Result<void> written =
+      files.write_and_commit({{options.out, [&] { return calibration_xml(*text); }},
+                              {options.json, [&] { return json_of(*found); }},
+                              {options.plot, [&] { return png_bytes(autocalibration_plot(*found)); }}});
+  if (!written) return written;
+  print_written(files.final_paths());
   std::fprintf(stderr, "rough: %s\n", summary_of(*found).c_str());
   return {};
 }
-
-namespace {
 
 constexpr const char* kCalibrateFooter =
     "Examples:\n"

@@ -60,14 +60,13 @@ struct DatasetOptions {
 
 // Prints the table and writes the files; either all of these get their names or none.
 Result<void> report_coverage(const Coverage& coverage, const std::string& title, const DatasetOptions& options) {
-  const auto& [json, plot, fill, force] = options.files;
+  const std::filesystem::path &json = options.files.json, &plot = options.files.plot;
   if (const Result<void> named = check_outputs({{"--json", json}, {"--plot", plot}}, {}); !named) return named;
-  OutputFiles files(force);
-  if (!json.empty())
-    if (const Result<void> done = files.write(json, coverage_json(coverage, title)); !done) return done;
-  if (!plot.empty())
-    if (const Result<void> done = files.write(plot, coverage_plot(coverage, title)); !done) return done;
-  if (const Result<std::vector<std::filesystem::path>> done = files.commit(); !done) return fail(done.error());
+  OutputFiles files(options.files.force);
+  const Result<void> done =
+      files.write_and_commit({{json, [&] { return coverage_json(coverage, title); }},
+                              {plot, [&] { return png_bytes(coverage_plot(coverage, title)); }}});
+  if (!done) return done;
   std::fputs(coverage_text(coverage, title).c_str(), stdout);
   return {};
 }

@@ -9,7 +9,6 @@
 #include "base/image_file.h"
 #include "base/paths.h"
 #include "base/pose.h"
-#include "base/staged_outputs.h"
 #include "base/text.h"
 #include "camera/camera.h"
 #include "cli/commands.h"
@@ -18,7 +17,6 @@
 #include "cli/process.h"
 #include "ego_motion/ego_motion.h"
 #include "ego_motion/project_motion.h"
-#include "project/json.h"
 #include "scene/opened_project.h"
 #include "telemetry/read_track.h"
 #include "telemetry/track_csv.h"
@@ -49,6 +47,8 @@ struct EgoMotionOptions {
   std::optional<double> readout_ms;
   bool force = false;
   std::string progress = "auto";
+
+  [[nodiscard]] std::vector<CommandOutput> outputs() const { return {{"--out", csv}, {"--plot", plot}}; }
 };
 
 // With a project it names footage, calibration and the rest; without one they are asked for.
@@ -67,23 +67,6 @@ Result<void> check_inputs(const EgoMotionOptions& options) {
         said("--readout-ms", options.readout_ms.has_value(), false)})
     if (!one) return one;
   if (!has_project && options.csv.empty()) return fail("--out", "is required", ErrorKind::usage);
-  return {};
-}
-
-Result<void> check_names(const EgoMotionOptions& options) {
-  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
-    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  if (!options.plot.empty() && canonical_name(options.csv) == canonical_name(options.plot))
-    return fail("--plot " + options.plot.string(), "is where --out goes", ErrorKind::usage);
-  std::vector<fs::path> inputs;
-  for (const fs::path& one :
-       {options.video, options.calibration, options.mask, options.telemetry, options.timing.times_file, options.into})
-    if (!one.empty()) inputs.push_back(one);
-  for (const auto& [option, path] : {std::pair("--out ", options.csv), std::pair("--plot ", options.plot)}) {
-    if (path.empty()) continue;
-    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
-      return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
-  }
   return {};
 }
 
@@ -127,15 +110,6 @@ Result<Estimated> estimated(const EgoMotionOptions& options, const EgoMotionCont
   if (log) add_log(track, *log, *motion);
   if (options.readout_ms) track.readout_s = *options.readout_ms / 1000;
   return Estimated{*std::move(motion), std::move(track)};
-}
-
-Result<void> write(StagedOutputs& outputs, const fs::path& csv, const fs::path& plot, const Estimated& found) {
-  if (const Result<void> listed = write_bytes(csv, track_csv_text(found.track)); !listed)
-    return fail(outputs.with_final_names(listed.error()));
-  if (!plot.empty())
-    if (const Result<void> drawn = write_png(plot, attitude_plot(found.motion)); !drawn)
-      return fail(outputs.with_final_names(drawn.error()));
-  return outputs.commit();
 }
 
 void print_summary(const EgoMotion& motion) {
@@ -192,25 +166,21 @@ Result<void> estimate_and_write(const EgoMotionOptions& options) {
     project = *std::move(read);
   }
   defer_interrupts();
-  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  const Result<fs::path> csv = outputs.add_file(options.csv);
-  if (!csv) return fail(csv.error());
-  fs::path plot;
-  if (!options.plot.empty()) {
-    const Result<fs::path> added = outputs.add_file(options.plot);
-    if (!added) return fail(added.error());
-    plot = *added;
-  }
+  OutputFiles files(options.force);
+  if (const Result<void> free = files.reserve(options.outputs()); !free) return free;
   Progress progress(progress_style(options.progress));
   const EgoMotionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                  .cancel = &interrupt_flag()};
   const Result<Estimated> found = project ? estimated_for(*project, options, control) : estimated(options, control);
   progress.end();
   if (!found) return fail(found.error());
-  if (const Result<void> written = write(outputs, *csv, plot, *found); !written) return written;
+  const Result<void> written =
+      files.write_and_commit({{options.csv, [&] { return track_csv_text(found->track); }},
+                              {options.plot, [&] { return png_bytes(attitude_plot(found->motion)); }}});
+  if (!written) return written;
   if (project)
     if (const Result<void> saved = rewrite_project(*project, options.into); !saved) return saved;
-  for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
+  print_written(files.final_paths());
   if (project) std::printf("%s\n", options.into.c_str());
   print_summary(found->motion);
   return {};
@@ -219,7 +189,11 @@ Result<void> estimate_and_write(const EgoMotionOptions& options) {
 Result<void> run(EgoMotionOptions options) {
   if (const Result<void> given = check_inputs(options); !given) return given;
   if (options.csv.empty()) options.csv = options.into.parent_path() / (options.into.stem().string() + ".attitude.csv");
-  if (const Result<void> named = check_names(options); !named) return named;
+  if (const Result<void> named = check_outputs(
+          options.outputs(), {options.video, options.calibration, options.mask, options.telemetry,
+                              options.timing.times_file, options.into});
+      !named)
+    return named;
   return estimate_and_write(options);
 }
 

@@ -154,30 +154,15 @@ Result<Flights> chosen(Flights flights, const EncounterOptions& options) {
 
 // --- Outputs.
 
-Result<cv::Mat> plot_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
+Result<std::string> plot_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
   if (encounters.size() > kMaxPlotted)
     return fail("--plot " + options.plot.string(),
                 fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMaxPlotted,
                             encounters.size()),
                 ErrorKind::usage);
-  cv::Mat image = encounter_plot(encounters);
+  const cv::Mat image = encounter_plot(encounters);
   if (image.empty()) return fail(options.file.string(), "has no step in the time that both fly, to be drawn");
-  return image;
-}
-
-Result<void> write(OutputFiles& files, const std::vector<EncounterSummary>& encounters, const Flights& flights,
-                   const EncounterOptions& options) {
-  Result<void> step;
-  if (!options.json.empty())
-    step = files.write(options.json, encounter_json_text(encounters, options.file.filename().string()));
-  if (step && !options.daa.empty()) step = files.write(options.daa, daa_text(flights.samples));
-  if (step && !options.plot.empty()) {
-    const Result<cv::Mat> image = plot_of(encounters, options);
-    step = image ? files.write(options.plot, *image) : fail(image.error());
-  }
-  if (!step) return step;
-  const Result<std::vector<fs::path>> written = files.commit();
-  return written ? Result<void>() : fail(written.error());
+  return png_bytes(image);
 }
 
 Result<void> encounter(const EncounterOptions& options) {
@@ -199,7 +184,11 @@ Result<void> encounter(const EncounterOptions& options) {
     if (!summary) return fail(options.file.string() + ": " + line_text(summary.error().where), summary.error().what);
     encounters.push_back(*std::move(summary));
   }
-  if (const Result<void> written = write(files, encounters, *flights, options); !written) return written;
+  const Result<void> written = files.write_and_commit(
+      {{options.json, [&] { return encounter_json_text(encounters, options.file.filename().string()); }},
+       {options.daa, [&] { return daa_text(flights->samples); }},
+       {options.plot, [&] { return plot_of(encounters, options); }}});
+  if (!written) return written;
   for (const EncounterSummary& summary : encounters)
     std::printf("%s%s", &summary == encounters.data() ? "" : "\n", encounter_report_text(summary).c_str());
   return {};

@@ -2,12 +2,10 @@
 #include "cli/commands.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -188,11 +186,12 @@ Result<std::vector<fs::path>> MaskOutputs::write(const OwnBody& found, const cv:
   if (step && !paths_.confidence.empty()) step = files_.write(paths_.confidence, found.confidence);
   if (step && has_stages()) step = write_stages(found, bgr);
   if (!step) return fail(step.error());
-  Result<std::vector<fs::path>> written = files_.commit();
-  if (!written || !has_stages() || !overwrite_) return written;
+  if (const Result<void> done = files_.commit(); !done) return fail(done.error());
+  const std::vector<fs::path> written = files_.final_paths();
+  if (!has_stages() || !overwrite_) return written;
   std::error_code code;
   for (const fs::path& there : stages_in(paths_.stages))
-    if (std::find(written->begin(), written->end(), there) == written->end() && !fs::is_directory(there, code))
+    if (std::find(written.begin(), written.end(), there) == written.end() && !fs::is_directory(there, code))
       fs::remove(there, code);
   return written;
 }

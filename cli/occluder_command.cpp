@@ -10,7 +10,6 @@
 #include "cli/output_files.h"
 #include "cli/process.h"
 #include "occlusion/parallax.h"
-#include "project/validate.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
 
@@ -77,20 +76,6 @@ Result<NearScenery> scenery_in(OpenedProject& opened, const OccluderOptions& opt
   return found;
 }
 
-Result<void> write(OutputFiles& files, const NearScenery& found, const OccluderOptions& options, FrameSource& source) {
-  if (const Result<void> written = files.write(options.mask, found.mask); !written) return written;
-  if (!options.overlay.empty()) {
-    const Result<Frame> frame = source.read(options.frame);
-    if (!frame) return fail(frame.error());
-    if (const Result<void> written = files.write(options.overlay, overlay_of(*frame, found.mask)); !written)
-      return written;
-  }
-  const Result<std::vector<fs::path>> names = files.commit();
-  if (!names) return fail(names.error());
-  print_written(*names);
-  return {};
-}
-
 Result<void> run(const OccluderOptions& options) {
   defer_interrupts();
   Result<OpenedProject> opened = opened_without_intruders(options);
@@ -107,7 +92,14 @@ Result<void> run(const OccluderOptions& options) {
                 ErrorKind::usage);
   const Result<NearScenery> found = scenery_in(*opened, options);
   if (!found) return fail(found.error());
-  if (const Result<void> written = write(files, *found, options, opened->source); !written) return written;
+  const auto overlay = [&]() -> Result<std::string> {
+    const Result<Frame> frame = opened->source.read(options.frame);
+    return frame ? Result<std::string>(png_bytes(overlay_of(*frame, found->mask))) : fail(frame.error());
+  };
+  const Result<void> written =
+      files.write_and_commit({{options.mask, [&] { return png_bytes(found->mask); }}, {options.overlay, overlay}});
+  if (!written) return written;
+  print_written(files.final_paths());
   for (const Warning& warning : found->warnings) print_warning(warning);
   const double share = static_cast<double>(cv::countNonZero(found->mask)) / static_cast<double>(found->mask.total());
   std::fprintf(stderr, "occluder: %.1f %% of the image; parallax up to %.1f px in %d frames, seen in %.0f %% of it\n",

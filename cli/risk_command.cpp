@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <memory>
 #include <mutex>
@@ -190,15 +188,6 @@ Result<RiskResult> flown(const RiskSettings& settings, const Logic& logic, const
   return result;
 }
 
-Result<void> write(OutputFiles& files, const RiskOptions& options, const Json& json) {
-  Result<void> step;
-  if (!options.json.empty()) step = files.write(options.json, json_text(json));
-  if (step && !options.plot.empty()) step = files.write(options.plot, image_of(risk_plot(json)));
-  if (!step) return step;
-  const Result<std::vector<fs::path>> written = files.commit();
-  return written ? Result<void>() : fail(written.error());
-}
-
 Result<Json> merged(const RiskOptions& options) {
   std::vector<RiskShard> shards;
   std::vector<std::string> names;
@@ -278,7 +267,10 @@ Result<void> run(const RiskOptions& options) {
     }
   }
   if (!json) return fail(json.error());
-  if (const Result<void> written = write(files, options, *json); !written) return written;
+  const Result<void> written =
+      files.write_and_commit({{options.json, [&] { return json_text(*json); }},
+                              {options.plot, [&] { return png_bytes(image_of(risk_plot(*json))); }}});
+  if (!written) return written;
   std::printf("%s", risk_text(*json).c_str());
   return {};
 }
