@@ -77,17 +77,11 @@ Result<Appearance> found_in(const AppearanceFrames& frames, const std::optional<
   const AppearanceControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                   .cancel = &interrupt_flag(),
                                   .warn = print_warning};
-  const auto found = [&]() -> Result<Appearance> {
-    if (project)
-      return appearance_of_footage(*project, frames, is_still_guessed(*project, "camera.position_m"), control);
-    Result<FrameSource> footage = FrameSource::open(options.file, &interrupt_flag(), Quantisers::read, options.timing);
-    if (!footage) return fail(footage.error());
-    for (const Warning& warning : footage->info().warnings) print_warning(warning);
-    return estimate_appearance(*footage, frames, {}, control);
-  };
-  Result<Appearance> appearance = found();
-  progress.end();
-  return appearance;
+  if (project) return appearance_of_footage(*project, frames, is_still_guessed(*project, "camera.position_m"), control);
+  Result<FrameSource> footage = FrameSource::open(options.file, &interrupt_flag(), Quantisers::read, options.timing);
+  if (!footage) return fail(footage.error());
+  for (const Warning& warning : footage->info().warnings) print_warning(warning);
+  return estimate_appearance(*footage, frames, {}, control);
 }
 
 // What apply() sets, by its keys, nested as in a project file.

@@ -97,10 +97,10 @@ Result<void> calibrate_with_board(const CalibrateOptions& options) {
   const Result<BoardCalibration> calibration = calibrated(options, *board);
   if (!calibration) return fail(calibration.error());
   for (const Warning& warning : calibration->warnings) print_warning(warning);
-  const Result<void> done = files.write_and_commit(
-      {{options.out, [&] { return calibration_xml(calibration_text_of(*calibration, *board)); }},
-       {options.plot, [&] { return png_bytes(board_plot(*calibration)); }},
-       {options.json, [&] { return board_report_json(*calibration, *board); }}});
+  const Result<void> done =
+      files.write_and_commit({{options.out, [&] { return calibration_xml(calibration_text_of(*calibration, *board)); }},
+                              {options.plot, [&] { return png_bytes(board_plot(*calibration)); }},
+                              {options.json, [&] { return board_report_json(*calibration, *board); }}});
   if (!done) return done;
   std::fputs(board_report_text(*calibration).c_str(), stdout);
   return {};

@@ -51,10 +51,7 @@ Result<Autocalibration> found_in(const CalibrateOptions& options) {
   Progress progress(progress_style(options.progress));
   const AutocalibrationControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                        .cancel = &interrupt_flag()};
-  Result<Autocalibration> found =
-      autocalibrated(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);
-  progress.end();
-  return found;
+  return autocalibrated(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);
 }
 
 // Takes the names of the outputs.
@@ -76,18 +73,12 @@ Result<void> begin(OutputFiles& files, const CalibrateOptions& options) {
 }
 
 void add_autocalibration_options(CLI::App& command, CalibrateOptions& options) {
-  command.add_option("--log", options.log, "without a board: a log with the camera's rates; else the video's own")
-      ->option_text("FILE")
-      ->check(not_empty());
-  command
-      .add_option("--fov", options.fov_deg, "without a board: the horizontal field of view, where it is known; degrees")
-      ->option_text("DEG")
-      ->check(from_to(1, 300));
+  add_input(command, "--log", options.log, "without a board: a log with the camera's rates; else the video's own");
+  add_range(command, "--fov", options.fov_deg, "DEG", 1, 300,
+            "without a board: the horizontal field of view, where it is known; degrees");
   add_timing_options(command, options.timing);
-  command.add_option("--max-frames", options.max_frames, "without a board: look at no more frames than these")
-      ->option_text("N")
-      ->capture_default_str()
-      ->check(CLI::Range(2, 1000000));
+  add_number(command, "--max-frames", options.max_frames, "N", 2, 1000000,
+             "without a board: look at no more frames than these");
 }
 
 Result<void> autocalibrate(const CalibrateOptions& options) {
@@ -123,12 +114,8 @@ void add_board_options(CLI::App& command, CalibrateOptions& options) {
       ->check(CLI::IsMember({"chessboard", "charuco"}));
   command.add_option("--corners", options.corners, "inner corners in a row and in a column: one less than squares")
       ->option_text("9x6");
-  command.add_option("--square-m", options.square_m, "side of a square, metres")
-      ->option_text("M")
-      ->check(from_to(1e-5, 1e3));
-  command.add_option("--marker-m", options.marker_m, "charuco: side of a marker, metres")
-      ->option_text("M")
-      ->check(from_to(1e-5, 1e3));
+  add_range(command, "--square-m", options.square_m, "M", 1e-5, 1e3, "side of a square, metres");
+  add_range(command, "--marker-m", options.marker_m, "M", 1e-5, 1e3, "charuco: side of a marker, metres");
   command.add_option("--dictionary", options.dictionary, "charuco: the markers' dictionary, as DICT_4X4_50")
       ->option_text("NAME");
   command.add_option("--model", options.model, "the lens model; auto: the one with the smallest held-out error")
@@ -148,10 +135,8 @@ Command add_calibrate_command(CLI::App& program) {
       ->option_text("FILE")
       ->required()
       ->check(output_path());
-  command->add_option("--plot", options->plot, "draw why; a PNG")->option_text("FILE")->check(output_path());
-  command->add_option("--json", options->json, "write all that was found as JSON")
-      ->option_text("FILE")
-      ->check(output_path());
+  add_output(*command, "--plot", options->plot, "draw why; a PNG");
+  add_output(*command, "--json", options->json, "write all that was found as JSON");
   add_autocalibration_options(*command, *options);
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);

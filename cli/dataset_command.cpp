@@ -63,9 +63,8 @@ Result<void> report_coverage(const Coverage& coverage, const std::string& title,
   const std::filesystem::path &json = options.files.json, &plot = options.files.plot;
   if (const Result<void> named = check_outputs({{"--json", json}, {"--plot", plot}}, {}); !named) return named;
   OutputFiles files(options.files.force);
-  const Result<void> done =
-      files.write_and_commit({{json, [&] { return coverage_json(coverage, title); }},
-                              {plot, [&] { return png_bytes(coverage_plot(coverage, title)); }}});
+  const Result<void> done = files.write_and_commit({{json, [&] { return coverage_json(coverage, title); }},
+                                                    {plot, [&] { return png_bytes(coverage_plot(coverage, title)); }}});
   if (!done) return done;
   std::fputs(coverage_text(coverage, title).c_str(), stdout);
   return {};
@@ -73,10 +72,8 @@ Result<void> report_coverage(const Coverage& coverage, const std::string& title,
 
 // "2/3"
 Result<Shard> shard_of(const std::string& text) {
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const std::optional<int> part = parsed_number<int>(text.substr(0, slash));
-  const std::optional<int> parts = parsed_number<int>(text.substr(std::min(slash + 1, text.size())));
-  if (part && parts && *part >= 1 && *part <= *parts) return Shard{*part, *parts};
+  const std::optional<std::pair<int, int>> shard = fraction_of(text);
+  if (shard && shard->first >= 1 && shard->first <= shard->second) return Shard{shard->first, shard->second};
   return fail("--shard " + text, "expected I/N with I from 1 to N, as in 2/3", ErrorKind::usage);
 }
 
@@ -219,7 +216,7 @@ Result<void> list(const Recipe& recipe, const Plan& plan, const std::vector<cons
 }
 
 Result<void> print_report(const DatasetReport& report) {
-  for (const std::filesystem::path& path : report.written) std::printf("%s\n", path.c_str());
+  print_written(report.written);
   const double rate = report.frames / std::max(report.seconds, 1e-6);
   std::fprintf(stderr, "%s made, %d kept; %d frames in %s, %.1f frames/s\n",
                count_text(static_cast<std::size_t>(report.exported), "video").c_str(), report.kept, report.frames,

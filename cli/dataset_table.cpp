@@ -10,7 +10,6 @@
 #include <set>
 
 #include "base/text.h"
-#include "dataset/run.h"
 #include "scene/opened_project.h"
 #include "video/frame_source.h"
 

@@ -12,6 +12,7 @@
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "cli/evaluation_folder.h"
 #include "cli/options.h"
 #include "cli/process.h"
 
@@ -242,13 +243,19 @@ std::string free_name(const std::string& name, const std::vector<std::string>& t
   return free;
 }
 
-Result<DetectInputs> detect_inputs(const Paths& inputs, const Paths& results, const std::string& split,
-                                   const TruthOptions& options) {
-  for (const Paths* const paths : {&inputs, &results})
+Result<DetectInputs> detect_inputs(const DetectSources& sources) {
+  const Paths& results = sources.results;
+  TruthOptions truth = sources.truth;
+  if (!sources.size.empty()) {
+    const Result<cv::Size> size_px = size_of_option(sources.size);
+    if (!size_px) return fail(size_px.error());
+    truth.size_px = *size_px;
+  }
+  for (const Paths* const paths : {&sources.inputs, &results})
     for (const fs::path& path : *paths)
       if (std::error_code code; !fs::exists(path, code))
         return fail(path.string(), "no such file or folder", ErrorKind::cannot_read);
-  Result<std::vector<ClipFiles>> clips = clips_of(inputs, split, options);
+  Result<std::vector<ClipFiles>> clips = clips_of(sources.inputs, sources.split, truth);
   if (!clips) return fail(clips.error());
   const auto folders = std::count_if(results.begin(), results.end(), is_folder);
   if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*clips), results);
@@ -314,17 +321,9 @@ Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInp
   return clips;
 }
 
-Result<TruthOptions> with_size(TruthOptions truth, const std::string& size) {
-  if (size.empty()) return truth;
-  const Result<cv::Size> size_px = size_of_option(size);
-  if (!size_px) return fail(size_px.error());
-  truth.size_px = *size_px;
-  return truth;
-}
-
-std::vector<fs::path> files_read(const Paths& inputs, const Paths& results, const DetectInputs& clips) {
-  std::vector<fs::path> read = inputs;
-  read.insert(read.end(), results.begin(), results.end());
+std::vector<fs::path> files_read(const DetectSources& sources, const DetectInputs& clips) {
+  std::vector<fs::path> read = sources.inputs;
+  read.insert(read.end(), sources.results.begin(), sources.results.end());
   for (const ClipFiles& clip : clips.clips) {
     read.push_back(clip.labels);
     read.insert(read.end(), clip.results.begin(), clip.results.end());
@@ -332,8 +331,13 @@ std::vector<fs::path> files_read(const Paths& inputs, const Paths& results, cons
   return read;
 }
 
-void add_truth_options(CLI::App& command, TruthOptions& truth, std::string& size) {
-  command.add_option("--size", size, "size of the images of a yolo truth; else read from the images")
+void add_source_options(CLI::App& command, DetectSources& sources, const SourceHelp& help) {
+  command.add_option("LABELS", sources.inputs, help.labels)->required()->check(not_empty());
+  add_input(command, "--results", sources.results, help.results, help.results_value)->required();
+  command.add_option("--split", sources.split, "only the clips of this split of a dataset")->option_text("NAME");
+  add_format_option(command, sources.format);
+  TruthOptions& truth = sources.truth;
+  command.add_option("--size", sources.size, "size of the images of a yolo truth; else read from the images")
       ->option_text("WxH");
   command.add_option("--rate", truth.rate_hz, "frames a second of another program's truth; else as it says")
       ->type_name("HZ")

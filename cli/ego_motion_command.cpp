@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/image_file.h"
-#include "base/paths.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "camera/camera.h"
@@ -140,13 +139,6 @@ void print_summary(const EgoMotion& motion) {
         fixed_text(motion.gyro->slope, 3).c_str(), motion.gyro->is_fused ? "" : "; not used");
 }
 
-// As the project names it: relative to its folder, so that both can be moved together.
-std::string path_beside(const fs::path& file, const fs::path& project) {
-  const fs::path relative =
-      canonical_name(file).lexically_relative(canonical_path(fs::absolute(project).parent_path()));
-  return relative.empty() ? canonical_name(file).string() : relative.generic_string();
-}
-
 // What a project is estimated from, and becomes.
 Result<Estimated> estimated_for(Project& project, const EgoMotionOptions& options, const EgoMotionControl& control) {
   Result<ProjectMotion> found = estimated_project_motion(project, control, options.max_unknown_percent / 100);
@@ -189,9 +181,9 @@ Result<void> estimate_and_write(const EgoMotionOptions& options) {
 Result<void> run(EgoMotionOptions options) {
   if (const Result<void> given = check_inputs(options); !given) return given;
   if (options.csv.empty()) options.csv = options.into.parent_path() / (options.into.stem().string() + ".attitude.csv");
-  if (const Result<void> named = check_outputs(
-          options.outputs(), {options.video, options.calibration, options.mask, options.telemetry,
-                              options.timing.times_file, options.into});
+  if (const Result<void> named =
+          check_outputs(options.outputs(), {options.video, options.calibration, options.mask, options.telemetry,
+                                            options.timing.times_file, options.into});
       !named)
     return named;
   return estimate_and_write(options);
@@ -202,33 +194,19 @@ Result<void> run(EgoMotionOptions options) {
 Command add_ego_motion_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("ego-motion", "estimate the camera's attitude from its footage");
   const auto options = std::make_shared<EgoMotionOptions>();
-  const auto add_input = [command](const char* name, fs::path& path, const char* help) {
-    return command->add_option(name, path, help)->option_text("FILE")->check(not_empty());
-  };
   command->add_option("VIDEO", options->video, "the footage; with --into the project names it")->check(not_empty());
-  add_input("--calibration", options->calibration, "the camera's calibration");
-  add_input("--mask", options->mask, "the own body's mask: 8-bit grey, white where the own body is");
-  add_input("--telemetry", options->telemetry, "a log with the camera's rates, or the video that has it");
+  add_input(*command, "--calibration", options->calibration, "the camera's calibration");
+  add_input(*command, "--mask", options->mask, "the own body's mask: 8-bit grey, white where the own body is");
+  add_input(*command, "--telemetry", options->telemetry, "a log with the camera's rates, or the video that has it");
   add_timing_options(*command, options->timing);
-  command->add_option("--readout-ms", options->readout_ms, "rolling shutter, first row to last; milliseconds")
-      ->option_text("MS")
-      ->check(from_to(0, 1000));
-  command
-      ->add_option("--into", options->into,
-                   "estimate from what this project names, and make it follow the attitudes (camera.track)")
-      ->option_text("PROJECT")
-      ->check(not_empty());
-  command
-      ->add_option("--max-unknown", options->max_unknown_percent,
-                   "fail if the rotation since frame 0 is not known in more of the frames, percent (50)")
-      ->option_text("PERCENT")
-      ->check(from_to(0, 100));
-  command->add_option("--out", options->csv, "the attitudes, as CSV; with --into beside the project by default")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--plot", options->plot, "draw roll, pitch and yaw with their deviations; a PNG")
-      ->option_text("FILE")
-      ->check(output_path());
+  add_range(*command, "--readout-ms", options->readout_ms, "MS", 0, 1000,
+            "rolling shutter, first row to last; milliseconds");
+  add_input(*command, "--into", options->into,
+            "estimate from what this project names, and make it follow the attitudes (camera.track)", "PROJECT");
+  add_range(*command, "--max-unknown", options->max_unknown_percent, "PERCENT", 0, 100,
+            "fail if the rotation since frame 0 is not known in more of the frames, percent (50)");
+  add_output(*command, "--out", options->csv, "the attitudes, as CSV; with --into beside the project by default");
+  add_output(*command, "--plot", options->plot, "draw roll, pitch and yaw with their deviations; a PNG");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);
   command->footer(kEgoMotionFooter);

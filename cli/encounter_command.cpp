@@ -195,7 +195,7 @@ Result<void> encounter(const EncounterOptions& options) {
 }
 
 void add_limit(CLI::App& command, const char* name, const char* unit, const char* help, std::optional<double>& value) {
-  command.add_option(name, value, help)->option_text(unit)->check(from_to(0, 1e9));
+  add_range(command, name, value, unit, 0, 1e9, help);
 }
 
 }  // namespace

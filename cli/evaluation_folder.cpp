@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/paths.h"
+#include "cli/commands.h"
 #include "cli/options.h"
 #include "evaluation/opencv_tracker.h"
 #include "labels/label_files.h"
@@ -20,6 +21,16 @@ namespace sigs::cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kEvaluateFooter =
+    "Examples:\n"
+    "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf --out report\n"
+    "  sigs evaluate track out/crossing.xml --results mine.txt --format otb\n"
+    "  sigs evaluate detect out/crossing.xml --results found.csv\n"
+    "  sigs evaluate performance datasets/mine --results found --out report --sensor sensor.json\n"
+    "  sigs evaluate rig out/ring.rig.json --results found --out report\n"
+    "\n"
+    "sigs evaluate track --help, detect --help, performance --help and rig --help have the options of each.";
 
 Error not_free(const fs::path& folder, const std::string& what) {
   return {folder.string(), what, ErrorKind::cannot_create};
@@ -122,10 +133,14 @@ void add_format_option(CLI::App& command, ResultsFormat& format) {
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
 }
 
+Command add_evaluate_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand("evaluate", "measure trackers and detectors against the truth");
+  command->footer(kEvaluateFooter);
+  return add_below(*command, {add_evaluate_track, add_evaluate_detect, add_evaluate_performance, add_evaluate_rig});
+}
+
 void add_report_options(CLI::App& command, std::filesystem::path& folder, bool& force) {
-  command.add_option("--out", folder, "folder to be made, with tables, plots and report.html")
-      ->option_text("DIR")
-      ->check(output_path());
+  add_output(command, "--out", folder, "folder to be made, with tables, plots and report.html", "DIR");
   command.add_flag("--force", force, "replace an evaluation that is there");
 }
 

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/result.h"

@@ -273,9 +273,7 @@ Result<OwnBody> found_in(FrameSource& footage, const FrameRange& range, const Pr
   const DetectionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                  .cancel = &interrupt_flag(),
                                  .stages = options.paths.stages.empty() ? KeepStages::no : KeepStages::yes};
-  Result<OwnBody> found = detect_own_body(footage, range.first, settings, control);
-  progress.end();
-  return found;
+  return detect_own_body(footage, range.first, settings, control);
 }
 
 Result<void> write(MaskOutputs& out, const OwnBody& found, FrameSource& footage, int first_frame) {

@@ -140,11 +140,8 @@ Command add_list(CLI::App& model) {
 
 Command add_model_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("model", "list models of aircraft, and import others");
-  command->require_subcommand(1);
   command->footer(kModelFooter);
-  const Command import = add_import(*command);
-  const Command list = add_list(*command);
-  return [command, import, list] { return command->got_subcommand("import") ? import() : list(); };
+  return add_below(*command, {add_import, add_list});
 }
 
 }  // namespace sigs::cli

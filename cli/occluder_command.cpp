@@ -65,15 +65,13 @@ Result<NearScenery> scenery_in(OpenedProject& opened, const OccluderOptions& opt
     return camera_at(scene.motion, time_of_frame_s(scene.footage, frame));
   };
   Progress progress(progress_style(options.progress));
-  Result<NearScenery> found = near_scenery(
+  return near_scenery(
       opened.source, scene.camera, pose_at,
       {.frame = options.frame,
        .span = options.span,
        .min_parallax_px = options.min_parallax_px,
        .max_m = options.max_m},
       {.progress = [&](int done, int total) { progress.update(done, total); }, .cancel = &interrupt_flag()});
-  progress.end();
-  return found;
 }
 
 Result<void> run(const OccluderOptions& options) {
@@ -123,9 +121,8 @@ Command add_occluder_command(CLI::App& program) {
       ->option_text("PX")
       ->capture_default_str()
       ->check(from_to(0.01, 1e4));
-  command->add_option("--max-distance", options->max_m, "instead: what is nearer than this, by the camera's way")
-      ->option_text("M")
-      ->check(from_to(0.1, 1e7));
+  add_range(*command, "--max-distance", options->max_m, "M", 0.1, 1e7,
+            "instead: what is nearer than this, by the camera's way");
   command->add_option("--out", options->mask, "the mask, a PNG")->required()->option_text("FILE")->check(output_path());
   add_output(*command, "--overlay", options->overlay, "the frame with the mask tinted over it, a PNG");
   command->add_flag("--force", options->force, "overwrite what is there");

@@ -83,8 +83,8 @@ Result<void> OutputFiles::write(const fs::path& path, std::string_view bytes) {
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (out) return {};
-  return fail(with_final_names({staged_[path].string(), std::string("could not be written: ") + std::strerror(errno),
-                                ErrorKind::write_failed}));
+  return fail(with_final_names(
+      {staged_[path].string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed}));
 }
 
 Result<void> OutputFiles::write(const fs::path& path, const cv::Mat& image) {

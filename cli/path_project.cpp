@@ -10,7 +10,6 @@
 
 #include "base/input_file.h"
 #include "base/json.h"
-#include "base/paths.h"
 #include "base/text.h"
 #include "cli/options.h"
 #include "cli/process.h"

@@ -48,6 +48,7 @@ enum class ProgressStyle { automatic, plain, json, none };
 class Progress {
  public:
   explicit Progress(ProgressStyle style);
+  ~Progress() { end(); }
 
   // Frames done and in all, 0 < done <= total. To be called from one thread at a time.
   void update(int done, int total) { update(done, total, ""); }

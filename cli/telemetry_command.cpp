@@ -49,8 +49,8 @@ Result<void> run(const TelemetryOptions& options) {
   const Result<Track> track = read_track(options.file, {.cancel = &interrupt_flag()});
   if (!track) return fail(track.error());
   for (const Warning& warning : track->warnings) print_warning(warning);
-  const Result<void> written = files.write_and_commit({{options.csv, [&] { return track_csv_text(*track); }},
-                                                       {options.plot, [&] { return plot_of(*track); }}});
+  const Result<void> written = files.write_and_commit(
+      {{options.csv, [&] { return track_csv_text(*track); }}, {options.plot, [&] { return plot_of(*track); }}});
   if (!written) return written;
   std::fputs(track_report_text(*track, options.gaps).c_str(), stdout);
   return {};
