@@ -4,7 +4,6 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -15,7 +14,6 @@
 #include "base/statistics.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
-#include "project/json.h"
 
 namespace sigs::editor {
 
@@ -72,8 +70,7 @@ int ProbeWriter::composites_shown(const std::shared_ptr<const PreviewImage>& ima
   const bool is_same = !image_.owner_before(image) && !image.owner_before(image_);
   if (image && !is_same) {
     ++composites_;
-    const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
-    shown_at_s_.push_back(std::chrono::duration<double>(since_boot).count());
+    shown_at_s_.push_back(steady_now_s());
     if (shown_at_s_.size() > 201) shown_at_s_.pop_front();
   }
   image_ = image;

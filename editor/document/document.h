@@ -111,8 +111,8 @@ class Document {
   [[nodiscard]] bool can_undo() const { return !past_.empty(); }
   [[nodiscard]] bool can_redo() const { return !future_.empty(); }
   // Names of the steps, for the menu; "" where there is none.
-  [[nodiscard]] std::string undo_name() const;
-  [[nodiscard]] std::string redo_name() const;
+  [[nodiscard]] std::string undo_name() const { return past_.empty() ? "" : past_.back().name; }
+  [[nodiscard]] std::string redo_name() const { return future_.empty() ? "" : future_.back().name; }
 
   // Whether the present state is another one than that which was read or saved; undo may lead back to it.
   [[nodiscard]] bool has_unsaved_changes() const { return state_.number != saved_number_; }
@@ -154,8 +154,8 @@ class Document {
   void cancel_gesture(const std::string& gesture);
   // Drops steps beyond the limit of the history.
   void forget_oldest();
-  void step_back();
-  void step_forward();
+  // Undo or redo: the last step of the one becomes a step of the other.
+  void take_step(std::vector<Step>& from, std::vector<Step>& to);
   // Sets the present state, and what the active camera sees of it.
   void show(Revision state);
   [[nodiscard]] const FootageSettings& counted_footage() const;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <type_traits>
-#include <utility>
 
 #include "base/text.h"
 
