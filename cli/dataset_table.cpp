@@ -104,21 +104,6 @@ std::string rounded_text(double value) {
   return short_number_text(rounded);
 }
 
-// Sizes of images, each footage opened once.
-class Footages {
- public:
-  Result<VideoInfo> info_of(const Project& project) {
-    const std::string path = resolved(project, project.footage.video).string();
-    if (const auto known = infos_.find(path); known != infos_.end()) return known->second;
-    const Result<FrameSource> source = open_footage(project);
-    if (!source) return fail(source.error());
-    return infos_[path] = source->info();
-  }
-
- private:
-  std::map<std::string, VideoInfo> infos_;
-};
-
 std::string or_dash(const std::map<std::string, std::string>& tags, const char* key) {
   const auto found = tags.find(key);
   return found == tags.end() || found->second.empty() ? "-" : found->second;
@@ -217,17 +202,22 @@ std::string resamples_line(const std::vector<const PlannedVideo*>& videos) {
 Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
                              const std::vector<std::optional<Visibility>>& visibilities) {
   Measured all{.videos = videos, .visibilities = visibilities, .frames = {}};
-  Footages footages;
+  std::map<std::string, VideoInfo> footages;  // by file: each is opened once
   long long frames = 0;
   double bytes = 0;
   for (const PlannedVideo* const video : videos) {
-    const Result<VideoInfo> footage = footages.info_of(video->project);
-    if (!footage) return fail(video->name, footage.error().text(), footage.error().kind);
-    const Result<int> count = frames_of(video->project, shape_of(*footage));
+    const std::string file = resolved(video->project, video->project.footage.video).string();
+    if (!footages.contains(file)) {
+      const Result<FrameSource> source = open_footage(video->project);
+      if (!source) return fail(video->name, source.error().text(), source.error().kind);
+      footages.emplace(file, source->info());
+    }
+    const VideoInfo& footage = footages.at(file);
+    const Result<int> count = frames_of(video->project, shape_of(footage));
     if (!count) return fail(video->name, count.error().text(), count.error().kind);
     all.frames.push_back(*count);
     frames += *count;
-    bytes += double(footage->size_px.area()) * *count * bytes_a_pixel(video->project.output);
+    bytes += double(footage.size_px.area()) * *count * bytes_a_pixel(video->project.output);
   }
   std::string text;
   for (const Block& block : blocks_of(videos)) text += table_text(columns_of(block, all));

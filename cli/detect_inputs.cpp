@@ -45,32 +45,6 @@ Result<void> add_video(const fs::path& index, const nlohmann::json& video, const
   return {};
 }
 
-}  // namespace
-
-Result<std::vector<ClipFiles>> clips_of_dataset(const fs::path& folder, const std::string& split) {
-  const fs::path index = folder / "index.json";
-  if (std::error_code code; !fs::exists(index, code))
-    return fail(
-        index.string(),
-        "no such file; a dataset has it when it is whole: sigs dataset RECIPE --out DIR with --resume makes what "
-        "is missing, with --merge the index of what shards made",
-        ErrorKind::cannot_read);
-  const Result<std::string> text = read_text(index);
-  if (!text) return fail(text.error());
-  if (json_depth(*text) > kMaxNesting) return fail(index.string(), "is no index of a dataset");
-  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("sigs_dataset_index") || !json.contains("videos") ||
-      !json["videos"].is_array())
-    return fail(index.string(), "is no index of a dataset");
-  std::vector<ClipFiles> clips;
-  for (const nlohmann::json& video : json["videos"])
-    if (const Result<void> added = add_video(index, video, split, clips); !added) return fail(added.error());
-  if (clips.empty()) return fail(index.string(), split.empty() ? "names no video" : "has no video of split " + split);
-  return clips;
-}
-
-namespace {
-
 Result<void> check_labels(const fs::path& labels, const std::vector<ClipFiles>& before) {
   for (const ClipFiles& clip : before)
     if (std::error_code code; fs::equivalent(clip.labels, labels, code))
@@ -135,32 +109,6 @@ std::string endings_in(const Paths& there) {
       endings.insert(ending);
   return endings.size() == 1 ? *endings.begin() : ".csv, .json or .txt";
 }
-
-}  // namespace
-
-Result<fs::path> results_in(const fs::path& folder, const std::string& name) {
-  const Result<Paths> there = folder_contents(folder);
-  if (!there) return fail(there.error());
-  Paths found;
-  for (const fs::path& path : *there)
-    if (std::error_code code; path.stem() == name && fs::is_regular_file(path, code)) found.push_back(path);
-  if (found.empty())
-    return fail((folder / name).string() + endings_in(*there),
-                "no results for this clip; where nothing was detected, they are a file without boxes",
-                ErrorKind::cannot_read);
-  if (found.size() > 1)
-    return fail(folder.string(),
-                fmt::format("has both {} and {}", found[0].filename().string(), found[1].filename().string()));
-  return found.front();
-}
-
-std::string name_of_folder(const fs::path& folder) {
-  const fs::path plain = folder.lexically_normal();
-  const fs::path name = plain.has_filename() ? plain.filename() : plain.parent_path().filename();
-  return name.empty() || name == "." || name == ".." ? "detector" : name.string();
-}
-
-namespace {
 
 Result<DetectInputs> by_folders(std::vector<ClipFiles> clips, const Paths& folders) {
   DetectInputs inputs{.clips = std::move(clips)};
@@ -228,43 +176,6 @@ Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) 
   return inputs;
 }
 
-}  // namespace
-
-void warn_of_other_clip(const Results& results, const fs::path& file, const std::string& clip) {
-  if (!results.clip.empty() && results.clip != clip)
-    print_warning({file.string(),
-                   fmt::format("its img_name is of {}, the clip is {}: are these its results?", results.clip, clip)});
-}
-
-std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
-  std::string free = name;
-  for (int n = 2; std::find(taken.begin(), taken.end(), free) != taken.end(); ++n)
-    free = fmt::format("{} ({})", name, n);
-  return free;
-}
-
-Result<DetectInputs> detect_inputs(const DetectSources& sources) {
-  const Paths& results = sources.results;
-  TruthOptions truth = sources.truth;
-  if (!sources.size.empty()) {
-    const Result<cv::Size> size_px = size_of_option(sources.size);
-    if (!size_px) return fail(size_px.error());
-    truth.size_px = *size_px;
-  }
-  for (const Paths* const paths : {&sources.inputs, &results})
-    for (const fs::path& path : *paths)
-      if (std::error_code code; !fs::exists(path, code))
-        return fail(path.string(), "no such file or folder", ErrorKind::cannot_read);
-  Result<std::vector<ClipFiles>> clips = clips_of(sources.inputs, sources.split, truth);
-  if (!clips) return fail(clips.error());
-  const auto folders = std::count_if(results.begin(), results.end(), is_folder);
-  if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*clips), results);
-  if (folders > 0) return fail("--results", "are folders and files; name either", ErrorKind::usage);
-  return by_files(std::move(*clips), results);
-}
-
-namespace {
-
 // The results of one detector on one clip.
 Result<Results> results_of(const ClipFiles& files, const fs::path& file, const FootageTruth& footage,
                            ResultsFormat format) {
@@ -303,6 +214,83 @@ Result<std::vector<std::vector<DetectedClip>>> shared_clips(const DetectInputs& 
 }
 
 }  // namespace
+
+Result<std::vector<ClipFiles>> clips_of_dataset(const fs::path& folder, const std::string& split) {
+  const fs::path index = folder / "index.json";
+  if (std::error_code code; !fs::exists(index, code))
+    return fail(
+        index.string(),
+        "no such file; a dataset has it when it is whole: sigs dataset RECIPE --out DIR with --resume makes what "
+        "is missing, with --merge the index of what shards made",
+        ErrorKind::cannot_read);
+  const Result<std::string> text = read_text(index);
+  if (!text) return fail(text.error());
+  if (json_depth(*text) > kMaxNesting) return fail(index.string(), "is no index of a dataset");
+  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("sigs_dataset_index") || !json.contains("videos") ||
+      !json["videos"].is_array())
+    return fail(index.string(), "is no index of a dataset");
+  std::vector<ClipFiles> clips;
+  for (const nlohmann::json& video : json["videos"])
+    if (const Result<void> added = add_video(index, video, split, clips); !added) return fail(added.error());
+  if (clips.empty()) return fail(index.string(), split.empty() ? "names no video" : "has no video of split " + split);
+  return clips;
+}
+
+Result<fs::path> results_in(const fs::path& folder, const std::string& name) {
+  const Result<Paths> there = folder_contents(folder);
+  if (!there) return fail(there.error());
+  Paths found;
+  for (const fs::path& path : *there)
+    if (std::error_code code; path.stem() == name && fs::is_regular_file(path, code)) found.push_back(path);
+  if (found.empty())
+    return fail((folder / name).string() + endings_in(*there),
+                "no results for this clip; where nothing was detected, they are a file without boxes",
+                ErrorKind::cannot_read);
+  if (found.size() > 1)
+    return fail(folder.string(),
+                fmt::format("has both {} and {}", found[0].filename().string(), found[1].filename().string()));
+  return found.front();
+}
+
+std::string name_of_folder(const fs::path& folder) {
+  const fs::path plain = folder.lexically_normal();
+  const fs::path name = plain.has_filename() ? plain.filename() : plain.parent_path().filename();
+  return name.empty() || name == "." || name == ".." ? "detector" : name.string();
+}
+
+void warn_of_other_clip(const Results& results, const fs::path& file, const std::string& clip) {
+  if (!results.clip.empty() && results.clip != clip)
+    print_warning({file.string(),
+                   fmt::format("its img_name is of {}, the clip is {}: are these its results?", results.clip, clip)});
+}
+
+std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
+  std::string free = name;
+  for (int n = 2; std::find(taken.begin(), taken.end(), free) != taken.end(); ++n)
+    free = fmt::format("{} ({})", name, n);
+  return free;
+}
+
+Result<DetectInputs> detect_inputs(const DetectSources& sources) {
+  const Paths& results = sources.results;
+  TruthOptions truth = sources.truth;
+  if (!sources.size.empty()) {
+    const Result<cv::Size> size_px = size_of_option(sources.size);
+    if (!size_px) return fail(size_px.error());
+    truth.size_px = *size_px;
+  }
+  for (const Paths* const paths : {&sources.inputs, &results})
+    for (const fs::path& path : *paths)
+      if (std::error_code code; !fs::exists(path, code))
+        return fail(path.string(), "no such file or folder", ErrorKind::cannot_read);
+  Result<std::vector<ClipFiles>> clips = clips_of(sources.inputs, sources.split, truth);
+  if (!clips) return fail(clips.error());
+  const auto folders = std::count_if(results.begin(), results.end(), is_folder);
+  if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*clips), results);
+  if (folders > 0) return fail("--results", "are folders and files; name either", ErrorKind::usage);
+  return by_files(std::move(*clips), results);
+}
 
 Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInputs& inputs, ResultsFormat format) {
   if (inputs.is_shared) return shared_clips(inputs, format);

@@ -194,10 +194,6 @@ Result<void> encounter(const EncounterOptions& options) {
   return {};
 }
 
-void add_limit(CLI::App& command, const char* name, const char* unit, const char* help, std::optional<double>& value) {
-  add_range(command, name, value, unit, 0, 1e9, help);
-}
-
 }  // namespace
 
 Command add_encounter_command(CLI::App& program) {
@@ -212,11 +208,12 @@ Command add_encounter_command(CLI::App& program) {
           "a volume by name, may be repeated: dwc-en-route, dwc-non-cooperative, dwc-terminal, small-uas, nmac")
       ->option_text("NAME")
       ->allow_extra_args(false);
-  add_limit(*command, "--dmod-ft", "FT", "a volume \"own\": like the first one but for its DMOD", options->dmod_ft);
-  add_limit(*command, "--hmd-ft", "FT", "its HMD (that of --dmod-ft)", options->hmd_ft);
-  add_limit(*command, "--tau-s", "S", "its modified tau", options->tau_s);
-  add_limit(*command, "--zthr-ft", "FT", "its vertical limit", options->zthr_ft);
-  add_limit(*command, "--tcoa-s", "S", "its time to co-altitude", options->tcoa_s);
+  add_range(*command, "--dmod-ft", options->dmod_ft, "FT", 0, 1e9,
+            "a volume \"own\": like the first one but for its DMOD");
+  add_range(*command, "--hmd-ft", options->hmd_ft, "FT", 0, 1e9, "its HMD (that of --dmod-ft)");
+  add_range(*command, "--tau-s", options->tau_s, "S", 0, 1e9, "its modified tau");
+  add_range(*command, "--zthr-ft", options->zthr_ft, "FT", 0, 1e9, "its vertical limit");
+  add_range(*command, "--tcoa-s", options->tcoa_s, "S", 0, 1e9, "its time to co-altitude");
   command->add_option("--intruder", options->intruder, "only this aircraft against the ownship")->option_text("NAME");
   add_output(*command, "--json", options->json, "write all quantities at each step, and the intervals");
   add_output(*command, "--plot", options->plot, "draw range, times and vertical offset; a PNG");

@@ -76,7 +76,7 @@ Result<void> add_runs(const TrackRequest& request, TrackRuns& all, std::size_t i
     TrackRun run{.name = first == last && targets == 1 ? input.name : fmt::format("{}-{}", input.name, target),
                  .input = index,
                  .target = target};
-    const std::optional<TrackPolicy> policy = started_policy(request, input, target);
+    const std::optional<TrackPolicy> policy = started_policy(request, input.truth, target);
     if (!policy) {
       all.remarks.push_back(run.name + " has no frame in which the intruder can be followed; it is left out");
       continue;

@@ -39,6 +39,13 @@ void on_signal(int signal) {
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
 }
 
+constexpr int kBarWidth = 32;
+
+bool is_plain_terminal() {
+  const char* const term = std::getenv("TERM");
+  return term == nullptr || std::strcmp(term, "dumb") == 0;
+}
+
 }  // namespace
 
 const std::atomic<bool>& interrupt_flag() {
@@ -74,17 +81,6 @@ void prepare_mesa() {
   rlimit memory{};
   if (getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) setenv("LP_NUM_THREADS", "0", 0);
 }
-
-namespace {
-
-constexpr int kBarWidth = 32;
-
-bool is_plain_terminal() {
-  const char* const term = std::getenv("TERM");
-  return term == nullptr || std::strcmp(term, "dumb") == 0;
-}
-
-}  // namespace
 
 ProgressStyle progress_style(const std::string& name) {
   if (name == "plain") return ProgressStyle::plain;

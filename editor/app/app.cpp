@@ -173,10 +173,6 @@ void App::ask_preview() {
       {.active = active, .all_images = needs_.all_cameras, .only_active = ImGui::IsMouseDown(ImGuiMouseButton_Left)});
 }
 
-PreviewOutput App::active_of(const std::vector<PreviewOutput>& rig) const {
-  return rig[std::min(document_.active_camera(), rig.size() - 1)];
-}
-
 void App::advance(const PreviewOutput& shown) {
   if (!playback_.playing() || !shown.scene) return;
   const FootageShape& shape = counted_frames(shown.scene->draft.scene).footage;
@@ -339,7 +335,7 @@ void App::update(double now_s, bool something_happened) {
   redraw_updates_left_ = something_happened ? kUpdatesToSettle : std::max(0, redraw_updates_left_ - 1);
   count_updates();
   const std::vector<PreviewOutput>& rig = preview_.shown(document_);
-  const PreviewOutput shown = active_of(rig);
+  const PreviewOutput shown = rig[std::min(document_.active_camera(), rig.size() - 1)];
   if (shown.scene)
     document_.set_frame_count(static_cast<int>(counted_frames(shown.scene->draft.scene).footage.times_s.size()));
   advance(shown);

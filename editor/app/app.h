@@ -74,7 +74,6 @@ class ProbeWriter {
   [[nodiscard]] bool is_at_rest(const nlohmann::json& input, bool has_input_left);
   // How many composited frames were shown so far, with the one of this update.
   [[nodiscard]] int composites_shown(const std::shared_ptr<const PreviewImage>& image);
-
   [[nodiscard]] std::vector<double> intervals_ms() const;
 
   std::filesystem::path file_;
@@ -116,8 +115,6 @@ class App {
  private:
   // Sends the previewer what the document and the views want.
   void ask_preview();
-  // What the active camera shows.
-  [[nodiscard]] PreviewOutput active_of(const std::vector<PreviewOutput>& rig) const;
   // Moves the playhead while it plays.
   void advance(const PreviewOutput& shown);
   // Takes the keyboard from a text that is being typed, which becomes an edit in the next update: true. False where
@@ -128,8 +125,7 @@ class App {
   // Asks to save the own-body mask; next: once the edit that uses it is applied.
   void keep_mask_then(std::function<void()> next);
   void play(double speed);
-  //   rig  of each camera, by its index
-  void draw(const PreviewOutput& shown, const std::vector<PreviewOutput>& rig);
+  void draw(const PreviewOutput& shown, const std::vector<PreviewOutput>& rig);  // rig: of each camera, by its index
   void handle(const Request& request);
   // Requests of trackers' results. False: it was another one.
   bool handle_results(const Request& request);
@@ -144,8 +140,7 @@ class App {
   Textures textures_;
   Document document_;
   Edits edits_;
-  // What the views that were drawn in the last update need from the preview.
-  ViewNeeds needs_;
+  ViewNeeds needs_;  // of the views that were drawn in the last update
   UiProbe ui_probe_;
   ProbeWriter probe_writer_;
   RigPreview preview_;
@@ -156,21 +151,18 @@ class App {
   LightSession light_;
   ResultFiles results_;
   Scoring scoring_;
-  std::shared_ptr<const Scored> scored_;  // of this update; null: no results are loaded
-  // By the result file's id.
-  std::map<int, std::string> reported_problems_;
+  std::shared_ptr<const Scored> scored_;          // of this update; null: no results are loaded
+  std::map<int, std::string> reported_problems_;  // by the result file's id
   AppShell shell_;
   std::string title_;
   Playback playback_;
   Layout layout_;
   double now_s_ = 0;
-  // Since when updates_ are counted, for the rate that the probe reports.
-  double counted_since_s_ = 0;
+  double counted_since_s_ = 0;  // of updates_
   int updates_ = 0;
   double updates_per_second_ = 0;
-  // Updates that follow at once: ImGui needs some to show all that an event leads to.
-  int redraw_updates_left_ = 0;
-  bool has_left_text_ = false;  // finish_typing() took the keyboard in the update before
+  int redraw_updates_left_ = 0;  // that follow at once (kUpdatesToSettle)
+  bool has_left_text_ = false;   // finish_typing() took the keyboard in the update before
   bool done_ = false;
 };
 

@@ -55,7 +55,6 @@ class NewProjectFlow {
   [[nodiscard]] const std::vector<Problem>& guesses() const { return guesses_.left(); }
 
  private:
-  void begin_making(const FirstProjectOptions& options);
   // Opens the project that the job has made, once.
   void take_made();
   // From the project that is made to the one that is shown.
@@ -91,11 +90,9 @@ class AppShell {
     std::filesystem::path samples;          // folder of the sample projects; it need not be there
     std::filesystem::path models;           // folder of the sample models; likewise
     std::filesystem::path recovery_folder;  // where unsaved work is kept for the case of a crash
-    // Of the program, for the About dialog.
-    std::string version;
-    std::vector<HelpLine> help;  // lines of the help page
-    // May be called from any thread: something is to be drawn.
-    std::function<void()> wake;
+    std::string version;                    // of the program, for the About dialog
+    std::vector<HelpLine> help;             // lines of the help page
+    std::function<void()> wake;             // may be called from any thread: something is to be drawn
     ProjectSession::UnsavedMask mask;
   };
   // Document and settings must outlive it. All calls come from the window's thread.
@@ -134,7 +131,6 @@ class AppShell {
  private:
   // Opens the file browser for the next file that is wanted, once it is closed.
   void ask_for_files();
-  void handle_own_requests();
   // A message, where an export has ended while its window was closed.
   void report_export();
   void draw_dialog(const ViewContext& context);
@@ -150,9 +146,8 @@ class AppShell {
   StartPage start_page_;
   Toasts toasts_;
   FileBrowser browser_;
-  std::deque<AskForFile> files_wanted_;  // waiting for the file browser, oldest first
-  // For what the browser asks at the moment.
-  std::function<void(const std::filesystem::path&)> chosen_;
+  std::deque<AskForFile> files_wanted_;                       // waiting for the file browser, oldest first
+  std::function<void(const std::filesystem::path&)> chosen_;  // for what the browser asks at the moment
   ExportView export_view_;
   RelinkDialog relink_;
   SettingsDialog settings_dialog_;
@@ -161,8 +156,7 @@ class AppShell {
   bool shows_about_ = false;
   // What was answered while drawing; done in update(), when the document may change.
   std::vector<std::function<void()>> answered_;
-  // Of the document in the last update: by it another project is noticed.
-  std::filesystem::path project_file_;
+  std::filesystem::path project_file_;  // of the document in the last update
   bool was_exporting_ = false;
   double now_s_ = 0;
 };

@@ -36,13 +36,10 @@ class ProjectSession {
   // What the session needs from the program around it.
   struct Environment {
     std::filesystem::path recovery_folder;
-    // Called from another thread when a file was read.
-    std::function<void()> wake;
-    // Whether an export would be lost by quitting; empty: none.
-    std::function<bool()> is_exporting;
+    std::function<void()> wake;          // called from another thread when a file was read
+    std::function<bool()> is_exporting;  // whether an export would be lost by quitting; empty: none
     UnsavedMask mask;
-    // Whether a file is being chosen: no other project comes meanwhile.
-    std::function<bool()> is_asking_for_file;
+    std::function<bool()> is_asking_for_file;  // no other project comes meanwhile
   };
   // Document and settings must outlive it. At first no project is open. Looks for abandoned projects on disk.
   ProjectSession(Document& document, Settings& settings, Environment environment);
@@ -82,7 +79,7 @@ class ProjectSession {
   void answer(int number);
 
   // What to tell and which files to ask for, since the last call: ShowMessage, ClearMessages and AskForFile.
-  [[nodiscard]] std::vector<Request> take_requests();
+  [[nodiscard]] std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
 
   [[nodiscard]] bool has_project() const { return has_project_; }
   // The project file that is being read; "": none.
@@ -106,11 +103,9 @@ class ProjectSession {
   [[nodiscard]] bool waits(Step step);
   // Runs what waited, until one of it asks again.
   void run_next_waiting();
-  [[nodiscard]] bool is_of_files(const Request& request) const;
   // The same function, but without effect once another document is open.
   [[nodiscard]] std::function<void(const std::filesystem::path&)> for_this_document(
       std::function<void(const std::filesystem::path&)> chosen) const;
-  void ask_which_to_open();
   // Asks for the mask and the document's changes in turn, where they are not saved. next: once nothing unsaved is lost
   // by it.
   void leave_then(Step next);
@@ -145,9 +140,8 @@ class ProjectSession {
   std::vector<AbandonedProject> abandoned_;
   std::optional<RecoveredMask> recovered_mask_;
   std::optional<Question> question_;
-  std::vector<Step> steps_;  // one for each answer of question_
-  // What came while a question was open, oldest first.
-  std::deque<Step> waiting_;
+  std::vector<Step> steps_;   // one for each answer of question_
+  std::deque<Step> waiting_;  // what came while a question was open, oldest first
   std::vector<Request> requests_;
   // The unsaved states of the document and of the mask that the person agreed to give up; 0: none.
   std::uint64_t discardable_state_ = 0;

@@ -155,10 +155,9 @@ std::optional<glm::dvec3> pulled(GizmoPart part, const Pull& pull, const OrbitCa
 }
 
 constexpr double kMinSlope = 0.19;  // sine of 11 degrees
-constexpr double kLongest_m = 1e8;
 
 double kept(double along_m) {
-  return std::isfinite(along_m) ? std::clamp(along_m, -kLongest_m, kLongest_m) : 0;
+  return std::isfinite(along_m) ? std::clamp(along_m, -kMaxCoordinateM, kMaxCoordinateM) : 0;
 }
 
 // Of the axis through the start: where it passes nearest to the ray.
@@ -224,7 +223,7 @@ glm::dvec2 dragged_in_plane_m(const PlaneDrag& drag, const glm::dvec2& mouse, co
                               const ScreenRect& rect) {
   const auto start = camera.screen_of(drag.start_m, rect);
   const glm::dvec2 by_px = mouse - drag.start_mouse;
-  if (!start || !std::isfinite(by_px.x) || !std::isfinite(by_px.y) || by_px == glm::dvec2(0)) return {0, 0};
+  if (!start || !is_finite(by_px) || by_px == glm::dvec2(0)) return {0, 0};
   const Ray ray = camera.ray_at(*start + by_px, rect);
   const auto& [a, b] = drag.axes;
   const glm::dvec3 normal = glm::cross(a, b);

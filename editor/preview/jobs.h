@@ -84,13 +84,7 @@ class HorizonWatch {
   [[nodiscard]] const std::shared_ptr<const SeenHorizons>& seen() const { return seen_; }
 
  private:
-  struct Request {
-    std::shared_ptr<const OpenedScene> scene;
-  };
-  [[nodiscard]] static Result<SeenHorizons> found(const Request& request, const JobControl& control);
-  [[nodiscard]] static FootageSettings with_absolute_paths(const Project& project);
-
-  BackgroundJob<Request, SeenHorizons> job_;
+  BackgroundJob<std::shared_ptr<const OpenedScene>, SeenHorizons> job_;
   FootageSettings asked_;  // for which it was begun, with absolute paths
   std::shared_ptr<const SeenHorizons> seen_;
 };
