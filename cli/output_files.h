@@ -69,8 +69,7 @@ class OutputFiles {
 
  private:
   StagedOutputs outputs_;
-  // Temporary files by their final names.
-  std::map<std::filesystem::path, std::filesystem::path> staged_;
+  std::map<std::filesystem::path, std::filesystem::path> staged_;  // temporary files by their final names
 };
 
 // Prints the names of files that were written, a line each.

@@ -57,8 +57,7 @@ class Progress {
   // is said in place of the count of frames.
   void update(int done, int total, const std::string& step);
 
-  // Ends the bar's line, so that what follows begins on its own.
-  void end();
+  void end();  // ends the bar's line, so that what follows begins on its own
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -81,9 +81,8 @@ class ProbeWriter {
   std::string last_;
   int update_ = 0;
   nlohmann::json last_input_;
-  int turns_to_rest_ = 0;  // updates until it is at rest
-  // Of the update before; holds no image.
-  std::weak_ptr<const PreviewImage> image_;
+  int turns_to_rest_ = 0;                    // updates until it is at rest
+  std::weak_ptr<const PreviewImage> image_;  // of the update before; holds no image
   int composites_ = 0;
   std::deque<double> shown_at_s_;  // when the last of them were shown
 };
@@ -113,10 +112,8 @@ class App {
   [[nodiscard]] bool plays() const { return playback_.playing(); }
 
  private:
-  // Sends the previewer what the document and the views want.
   void ask_preview();
-  // Moves the playhead while it plays.
-  void advance(const PreviewOutput& shown);
+  void advance(const PreviewOutput& shown);  // moves the playhead while it plays
   // Takes the keyboard from a text that is being typed, which becomes an edit in the next update: true. False where
   // none is, or where it was taken in the update before.
   [[nodiscard]] bool finish_typing();
@@ -130,8 +127,7 @@ class App {
   // Requests of trackers' results. False: it was another one.
   bool handle_results(const Request& request);
   void ask_scores(const ViewContext& context);
-  // Says once of each result file what is wrong with it.
-  void report_result_problems();
+  void report_result_problems();  // says once of each result file what is wrong with it
   void show_title();
   void count_updates();
 

@@ -34,13 +34,11 @@ class NewProjectFlow {
   NewProjectFlow(Document& document, Settings& settings, ProjectSession& session, ModelGallery& gallery,
                  std::function<void()> wake);
 
-  // Shows the dialog. video: to begin with; "": none.
-  void open(const std::filesystem::path& video);
+  void open(const std::filesystem::path& video);  // Shows the dialog. video: to begin with; "": none.
   [[nodiscard]] bool is_open() const { return dialog_.is_open(); }
   // A file that was dropped onto the window while the dialog is open.
   void take_dropped(const std::filesystem::path& file) { dialog_.take_dropped(file); }
-  // Once per update while it is open.
-  void draw(const ViewContext& context);
+  void draw(const ViewContext& context);  // once per update while it is open
 
   // Once per update, after that of the session: carries out what was wanted while drawing, opens a project that is
   // made, and shows it once its footage is open.
@@ -55,12 +53,9 @@ class NewProjectFlow {
   [[nodiscard]] const std::vector<Problem>& guesses() const { return guesses_.left(); }
 
  private:
-  // Opens the project that the job has made, once.
-  void take_made();
-  // From the project that is made to the one that is shown.
-  void follow_made();
-  // The project is open: tells what was guessed.
-  void begin_project();
+  void take_made();      // opens the project that the job has made, once
+  void follow_made();    // from the project that is made to the one that is shown
+  void begin_project();  // the project is open: tells what was guessed
   // Its footage is open: goes to the middle, and from there to the intruder unless it is in view. True: there is
   // nothing left to do.
   [[nodiscard]] bool goes_to_intruder();
@@ -72,14 +67,13 @@ class NewProjectFlow {
   FirstProjectJob job_;
   Guesses guesses_;
   std::vector<Request> requests_;
-  std::uint64_t guesses_of_ = 0;              // first number of the document whose guesses were read
-  NewProjectChoice choice_;                   // wanted while drawing, done in update()
-  std::shared_ptr<const FirstProject> made_;  // made, and given to the session
-  // The same, until its intruder is shown. Null: nothing is awaited.
-  std::shared_ptr<const FirstProject> awaited_;
-  std::uint64_t document_number_ = 0;     // of the document that holds it; 0: it is not open yet
-  std::optional<int> first_shown_;        // the frame that was gone to first; none: not yet
-  std::shared_ptr<const Survey> survey_;  // of the intruder; null: not there yet
+  std::uint64_t guesses_of_ = 0;                 // first number of the document whose guesses were read
+  NewProjectChoice choice_;                      // wanted while drawing, done in update()
+  std::shared_ptr<const FirstProject> made_;     // made, and given to the session
+  std::shared_ptr<const FirstProject> awaited_;  // The same, until its intruder is shown. Null: nothing is awaited.
+  std::uint64_t document_number_ = 0;            // of the document that holds it; 0: it is not open yet
+  std::optional<int> first_shown_;               // the frame that was gone to first; none: not yet
+  std::shared_ptr<const Survey> survey_;         // of the intruder; null: not there yet
 };
 
 // Draws everything that concerns files and the program itself: menu bar, start page, dialogs, messages, export. The
@@ -131,8 +125,7 @@ class AppShell {
  private:
   // Opens the file browser for the next file that is wanted, once it is closed.
   void ask_for_files();
-  // A message, where an export has ended while its window was closed.
-  void report_export();
+  void report_export();  // a message, where an export has ended while its window was closed
   void draw_dialog(const ViewContext& context);
 
   Document& document_;

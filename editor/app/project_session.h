@@ -26,12 +26,10 @@ class ProjectSession {
   // What has to be asked of the own-body mask that is being painted, which belongs to no project yet. Empty functions:
   // there is none.
   struct UnsavedMask {
-    // 0: it may go; else the number of the state that would be lost.
-    std::function<std::uint64_t()> unsaved;
+    std::function<std::uint64_t()> unsaved;  // 0: it may go; else the number of the state that would be lost
     // Asks for its name and saves it. next: called once it is written.
     std::function<void(std::function<void()> next)> save_then;
-    // What recovery keeps of it for the case of a crash.
-    std::function<MaskToKeep()> to_keep;
+    std::function<MaskToKeep()> to_keep;  // what recovery keeps of it for the case of a crash
   };
   // What the session needs from the program around it.
   struct Environment {
@@ -61,8 +59,7 @@ class ProjectSession {
 
   // Opens an abandoned project in place of the present one, once that may go.
   void recover(const AbandonedProject& abandoned);
-  // Asks whether its files may be removed for good.
-  void discard(const AbandonedProject& abandoned);
+  void discard(const AbandonedProject& abandoned);  // asks whether its files may be removed for good
   // As of the start, or of the last project that was closed, and of what was done with them since.
   [[nodiscard]] const std::vector<AbandonedProject>& abandoned() const { return abandoned_; }
 
@@ -101,8 +98,7 @@ class ProjectSession {
   void ask(Question question, std::vector<Step> steps);
   // Whether the step has to wait for the question that is open, and is queued for that; false: none is open.
   [[nodiscard]] bool waits(Step step);
-  // Runs what waited, until one of it asks again.
-  void run_next_waiting();
+  void run_next_waiting();  // runs what waited, until one of it asks again
   // The same function, but without effect once another document is open.
   [[nodiscard]] std::function<void(const std::filesystem::path&)> for_this_document(
       std::function<void(const std::filesystem::path&)> chosen) const;
@@ -110,8 +106,7 @@ class ProjectSession {
   // by it.
   void leave_then(Step next);
   void leave_document_then(Step next);
-  // As UnsavedMask::unsaved; 0 without a project.
-  [[nodiscard]] std::uint64_t unsaved_mask() const;
+  [[nodiscard]] std::uint64_t unsaved_mask() const;  // as UnsavedMask::unsaved; 0 without a project
   void quit();
   // Begins to read a file on a thread of its own, so that the window does not wait for a slow disk. The last file asked
   // for counts. The thread may outlive the session where a disk does not answer, so `wake` has to stay callable until
@@ -128,8 +123,7 @@ class ProjectSession {
   void take_loaded();
   void show_recovered(const AbandonedProject& abandoned);
   [[nodiscard]] MaskToKeep mask_to_keep() const;
-  // The project is on disk; an unsaved mask stays kept for recovery.
-  void keep_mask_after_saving();
+  void keep_mask_after_saving();  // the project is on disk; an unsaved mask stays kept for recovery
 
   Document& document_;
   Settings& settings_;

@@ -21,8 +21,7 @@ namespace sigs::editor {
 struct Question {
   std::string title;
   std::string text;
-  // The first is the usual one; the last changes nothing, and Escape means it.
-  std::vector<std::string> answers;
+  std::vector<std::string> answers;  // the first is the usual one; the last changes nothing, and Escape means it
 };
 
 // A state of the project, kept for undo. The project never changes; other threads may keep it. Undo comes back to the
@@ -61,8 +60,7 @@ struct Revision {
 // edit, undo or redo changes that.
 class Document {
  public:
-  // An empty project; file "" until it is saved.
-  Document();
+  Document();  // an empty project; file "" until it is saved
   // Opens a project as it was read; it counts as saved. Revisions are numbered from first_number on, so that documents
   // opened one after the other have no number in common. The playhead is at the project's first frame.
   //   as_read  the stamp of the project's file from before it was read; none: the file is looked at here
@@ -152,12 +150,10 @@ class Document {
   void change(const ChangeProject& change);
   void end_gesture();
   void cancel_gesture(const std::string& gesture);
-  // Drops steps beyond the limit of the history.
-  void forget_oldest();
+  void forget_oldest();  // drops steps beyond the limit of the history
   // Undo or redo: the last step of the one becomes a step of the other.
   void take_step(std::vector<Step>& from, std::vector<Step>& to);
-  // Sets the present state, and what the active camera sees of it.
-  void show(Revision state);
+  void show(Revision state);  // sets the present state, and what the active camera sees of it
   [[nodiscard]] const FootageSettings& counted_footage() const;
   // Makes the state of a step the present one, as a state of the document's file, and returns the step that leads back.
   Step exchanged(Step step);
@@ -170,14 +166,12 @@ class Document {
   std::size_t active_camera_ = 0;
   std::uint64_t first_number_;
   std::uint64_t last_number_;
-  // Number of the state that lies in the file; 0: what is in memory was never written.
-  std::uint64_t saved_number_;
+  std::uint64_t saved_number_;  // number of the state that lies in the file; 0: what is in memory was never written
   FileStamp file_stamp_;
   std::vector<Step> past_;
   std::vector<Step> future_;
-  std::string gesture_;  // of the last step, while it lasts; "": none
-  // What could be redone before it, so that CancelGesture can bring it back.
-  std::vector<Step> future_of_gesture_;
+  std::string gesture_;                  // of the last step, while it lasts; "": none
+  std::vector<Step> future_of_gesture_;  // what could be redone before it, so that CancelGesture can bring it back
   Selection selection_;
   int playhead_ = 0;
   int frame_count_ = 0;

@@ -65,8 +65,7 @@ class MaskPainting {
   void take_back_stroke();
   [[nodiscard]] bool is_stroking() const { return stroke_.has_value(); }
 
-  // Another mask of the same size, as a step of its own.
-  void replace(const cv::Mat& mask, std::string name);
+  void replace(const cv::Mat& mask, std::string name);  // another mask of the same size, as a step of its own
 
   [[nodiscard]] bool can_undo() const { return !past_.empty() && !stroke_; }
   [[nodiscard]] bool can_redo() const { return !future_.empty() && !stroke_; }

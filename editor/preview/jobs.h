@@ -77,8 +77,7 @@ class HorizonWatch {
  public:
   explicit HorizonWatch(std::function<void()> wake);
 
-  // Once per update.
-  void follow(const std::shared_ptr<const OpenedScene>& shown);
+  void follow(const std::shared_ptr<const OpenedScene>& shown);  // once per update
 
   // What was found in the footage of the scene that was followed last; null: nothing yet.
   [[nodiscard]] const std::shared_ptr<const SeenHorizons>& seen() const { return seen_; }
