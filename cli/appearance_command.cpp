@@ -73,7 +73,7 @@ Result<AppearanceFrames> frames_of(const AppearanceOptions& options, const std::
 
 Result<Appearance> found_in(const AppearanceFrames& frames, const std::optional<Project>& project,
                             const AppearanceOptions& options) {
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const AppearanceControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                   .cancel = &interrupt_flag(),
                                   .warn = print_warning};
@@ -98,10 +98,6 @@ std::string settings_lines(const Json& settings, const std::vector<std::string>&
   return text;
 }
 
-Json number_or_null(bool is_there, double number) {
-  return is_there ? Json(number) : Json();
-}
-
 Json quantities_json(const std::vector<AppearanceQuantity>& quantities) {
   Json all = Json::array();
   for (const AppearanceQuantity& quantity : quantities) {
@@ -109,7 +105,7 @@ Json quantities_json(const std::vector<AppearanceQuantity>& quantities) {
     all.push_back({{"name", quantity.name},
                    {"unit", quantity.unit},
                    {"value", estimate.value},
-                   {"sd", number_or_null(estimate.is_known, estimate.sd)},
+                   {"sd", estimate.is_known ? Json(estimate.sd) : Json()},
                    {"is_known", estimate.is_known},
                    {"why", estimate.why},
                    {"how", quantity.how},
@@ -163,7 +159,7 @@ Result<void> find_light(const Project& project, std::optional<Project>& into, co
   const Result<Box> box = box_of_option("--lit-like", options.lit_like);
   if (!box) return fail(box.error());
   if (!options.frame) return fail("--lit-like", "is in one frame; name it with --frame", ErrorKind::usage);
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const LitLikeControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                .cancel = &interrupt_flag()};
   const Result<LitLike> lit = lit_like(project, *options.frame, *box, control);

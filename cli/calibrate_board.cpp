@@ -58,7 +58,7 @@ Error nothing_found(const CalibrateOptions& options, const BoardFootage& footage
 }
 
 Result<BoardFootage> found_in(const CalibrateOptions& options, const CalibrationBoard& board) {
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const BoardSearch search{.progress = [&](int done, int total) { progress.update(done, total); },
                            .cancel = &interrupt_flag()};
   Result<BoardFootage> found = board_footage(options.inputs, board, search);

@@ -48,7 +48,7 @@ Result<Autocalibration> found_in(const CalibrateOptions& options) {
   if (!inputs) return fail(inputs.error());
   AutocalibrationSettings settings{.max_frames = options.max_frames};
   if (options.fov_deg) settings.given_field_rad = rad_of_deg(*options.fov_deg);
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const AutocalibrationControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                        .cancel = &interrupt_flag()};
   return autocalibrated(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);

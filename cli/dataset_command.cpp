@@ -80,7 +80,7 @@ Result<Shard> shard_of(const std::string& text) {
 // What several videos have in common is printed once.
 class ConsoleReporter {
  public:
-  explicit ConsoleReporter(ProgressStyle style) : style_(style), progress_(style) {}
+  explicit ConsoleReporter(const std::string& style) : style_(style), progress_(style) {}
 
   [[nodiscard]] DatasetControl control() {
     return {.progress =
@@ -113,7 +113,7 @@ class ConsoleReporter {
     part_ = part;
   }
 
-  ProgressStyle style_;
+  std::string style_;
   Progress progress_;
   std::string part_;
   std::set<std::string> printed_;
@@ -336,7 +336,7 @@ Result<void> run(const DatasetOptions& options) {
   request.folder = options.folder.empty() ? std::filesystem::path(plan->name) : options.folder;
   defer_interrupts();
   tune_allocator();
-  ConsoleReporter reporter(progress_style(options.progress));
+  ConsoleReporter reporter(options.progress);
   const Result<DatasetReport> report = make_dataset(*plan, request, reporter.control());
   reporter.end();
   if (!report) return fail(report.error());

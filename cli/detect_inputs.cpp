@@ -126,6 +126,10 @@ Result<DetectInputs> by_folders(std::vector<ClipFiles> clips, const Paths& folde
   return inputs;
 }
 
+void name_by(const Paths& files, DetectInputs& inputs) {
+  for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+}
+
 // Each detector's file covers all clips: its image_id are those of the labels of all videos of the split together.
 Result<DetectInputs> by_shared_files(std::vector<ClipFiles> clips, const Paths& files) {
   DetectInputs inputs{.clips = std::move(clips)};
@@ -143,14 +147,14 @@ Result<DetectInputs> by_shared_files(std::vector<ClipFiles> clips, const Paths& 
     images += clip.frames;
   }
   for (ClipFiles& clip : inputs.clips) clip.last_image_id = images;
-  for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+  name_by(files, inputs);
   return inputs;
 }
 
 Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) {
   DetectInputs inputs{.clips = std::move(clips)};
   if (inputs.clips.size() == 1) {
-    for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+    name_by(files, inputs);
     inputs.clips.front().results = files;
     return inputs;
   }
@@ -160,7 +164,7 @@ Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) 
   if (files.size() != inputs.clips.size() && is_one_truth && is_json) {
     inputs.is_shared = true;
     for (ClipFiles& clip : inputs.clips) clip.results = files;
-    for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+    name_by(files, inputs);
     return inputs;
   }
   if (files.size() != inputs.clips.size() && inputs.clips.front().frames > 0 && is_json)
@@ -267,8 +271,7 @@ void warn_of_other_clip(const Results& results, const fs::path& file, const std:
 
 std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
   std::string free = name;
-  for (int n = 2; std::find(taken.begin(), taken.end(), free) != taken.end(); ++n)
-    free = fmt::format("{} ({})", name, n);
+  for (int n = 2; std::ranges::find(taken, free) != taken.end(); ++n) free = fmt::format("{} ({})", name, n);
   return free;
 }
 

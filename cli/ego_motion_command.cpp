@@ -69,12 +69,6 @@ Result<void> check_inputs(const EgoMotionOptions& options) {
   return {};
 }
 
-// Empty where no mask is asked for.
-Result<cv::Mat> mask_of(const fs::path& path) {
-  if (path.empty()) return cv::Mat();
-  return read_image_file(path, cv::IMREAD_GRAYSCALE);
-}
-
 // What is found, and the same with what the log of the flight knows besides.
 struct Estimated {
   EgoMotion motion;
@@ -89,7 +83,8 @@ Result<Estimated> estimated(const EgoMotionOptions& options, const EgoMotionCont
   const Result<Camera> camera = read_calibration(options.calibration, footage->info().size_px);
   if (!camera) return fail(camera.error());
   for (const Warning& warning : camera->warnings) print_warning(warning);
-  const Result<cv::Mat> mask = mask_of(options.mask);
+  const Result<cv::Mat> mask = options.mask.empty() ? Result<cv::Mat>(cv::Mat())  // none is asked for
+                                                    : read_image_file(options.mask, cv::IMREAD_GRAYSCALE);
   if (!mask) return fail(mask.error());
   std::optional<Track> log;
   if (!options.telemetry.empty()) {
@@ -160,7 +155,7 @@ Result<void> estimate_and_write(const EgoMotionOptions& options) {
   defer_interrupts();
   OutputFiles files(options.force);
   if (const Result<void> free = files.reserve(options.outputs()); !free) return free;
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const EgoMotionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                  .cancel = &interrupt_flag()};
   const Result<Estimated> found = project ? estimated_for(*project, options, control) : estimated(options, control);

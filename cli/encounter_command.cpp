@@ -74,9 +74,7 @@ Result<std::vector<WellClearVolume>> volumes_of(const EncounterOptions& options)
   for (const std::string& name : options.volumes) {
     const Result<WellClearVolume> volume = well_clear_volume(name);
     if (!volume) return fail("--volume " + line_text(name), volume.error().what, ErrorKind::usage);
-    const bool is_there = std::any_of(volumes.begin(), volumes.end(),
-                                      [&](const WellClearVolume& other) { return other.name == volume->name; });
-    if (!is_there) volumes.push_back(*volume);
+    if (std::ranges::find(volumes, volume->name, &WellClearVolume::name) == volumes.end()) volumes.push_back(*volume);
   }
   if (options.has_own_volume()) {
     WellClearVolume own = volumes.empty() ? well_clear_volumes().front() : volumes.front();

@@ -160,7 +160,7 @@ Result<void> make_run(const TrackRequest& request, const TrackInput& input, Trac
 Result<void> make_runs(const TrackRequest& request, TrackRuns& all) {
   const int total = std::accumulate(all.runs.begin(), all.runs.end(), 0,
                                     [](int sum, const TrackRun& run) { return sum + run.frames; });
-  Progress progress(progress_style(request.progress));
+  Progress progress(request.progress);
   std::mutex mutex;
   int done = 0;
   std::atomic<int> first_failed{INT_MAX};

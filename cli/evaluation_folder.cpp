@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -36,25 +34,26 @@ Error not_free(const fs::path& folder, const std::string& what) {
   return {folder.string(), what, ErrorKind::cannot_create};
 }
 
+bool is_csv(const fs::path& path) {
+  std::error_code code;
+  return path.extension() == ".csv" && fs::symlink_status(path, code).type() == fs::file_type::regular;
+}
+
+bool is_tracker(const fs::path& name) {
+  return std::ranges::find(tracker_names(), name.string()) != tracker_names().end();
+}
+
 // Named after a tracker that ran, as evaluate track writes it.
 bool is_result_file(const fs::path& path) {
-  std::error_code code;
-  const std::span<const std::string_view> trackers = tracker_names();
-  return path.extension() == ".csv" && fs::symlink_status(path, code).type() == fs::file_type::regular &&
-         std::find(trackers.begin(), trackers.end(), path.stem().string()) != trackers.end();
+  return is_csv(path) && is_tracker(path.stem());
 }
 
 // Named after a tracker that ran, with nothing but a file for each clip, as evaluate track writes it of many.
 bool is_results_folder(const fs::path& path) {
-  const std::span<const std::string_view> trackers = tracker_names();
   std::error_code code;
-  if (fs::symlink_status(path, code).type() != fs::file_type::directory) return false;
-  if (std::find(trackers.begin(), trackers.end(), path.filename().string()) == trackers.end()) return false;
+  if (fs::symlink_status(path, code).type() != fs::file_type::directory || !is_tracker(path.filename())) return false;
   const Result<std::vector<fs::path>> files = folder_contents(path);
-  return files && std::all_of(files->begin(), files->end(), [](const fs::path& file) {
-           std::error_code quiet;
-           return file.extension() == ".csv" && fs::symlink_status(file, quiet).type() == fs::file_type::regular;
-         });
+  return files && std::ranges::all_of(*files, is_csv);
 }
 
 // The first entry of the folder that no evaluation writes; empty: there is none.

@@ -227,7 +227,7 @@ Result<void> run(const ExportOptions& options) {
   }
   defer_interrupts();
   tune_allocator();
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                               .warn =
                                   [&](const Warning& warning) {

@@ -27,7 +27,7 @@ Result<void> init(const InitOptions& options, bool has_fov) {
   FirstProjectOptions project = options.project;
   if (has_fov) project.horizontal_fov_deg = options.fov_deg;
   defer_interrupts();
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const auto tell = [&](int done, int total, const std::string& step) {
     if (done > 0) progress.update(done, total, step);
   };

@@ -64,7 +64,7 @@ Result<NearScenery> scenery_in(OpenedProject& opened, const OccluderOptions& opt
   const CameraPoseAt pose_at = [&](int frame) {
     return camera_at(scene.motion, time_of_frame_s(scene.footage, frame));
   };
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   return near_scenery(
       opened.source, scene.camera, pose_at,
       {.frame = options.frame,

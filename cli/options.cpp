@@ -32,7 +32,7 @@ std::optional<int> whole_number(std::string_view text) {
 
 Field field_of(Project& project, const std::string& key) {
   const std::vector<Field> fields = fields_of(project);
-  const auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& one) { return one.key == key; });
+  const auto field = std::ranges::find(fields, key, &Field::key);
   ENSURE(field != fields.end());
   return *field;
 }

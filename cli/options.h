@@ -119,7 +119,7 @@ CLI::Option* add_figure(CLI::App& command, const char* name, Number& value, cons
 // The value of --box, X,Y,W,H: the first column and row, the width and height in pixels. Error usage.
 [[nodiscard]] Result<Box> box_of_option(const std::string& option, const std::string& text);
 
-// --progress, as progress_style() takes it.
+// --progress, as Progress takes it.
 void add_progress_option(CLI::App& command, std::string& style);
 
 // The value of --jobs: 0 stands for one less than there are cores, as decoding and writing, or trackers, occupy one.

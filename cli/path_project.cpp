@@ -32,10 +32,6 @@ Result<Project> with_warnings_printed(Result<ReadProject> read) {
   return read->project.cameras.empty() ? std::move(read->project) : seen_by(read->project, 0);
 }
 
-Result<Project> checked_project(const fs::path& file) {
-  return with_warnings_printed(read_project(file));
-}
-
 // Whether a text is meant to be a project, be it broken: an object with a member that projects or recipes have, or,
 // where it is not JSON, one that begins as projects do.
 bool is_meant_as_project(const std::string& text) {
@@ -93,7 +89,7 @@ Result<std::vector<GeoPath>> paths_of_project(const Project& project) {
 }
 
 Result<void> write_into_project(const RecordedPath& path, const IntoProject& into) {
-  Result<Project> project = checked_project(into.project);
+  Result<Project> project = with_warnings_printed(read_project(into.project));
   if (!project) return fail(project.error());
   const auto count = static_cast<int>(project->intruders.size());
   const std::string where = fmt::format("--intruder {}", into.intruder);

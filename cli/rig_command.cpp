@@ -275,7 +275,7 @@ Result<void> run_rig_sync(const RigSyncOptions& options) {
   defer_interrupts();
   std::vector<KnownCamera> cameras;
   const int count = static_cast<int>(project->cameras.size());
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   for (int i = 0; i < count; ++i) {
     const EgoMotionControl control{
         .progress = [&, i](int done, int total) { progress.update(i * total + done, count * total); },

@@ -170,7 +170,7 @@ Result<Logic> logic_of(const RiskOptions& options) {
 }
 
 Result<RiskResult> flown(const RiskSettings& settings, const Logic& logic, const RiskOptions& options) {
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   std::mutex mutex;
   const auto total =
       static_cast<int>(std::min<std::int64_t>((settings.count + settings.shards - 1) / settings.shards, 2'000'000'000));

@@ -84,16 +84,12 @@ Result<int> target_of(const TrackRequest& request, const std::vector<std::string
   return fail(file, fmt::format("has {} intruders; choose with --intruder: {}", count, there), ErrorKind::usage);
 }
 
-const Box& start_box(const TargetFrame& frame, TruthBox truth) {
-  return truth == TruthBox::visible ? *frame.visible : *frame.amodal_box;
-}
-
 // Passes the next image to the trackers. They start in the first frame in which the target can be tracked.
 void track_frame(TrackerGroup& group, TrackedClip& clip, int frame, const cv::Mat& image, const TrackRequest& request) {
   if (group.is_started()) return group.follow(frame, image);
   const TargetTruth& target = clip.truth.targets[static_cast<std::size_t>(clip.target)];
   const TargetFrame& here = target.frames[static_cast<std::size_t>(frame - clip.truth.footage.first_frame)];
-  group.start(frame, image, start_box(here, request.policy.truth));
+  group.start(frame, image, request.policy.truth == TruthBox::visible ? *here.visible : *here.amodal_box);
 }
 
 Error never_trackable(const TrackRequest& request, const TrackedClip& clip, const fs::path& file) {
@@ -153,7 +149,7 @@ Result<TrackedClip> tracked_project(const TrackRequest& request, TrackerGroup gr
   for (const Warning& warning : clip->warnings()) print_warning(warning);
   TrackedClip tracked{.name = project->name, .truth = {.footage = clip->footage()}, .target = *target};
   const int total = clip->footage().last_frame - clip->footage().first_frame + 1;
-  Progress progress(progress_style(request.progress));
+  Progress progress(request.progress);
   const Result<int> damaged = clip->show(request.jobs, [&](const StreamFrame& frame) -> Result<void> {
     if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return on;
     if (const Result<void> added = add_frame(tracked.truth, frame.truth); !added) return added;
@@ -178,7 +174,7 @@ Result<TrackedClip> tracked_labels(const TrackRequest& request, TrackerGroup gro
   for (const TargetTruth& target : input->truth.targets) names.push_back(target.name);
   const Result<int> target = target_of(request, names);
   if (!target) return fail(target.error());
-  Progress progress(progress_style(request.progress));
+  Progress progress(request.progress);
   Result<TrackedClip> clip = tracked_input(request, *input, *target, std::move(group), [&](int done, int total) {
     progress.update(done, total);
     return true;
@@ -193,10 +189,45 @@ class LabelledImages {
  public:
   // Error bad_data where number or size of the images are not those of the labels. A size that the labels do not state
   // is not compared.
-  static Result<LabelledImages> open(const fs::path& path, const ClipTruth& clip, ImageNames names);
+  static Result<LabelledImages> open(const fs::path& path, const ClipTruth& clip, ImageNames names) {
+    LabelledImages images(clip.footage);
+    if (is_folder(path)) {
+      Result<std::vector<fs::path>> files = images_by_number(path, names);
+      if (!files) return fail(files.error());
+      if (const Result<void> fits = check_count(path, static_cast<int>(files->size()), clip); !fits)
+        return fail(fits.error());
+      for (int frame = clip.footage.first_frame; frame <= clip.footage.last_frame && names == ImageNames::by_frame;
+           ++frame)
+        (*files)[static_cast<std::size_t>(frame - clip.footage.first_frame)] =
+            path / image_name(frame, files->front().extension().string());
+      images.files_ = std::move(*files);
+      const Result<cv::Mat> first = images.at(clip.footage.first_frame);
+      if (!first) return fail(first.error());
+      images.footage_.size_px = first->size();  // of all others too, where the labels state none
+      return images;
+    }
+    Result<FrameSource> video = FrameSource::open(path, &interrupt_flag());
+    if (!video) return fail(video.error());
+    Result<void> fits = check_size(path, video->info().size_px, clip.footage);
+    if (fits) fits = check_count(path, video->info().frame_count(), clip);
+    if (!fits) return fail(fits.error());
+    images.video_ = std::move(*video);
+    return images;
+  }
 
   // The image of a frame, by the footage's number; CV_8UC3, BGR.
-  Result<cv::Mat> at(int frame);
+  Result<cv::Mat> at(int frame) {
+    if (video_) {
+      const Result<Frame> image = video_->read(frame - footage_.first_frame);
+      if (!image) return fail(image.error());
+      return bgr_of(*image);
+    }
+    const fs::path& file = files_[static_cast<std::size_t>(frame - footage_.first_frame)];
+    Result<cv::Mat> image = read_image_file(file, cv::IMREAD_COLOR);
+    if (!image) return fail(image.error());
+    if (const Result<void> fits = check_size(file, image->size(), footage_); !fits) return fail(fits.error());
+    return image;
+  }
 
  private:
   explicit LabelledImages(const FootageTruth& footage) : footage_(footage) {}
@@ -226,45 +257,6 @@ Result<fs::path> images_beside(const fs::path& labels) {
                             found[1].filename().string()),
                 ErrorKind::cannot_read);
   return found.front();
-}
-
-Result<LabelledImages> LabelledImages::open(const fs::path& path, const ClipTruth& clip, ImageNames names) {
-  LabelledImages images(clip.footage);
-  if (is_folder(path)) {
-    Result<std::vector<fs::path>> files = images_by_number(path, names);
-    if (!files) return fail(files.error());
-    if (const Result<void> fits = check_count(path, static_cast<int>(files->size()), clip); !fits)
-      return fail(fits.error());
-    for (int frame = clip.footage.first_frame; frame <= clip.footage.last_frame && names == ImageNames::by_frame;
-         ++frame)
-      (*files)[static_cast<std::size_t>(frame - clip.footage.first_frame)] =
-          path / image_name(frame, files->front().extension().string());
-    images.files_ = std::move(*files);
-    const Result<cv::Mat> first = images.at(clip.footage.first_frame);
-    if (!first) return fail(first.error());
-    images.footage_.size_px = first->size();  // of all others too, where the labels state none
-    return images;
-  }
-  Result<FrameSource> video = FrameSource::open(path, &interrupt_flag());
-  if (!video) return fail(video.error());
-  Result<void> fits = check_size(path, video->info().size_px, clip.footage);
-  if (fits) fits = check_count(path, video->info().frame_count(), clip);
-  if (!fits) return fail(fits.error());
-  images.video_ = std::move(*video);
-  return images;
-}
-
-Result<cv::Mat> LabelledImages::at(int frame) {
-  if (video_) {
-    const Result<Frame> image = video_->read(frame - footage_.first_frame);
-    if (!image) return fail(image.error());
-    return bgr_of(*image);
-  }
-  const fs::path& file = files_[static_cast<std::size_t>(frame - footage_.first_frame)];
-  Result<cv::Mat> image = read_image_file(file, cv::IMREAD_COLOR);
-  if (!image) return fail(image.error());
-  if (const Result<void> fits = check_size(file, image->size(), footage_); !fits) return fail(fits.error());
-  return image;
 }
 
 Result<LabelledImages> images_of(const TrackRequest& request, const TrackInput& input) {

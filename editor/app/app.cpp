@@ -36,12 +36,6 @@ nlohmann::json input_of(const ImGuiIO& io, int released_keys) {
 constexpr double kIdle_s = 0.25;     // between updates while nothing happens
 constexpr int kUpdatesToSettle = 3;  // ImGui needs some updates to show all that an event leads to
 
-std::vector<HelpLine> help_lines() {
-  std::vector<HelpLine> lines;
-  for (const Shortcut& shortcut : shortcuts()) lines.push_back({shortcut.group, shortcut.keys, shortcut.what});
-  return lines;
-}
-
 // Readers find the whole of the old or the new text. It need not be on the disk: nobody reads it after a crash, and
 // waiting for the disk in every update would slow down what is watched.
 bool replace_at_once(const std::filesystem::path& file, const std::string& text) {

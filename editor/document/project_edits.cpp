@@ -37,15 +37,12 @@ WaypointSettings new_waypoint(const TrajectoryPlan& plan, double frame, const gl
   return waypoint;
 }
 
-bool is_taken(const Project& whole, const std::string& name) {
-  return std::ranges::find(whole.cameras, name, &RigCamera::name) != whole.cameras.end();
-}
-
 std::string new_name(const Project& whole, const std::filesystem::path& video) {
   std::string name = video.stem().string();
   if (name.empty() || !file_name_error(name).empty()) name = fmt::format("camera {}", whole.cameras.size() + 1);
   const std::string stem = name;
-  for (int number = 2; is_taken(whole, name); ++number) name = fmt::format("{} {}", stem, number);
+  const auto is_taken = [&] { return std::ranges::find(whole.cameras, name, &RigCamera::name) != whole.cameras.end(); };
+  for (int number = 2; is_taken(); ++number) name = fmt::format("{} {}", stem, number);
   return name;
 }
 

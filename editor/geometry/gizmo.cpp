@@ -104,12 +104,6 @@ std::optional<double> metres_along(const glm::dvec3& axis, const Pull& pull, con
   return along_px * depth_m * depth_m / denominator;
 }
 
-std::optional<glm::dvec3> along_axis(int axis, const Pull& pull, const OrbitCamera& camera, const ScreenRect& rect) {
-  const std::optional<double> by_m = metres_along(kAxes[axis], pull, camera, rect);
-  if (!by_m) return std::nullopt;
-  return pull.start_m + kAxes[axis] * *by_m;
-}
-
 std::optional<glm::dvec3> in_plane(const PlaneAxes& plane, const Pull& pull, const OrbitCamera& camera,
                                    const ScreenRect& rect) {
   if (std::abs(sight_to(camera, pull.start_m)[plane.normal]) < kNoAnswerSine) return std::nullopt;
@@ -148,7 +142,10 @@ std::array<bool, 3> moved_by(GizmoPart part, const OrbitCamera& camera) {
 }
 
 std::optional<glm::dvec3> pulled(GizmoPart part, const Pull& pull, const OrbitCamera& camera, const ScreenRect& rect) {
-  if (const auto axis = index_in(kAxisParts, part)) return along_axis(*axis, pull, camera, rect);
+  if (const auto axis = index_in(kAxisParts, part)) {
+    const std::optional<double> by_m = metres_along(kAxes[*axis], pull, camera, rect);
+    return by_m ? std::optional(pull.start_m + kAxes[*axis] * *by_m) : std::nullopt;
+  }
   if (const auto plane = index_in(kPlaneParts, part)) return in_plane(kPlanes[*plane], pull, camera, rect);
   if (part == GizmoPart::screen) return in_screen(pull, camera, rect);
   return std::nullopt;

@@ -120,17 +120,14 @@ void open_in_background(const std::shared_ptr<PreviewState>& preview_state, cons
   run_in_background(open);
 }
 
-DecodedFrame grey_with_problem(const VideoInfo& video, int frame, std::string problem) {
-  return {grey_frame({.size_px = video.size_px, .times_s = video.times_s}, frame), std::move(problem)};
-}
-
 DecodedFrame decoded_frame(FrameSource& source, int number) {
   Result<Frame> frame = guarded([&] { return source.read(number); });
   const std::string where = fmt::format("{}: frame {}", source.info().path.string(), number);
   if (frame && frame->damaged)
     return {std::move(*frame), where + " is damaged; another frame of the footage replaces it"};
   if (frame) return {std::move(*frame), ""};
-  return grey_with_problem(source.info(), number, frame.error().text());
+  const FootageShape shape{.size_px = source.info().size_px, .times_s = source.info().times_s};
+  return {grey_frame(shape, number), frame.error().text()};
 }
 
 }  // namespace

@@ -207,9 +207,8 @@ class PreviewRenderer {
     return false;
   }
 
-  // The wanted frame. While that is being decoded, the last frame that was wanted before it.
-  // While the wanted frame is still being decoded, the one that was wanted before it is better than nothing: a fast
-  // scrub shows images on its way.
+  // The wanted frame. While that is still being decoded, the one that was wanted before it is better than nothing: a
+  // fast scrub shows images on its way.
   bool render_requested(const PreviewSnapshot& snapshot) {
     const int frame = clamped(snapshot.wanted->frame);
     if (preview_state_.has_image({content_, frame})) return false;
