@@ -209,21 +209,22 @@ Result<void> run(const AppearanceOptions& options) {
   if (!options.into.empty()) inputs.push_back(options.into);
   if (const Result<void> named = check_outputs(outputs_of(options), inputs); !named) return named;
   if (const Result<void> fits = check_lit_like(options); !fits) return fits;
+  const auto read_into = [&](const fs::path& file, std::optional<Project>& project) -> Result<void> {
+    Result<Project> read = project_of({.file = file, .settings = {}, .camera = options.camera});
+    if (!read) return fail(read.error());
+    project = std::move(*read);
+    return {};
+  };
   std::optional<Project> project;
+  std::optional<Project> into;
   if (is_project_file(options.file)) {
     if (options.timing != SequenceTiming{})
       return fail(options.timing.times_file.empty() ? "--frame-rate" : "--timestamps",
                   "is stated by the project; leave it out", ErrorKind::usage);
-    Result<Project> read = project_of({.file = options.file, .settings = {}, .camera = options.camera});
-    if (!read) return fail(read.error());
-    project = std::move(*read);
+    if (const Result<void> read = read_into(options.file, project); !read) return read;
   }
-  std::optional<Project> into;
-  if (!options.into.empty()) {
-    Result<Project> read = project_of({.file = options.into, .settings = {}, .camera = options.camera});
-    if (!read) return fail(read.error());
-    into = std::move(*read);
-  }
+  if (!options.into.empty())
+    if (const Result<void> read = read_into(options.into, into); !read) return read;
   defer_interrupts();
   OutputFiles files(options.force);
   if (const Result<void> free = files.reserve(outputs_of(options)); !free) return free;

@@ -131,10 +131,7 @@ Command add_calibrate_command(CLI::App& program) {
   const auto options = std::make_shared<CalibrateOptions>();
   command->add_option("INPUT", options->inputs, "a video, or images of the same size")->required()->check(not_empty());
   add_board_options(*command, *options);
-  command->add_option("--out", options->out, "the calibration, as OpenCV XML")
-      ->option_text("FILE")
-      ->required()
-      ->check(output_path());
+  add_output(*command, "--out", options->out, "the calibration, as OpenCV XML")->required();
   add_output(*command, "--plot", options->plot, "draw why; a PNG");
   add_output(*command, "--json", options->json, "write all that was found as JSON");
   add_autocalibration_options(*command, *options);

@@ -251,10 +251,8 @@ Command add_compare_command(CLI::App& program) {
   command->add_option("--frame", options->frame, "which frame, from 0; with --boxes the middle one where left out")
       ->option_text("N")
       ->check(CLI::Range(0, 10'000'000));
-  command->add_option("--project", options->projects, "a project whose first intruder is put beside; may be repeated")
-      ->option_text("FILE")
-      ->allow_extra_args(false)
-      ->check(not_empty());
+  add_input(*command, "--project", options->projects, "a project whose first intruder is put beside; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--set", options->settings, "change a setting of the projects, KEY=VALUE; may be repeated")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false);

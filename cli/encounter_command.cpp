@@ -66,8 +66,6 @@ struct Flights {
   std::vector<double> steps_s;
 };
 
-// --- Options.
-
 // Those named, each once, and then the user's own. Error usage.
 Result<std::vector<WellClearVolume>> volumes_of(const EncounterOptions& options) {
   std::vector<WellClearVolume> volumes;
@@ -91,8 +89,6 @@ Result<std::vector<WellClearVolume>> volumes_of(const EncounterOptions& options)
   if (volumes.empty()) volumes.assign(well_clear_volumes().begin(), well_clear_volumes().end());
   return volumes;
 }
-
-// --- Flights.
 
 SampledTrack sampled(const EncounterTrack& track, const std::vector<double>& times_s) {
   SampledTrack samples{.name = track.name, .has_velocities = true};
@@ -149,8 +145,6 @@ Result<Flights> chosen(Flights flights, const EncounterOptions& options) {
   return fail("--intruder " + line_text(options.intruder), "no such aircraft; there are " + listed(others),
               ErrorKind::usage);
 }
-
-// --- Outputs.
 
 Result<std::string> plot_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
   if (encounters.size() > kMaxPlotted)

@@ -157,12 +157,9 @@ Command add_evaluate_track(CLI::App& evaluate) {
       evaluate.add_subcommand("track", "measure trackers on one clip or many: centre error, overlap");
   const auto options = std::make_shared<TrackOptions>();
   TrackRequest& request = options->request;
-  command
-      ->add_option("PROJECT_OR_LABELS", request.input.file,
-                   "a project, an exported clip's NAME.xml, an otb or vot sequence, or a folder of "
-                   "many clips: a dataset, or such sequences")
-      ->required()
-      ->check(not_empty());
+  add_subject(*command, "PROJECT_OR_LABELS", request.input.file,
+              "a project, an exported clip's NAME.xml, an otb or vot sequence, or a folder of "
+              "many clips: a dataset, or such sequences");
   std::string known = "all";
   for (const std::string_view name : tracker_names()) known.append(", ").append(name);
   command

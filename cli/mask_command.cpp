@@ -246,12 +246,6 @@ fs::path default_mask(const fs::path& video) {
   return named.stem().string() + ".own-body.png";
 }
 
-Result<MaskOutputs> reserved(const MaskOptions& options, const Project& project, const fs::path& video) {
-  MaskPaths paths = options.paths;
-  if (paths.mask.empty()) paths.mask = default_mask(video);
-  return MaskOutputs::reserved(std::move(paths), {video, project.file}, options.force);
-}
-
 Result<OwnBody> found_in(FrameSource& footage, const FrameRange& range, const Project& project,
                          const MaskOptions& options) {
   OwnBodySettings settings = project.own_body;
@@ -315,7 +309,10 @@ Result<void> run(const MaskOptions& options) {
   const Result<FrameRange, Problem> range = scene_range(project->footage, shape_of(footage->info()));
   if (!range) return fail(error_in(*project, range.error()));
   defer_interrupts();
-  Result<MaskOutputs> out = reserved(options, *project, footage->info().path);
+  MaskPaths paths = options.paths;
+  const fs::path& video = footage->info().path;
+  if (paths.mask.empty()) paths.mask = default_mask(video);
+  Result<MaskOutputs> out = MaskOutputs::reserved(std::move(paths), {video, project->file}, options.force);
   if (!out) return fail(out.error());
   const Result<OwnBody> found = found_in(*footage, *range, *project, options);
   if (!found) return fail(found.error());

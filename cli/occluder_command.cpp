@@ -123,7 +123,7 @@ Command add_occluder_command(CLI::App& program) {
       ->check(from_to(0.01, 1e4));
   add_range(*command, "--max-distance", options->max_m, "M", 0.1, 1e7,
             "instead: what is nearer than this, by the camera's way");
-  command->add_option("--out", options->mask, "the mask, a PNG")->required()->option_text("FILE")->check(output_path());
+  add_output(*command, "--out", options->mask, "the mask, a PNG")->required();
   add_output(*command, "--overlay", options->overlay, "the frame with the mask tinted over it, a PNG");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);

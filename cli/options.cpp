@@ -242,10 +242,7 @@ CLI::Validator from_to(double low, double high) {
 void add_timing_options(CLI::App& command, SequenceTiming& timing) {
   CLI::Option* const rate = add_range(command, "--frame-rate", timing.frame_rate_hz, "HZ", 0.001, 1e6,
                                       "frames a second of images, which do not state it");
-  command.add_option("--timestamps", timing.times_file, "of images: a file with the time of each")
-      ->option_text("FILE")
-      ->check(not_empty())
-      ->excludes(rate);
+  add_input(command, "--timestamps", timing.times_file, "of images: a file with the time of each")->excludes(rate);
 }
 
 int jobs_of_option(int jobs) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "cli/describe/command_facts.h"
 
@@ -84,8 +86,7 @@ std::string option_cases(const CommandFacts& command) {
 
 std::string function_name(const std::string& command) {
   std::string name = "_" + command;
-  for (char& c : name)
-    if (c == '-' || c == ' ') c = '_';
+  for (const char c : {'-', ' '}) std::ranges::replace(name, c, '_');
   return name;
 }
 

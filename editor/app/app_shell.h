@@ -70,7 +70,7 @@ class NewProjectFlow {
   std::uint64_t guesses_of_ = 0;                 // first number of the document whose guesses were read
   NewProjectChoice choice_;                      // wanted while drawing, done in update()
   std::shared_ptr<const FirstProject> made_;     // made, and given to the session
-  std::shared_ptr<const FirstProject> awaited_;  // The same, until its intruder is shown. Null: nothing is awaited.
+  std::shared_ptr<const FirstProject> awaited_;  // the same, until its intruder is shown
   std::uint64_t document_number_ = 0;            // of the document that holds it; 0: it is not open yet
   std::optional<int> first_shown_;               // the frame that was gone to first; none: not yet
   std::shared_ptr<const Survey> survey_;         // of the intruder; null: not there yet

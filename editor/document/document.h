@@ -146,7 +146,6 @@ class Document {
     Selection selection;
   };
 
-  // One for each kind of edit.
   void change(const ChangeProject& change);
   void end_gesture();
   void cancel_gesture(const std::string& gesture);

@@ -84,7 +84,7 @@ class Recovery {
   // What keep() would do, at once: before something that may end the program. Errors: cannot_create, write_failed.
   [[nodiscard]] Result<void> write(const Document& document, const MaskToKeep& mask = {});
 
-  void forget();  // The work was saved, or given up: removes the project and its mask. The lock stays held.
+  void forget();  // what is kept goes, as it was saved or given up; the lock stays held
 
   // Makes an abandoned project this editor's own: its file becomes ours until the document is saved or given up. What
   // was kept here before must have been forgotten. Errors: those of reading the file and of write(); cannot_read where

@@ -116,11 +116,6 @@ std::optional<glm::dvec3> in_plane(const PlaneAxes& plane, const Pull& pull, con
   return result;
 }
 
-glm::dvec3 in_screen(const Pull& pull, const OrbitCamera& camera, const ScreenRect& rect) {
-  const double px_per_m = camera.pixels_per_metre(pull.start_m, rect);
-  return pull.start_m + (camera.right() * pull.by_px.x - camera.up() * pull.by_px.y) / px_per_m;
-}
-
 template <std::size_t N>
 std::optional<int> index_in(const std::array<GizmoPart, N>& parts, GizmoPart part) {
   const auto found = std::ranges::find(parts, part);
@@ -147,8 +142,9 @@ std::optional<glm::dvec3> pulled(GizmoPart part, const Pull& pull, const OrbitCa
     return by_m ? std::optional(pull.start_m + kAxes[*axis] * *by_m) : std::nullopt;
   }
   if (const auto plane = index_in(kPlaneParts, part)) return in_plane(kPlanes[*plane], pull, camera, rect);
-  if (part == GizmoPart::screen) return in_screen(pull, camera, rect);
-  return std::nullopt;
+  if (part != GizmoPart::screen) return std::nullopt;
+  const double px_per_m = camera.pixels_per_metre(pull.start_m, rect);
+  return pull.start_m + (camera.right() * pull.by_px.x - camera.up() * pull.by_px.y) / px_per_m;
 }
 
 constexpr double kMinSlope = 0.19;  // sine of 11 degrees

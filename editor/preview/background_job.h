@@ -85,8 +85,8 @@ struct JobState {
 // thread, as long as work has not returned.
 struct JobControl {
   std::function<void(int done, int total)> progress;  // frames done so far and in all
-  std::function<void(const std::string&)> tell = {};  // Sets JobState::step. It does not wake the window by itself.
-  std::function<void(const Warning&)> warn;  // Adds to JobState::warnings. It does not wake the window by itself.
+  std::function<void(const std::string&)> tell = {};  // sets JobState::step, without waking the window
+  std::function<void(const Warning&)> warn;           // adds to JobState::warnings, without waking the window
   // True: end soon, with an error of kind interrupted. A BackgroundJob always sets it; alive until work returns.
   const std::atomic<bool>* cancel = nullptr;
 };

@@ -174,8 +174,6 @@ class PreviewRenderer {
   // The preview state has to outlive it.
   explicit PreviewRenderer(PreviewState& preview_state) : preview_state_(preview_state) {}
 
-  // The thread's body, at kPreviewNiceness; returns when the preview state is stopped. Where it has nothing to do, it
-  // still looks at the project's files once a second.
   void run() {
     lower_thread_priority(kPreviewNiceness);
     while (const std::optional<PreviewSnapshot> snapshot = preview_state_.snapshot()) {

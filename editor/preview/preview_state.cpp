@@ -157,18 +157,9 @@ PreviewOutput PreviewState::shown() const {
   return shown;
 }
 
-void PreviewState::set_texture_bytes(std::size_t bytes) {
+void PreviewState::set_bytes(std::size_t& place, std::size_t bytes) {
   const std::lock_guard lock(mutex_);
-  if (texture_bytes_ == bytes) return;
-  texture_bytes_ = bytes;
-  share_memory();
-}
-
-void PreviewState::set_cache_bytes(std::size_t bytes) {
-  const std::lock_guard lock(mutex_);
-  if (limits_.cache_bytes == bytes) return;
-  limits_.cache_bytes = bytes;
-  share_memory();
+  if (std::exchange(place, bytes) != bytes) share_memory();
 }
 
 void PreviewState::set_prefetch_paused(bool paused) {

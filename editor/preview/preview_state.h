@@ -64,9 +64,9 @@ class PreviewState {
   void want(const PreviewRequest& wanted);
   // Copies pointers, not images. An image that is in memory for the wanted frame is there at once, also after undo.
   [[nodiscard]] PreviewOutput shown() const;
-  void set_texture_bytes(std::size_t bytes);
+  void set_texture_bytes(std::size_t bytes) { set_bytes(texture_bytes_, bytes); }
   // PreviewLimits::cache_bytes from now on.
-  void set_cache_bytes(std::size_t bytes);
+  void set_cache_bytes(std::size_t bytes) { set_bytes(limits_.cache_bytes, bytes); }
   void set_prefetch_paused(bool paused);
   // From then on snapshot() and next_decoding() return none, those that wait included, and wake is not called any more.
   void stop();
@@ -127,6 +127,7 @@ class PreviewState {
     [[nodiscard]] bool is(FrameKey other) const { return value && key == other; }
   };
 
+  void set_bytes(std::size_t& place, std::size_t bytes);
   // Makes a change under the lock, shares out the memory anew, then wakes the window without the lock: at once, or
   // within a quarter of a second.
   template <class Change>

@@ -146,22 +146,18 @@ void TruthBuilder::build(const Scene& scene) {
 
 namespace fs = std::filesystem;
 
-int ResultFiles::free_color() const {
-  int color = 0;
-  const auto is_taken = [&](const ResultFile& file) { return file.color == color; };
-  while (std::ranges::any_of(files_, is_taken)) ++color;
-  return color;
-}
-
 void ResultFiles::add(const fs::path& path) {
   std::error_code code;
   const fs::path absolute = fs::absolute(path, code);
   const fs::path place = (code ? path : absolute).lexically_normal();
   const auto same = std::ranges::find(files_, place, &ResultFile::path);
-  if (same != files_.end())
+  if (same != files_.end()) {
     same->is_shown = true;
-  else
-    files_.push_back({.id = ++last_id_, .path = place, .color = free_color()});
+    return;
+  }
+  int color = 0;
+  while (std::ranges::find(files_, color, &ResultFile::color) != files_.end()) ++color;
+  files_.push_back({.id = ++last_id_, .path = place, .color = color});
 }
 
 void ResultFiles::remove(int id) {

@@ -97,7 +97,7 @@ struct ResultFile {
   int id = 0;  // its own as long as the program runs; 0: none
   std::filesystem::path path;
   int color = 0;         // number of its colour (result_color): the smallest that no other file has
-  bool is_shown = true;  // Whether its boxes and its curve are drawn. It is scored in any case.
+  bool is_shown = true;  // whether its boxes and its curve are drawn; it is scored in any case
 
   [[nodiscard]] bool operator==(const ResultFile&) const = default;
 };
@@ -107,14 +107,12 @@ class ResultFiles {
  public:
   // A path is made absolute first. A file that is loaded already is shown again, and stays one.
   void add(const std::filesystem::path& path);
-  void remove(int id);  // Ids that are not there are passed over. The file on disk stays.
+  void remove(int id);  // passes over ids that are not there; the file on disk stays
   void set_shown(int id, bool shown);
   void clear() { files_.clear(); }
   [[nodiscard]] const std::vector<ResultFile>& files() const { return files_; }
 
  private:
-  [[nodiscard]] int free_color() const;  // the smallest number that no file has
-
   std::vector<ResultFile> files_;
   int last_id_ = 0;
 };
