@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -19,30 +20,10 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-// Bytes a pixel of the sample footage with mask video and XML (crossing, 1280x960; h264: of 1LRB737). Other footage may
-// take half or twice as much.
-double bytes_a_pixel(const ExportSettings& output) {
-  switch (output.codec) {
-    case VideoCodec::ffv1:
-      return 0.38;
-    case VideoCodec::h264:
-    case VideoCodec::source:
-      return 0.017;
-    case VideoCodec::hevc:
-    case VideoCodec::av1:
-      return 0.012;
-    case VideoCodec::mjpeg:
-      return 0.13;
-    case VideoCodec::png:
-    case VideoCodec::tiff:
-      return 1.2;
-    case VideoCodec::jpeg:
-      return 0.15;
-    case VideoCodec::raw:
-      return 1.5;
-  }
-  return 1;
-}
+// Bytes a pixel of the sample footage with mask video and XML (crossing, 1280x960; h264 and source: of 1LRB737), in the
+// order of VideoCodec. Other footage may take half or twice as much.
+constexpr std::array kBytesAPixel{0.38, 0.017, 0.012, 0.012, 0.13, 1.2, 1.2, 0.15, 1.5, 0.017};
+static_assert(kBytesAPixel.size() == static_cast<std::size_t>(VideoCodec::source) + 1);
 
 std::string size_text(double bytes) {
   const char* const units[] = {"kB", "MB", "GB", "TB"};
@@ -217,7 +198,8 @@ Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
     if (!count) return fail(video->name, count.error().text(), count.error().kind);
     all.frames.push_back(*count);
     frames += *count;
-    bytes += double(footage.size_px.area()) * *count * bytes_a_pixel(video->project.output);
+    bytes +=
+        double(footage.size_px.area()) * *count * kBytesAPixel[static_cast<std::size_t>(video->project.output.codec)];
   }
   std::string text;
   for (const Block& block : blocks_of(videos)) text += table_text(columns_of(block, all));

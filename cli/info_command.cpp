@@ -37,15 +37,9 @@ const char* name_in(const std::array<const char*, N>& names, Enum value) {
 
 // The transfer function used for the footage, where it differs from the stated one.
 const char* curve_of(int transfer) {
-  switch (transfer_function_of(transfer).value_or(TransferFunction::srgb)) {
-    case TransferFunction::srgb:
-      return " (sRGB's curve is used)";
-    case TransferFunction::pq:
-    case TransferFunction::hlg:
-      return " (an intruder's white is 203 cd/m2)";
-    default:
-      return "";
-  }
+  const TransferFunction used = transfer_function_of(transfer).value_or(TransferFunction::srgb);
+  if (used == TransferFunction::srgb) return " (sRGB's curve is used)";
+  return used == TransferFunction::pq || used == TransferFunction::hlg ? " (an intruder's white is 203 cd/m2)" : "";
 }
 
 // To the end of the last frame, whose duration follows from the nominal rate.

@@ -141,10 +141,6 @@ void App::keep_mask_then(std::function<void()> next) {
   });
 }
 
-void App::open(const std::filesystem::path& path) {
-  shell_.handle(OpenProject{path});
-}
-
 double App::wait_timeout_s() const {
   if (playback_.playing() || redraw_updates_left_ > 0) return 0;
   return shell_.needs_redraw() ? 0.1 : kIdle_s;

@@ -89,7 +89,7 @@ class App {
   App(Window& window, Settings settings, ProbeWriter probe);
 
   // Opens a project; the start page is shown until it is read. Errors are shown in the window.
-  void open(const std::filesystem::path& path);
+  void open(const std::filesystem::path& path) { shell_.handle(OpenProject{path}); }
 
   // One update of the loop: draws everything, then lets the document apply the edits and the program handle the
   // requests that the views queued, then asks the preview for what is to be shown next. Nothing here waits for the

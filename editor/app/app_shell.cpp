@@ -248,14 +248,6 @@ void NewProjectFlow::open(const fs::path& video) {
   dialog_.open(video, writable_folder(settings_));
 }
 
-void NewProjectFlow::draw(const ViewContext& context) {
-  choice_ = dialog_.draw(context, job_.state());
-}
-
-void NewProjectFlow::look(const ViewContext& context) {
-  survey_ = context.shown.surveys.empty() ? nullptr : context.shown.surveys.front();
-}
-
 void NewProjectFlow::take_made() {
   const FirstProjectState state = job_.state();
   if (state.phase != JobPhase::done || state.value == made_) return;

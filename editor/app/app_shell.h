@@ -38,14 +38,17 @@ class NewProjectFlow {
   [[nodiscard]] bool is_open() const { return dialog_.is_open(); }
   // A file that was dropped onto the window while the dialog is open.
   void take_dropped(const std::filesystem::path& file) { dialog_.take_dropped(file); }
-  void draw(const ViewContext& context);  // once per update while it is open
+  // Once per update while it is open.
+  void draw(const ViewContext& context) { choice_ = dialog_.draw(context, job_.state()); }
 
   // Once per update, after that of the session: carries out what was wanted while drawing, opens a project that is
   // made, and shows it once its footage is open.
   void update();
 
   // Once per update: what is known of the intruder by what is shown.
-  void look(const ViewContext& context);
+  void look(const ViewContext& context) {
+    survey_ = context.shown.surveys.empty() ? nullptr : context.shown.surveys.front();
+  }
 
   // Messages since the last call.
   [[nodiscard]] std::vector<Request> take_requests() { return std::exchange(requests_, {}); }

@@ -51,10 +51,6 @@ ProjectSession::ProjectSession(Document& document, Settings& settings, Environme
       recovery_(environment_.recovery_folder),
       abandoned_(abandoned_projects(environment_.recovery_folder)) {}
 
-void ProjectSession::show_message(std::string text, bool is_error) {
-  requests_.push_back(ShowMessage{std::move(text), is_error});
-}
-
 // What was asked for while a question is open begins anew after its answer: by then nothing may be left to be asked.
 bool ProjectSession::waits(Step step) {
   if (!question_) return false;

@@ -93,7 +93,9 @@ class ProjectSession {
   // What is done after an answer, or after something was saved. May be empty.
   using Step = std::function<void()>;
 
-  void show_message(std::string text, bool is_error = false);
+  void show_message(std::string text, bool is_error = false) {
+    requests_.push_back(ShowMessage{std::move(text), is_error});
+  }
   // Asks, with a step for each answer; while another question is open, after that.
   void ask(Question question, std::vector<Step> steps);
   // Whether the step has to wait for the question that is open, and is queued for that; false: none is open.

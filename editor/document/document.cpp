@@ -69,8 +69,6 @@ Revision revision_of_camera(const Revision& whole, std::size_t camera) {
   return {whole.number + (std::uint64_t(camera) << 40), std::make_shared<const Project>(std::move(seen))};
 }
 
-Document::Document() : Document(Project()) {}
-
 Document::Document(Project project, std::uint64_t first_number, std::optional<FileStamp> as_read)
     : state_{first_number, std::make_shared<const Project>(std::move(project))},
       revision_(revision_of_camera(state_, 0)),
@@ -113,10 +111,6 @@ int Document::range_first() const {
 
 int Document::range_last() const {
   return std::clamp(out_.value_or(last_frame()), range_first(), last_frame());
-}
-
-void Document::apply(const std::vector<Edit>& edits) {
-  for (const Edit& edit : edits) apply(edit);
 }
 
 void Document::apply(const Edit& edit) {
@@ -226,10 +220,6 @@ void Document::keep_selection_valid() {
 
 void Document::keep_playhead_valid() {
   playhead_ = std::clamp(playhead_, first_frame(), last_frame());
-}
-
-Result<void> Document::save() {
-  return save_as(project().file);
 }
 
 Result<void> Document::save_as(const std::filesystem::path& path) {

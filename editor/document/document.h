@@ -60,7 +60,7 @@ struct Revision {
 // edit, undo or redo changes that.
 class Document {
  public:
-  Document();  // an empty project; file "" until it is saved
+  Document() : Document(Project()) {}  // an empty project; file "" until it is saved
   // Opens a project as it was read; it counts as saved. Revisions are numbered from first_number on, so that documents
   // opened one after the other have no number in common. The playhead is at the project's first frame.
   //   as_read  the stamp of the project's file from before it was read; none: the file is looked at here
@@ -126,12 +126,14 @@ class Document {
   // leaves a number in the project that is not finite, is refused as a whole. Waypoints that are places on the Earth
   // have place and position_m in step afterwards (project/places.h).
   void apply(const Edit& edit);
-  void apply(const std::vector<Edit>& edits);
+  void apply(const std::vector<Edit>& edits) {
+    for (const Edit& edit : edits) apply(edit);
+  }
 
   // Writes the project to its own file, or to another path; it belongs there from then on, with all that can be undone
   // and redone, and its relative paths are rewritten to mean the same files. A file that is there is replaced at once
   // by the complete one. Errors: cannot_create (without a file name too), write_failed; then nothing has changed.
-  [[nodiscard]] Result<void> save();
+  [[nodiscard]] Result<void> save() { return save_as(project().file); }
   [[nodiscard]] Result<void> save_as(const std::filesystem::path& path);
 
   // For a project that was recovered after a crash and differs from its file.

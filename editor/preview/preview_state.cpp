@@ -346,16 +346,6 @@ void PreviewState::put_compared(FrameKey key, std::shared_ptr<const PreviewImage
   });
 }
 
-bool PreviewState::has_untouched(FrameKey key) const {
-  const std::lock_guard lock(mutex_);
-  return untouched_.is(key);
-}
-
-bool PreviewState::has_staged(FrameKey key) const {
-  const std::lock_guard lock(mutex_);
-  return staged_.is(key);
-}
-
 bool PreviewState::has_compared(FrameKey key, MethodChoice method, bool staged) const {
   const std::lock_guard lock(mutex_);
   if (!compared_.is(key) || compared_.value->method != method) return false;

@@ -109,8 +109,14 @@ class PreviewState {
   void put_untouched(FrameKey key, std::shared_ptr<const cv::Mat> bgr);
   void put_staged(FrameKey key, std::shared_ptr<const PreviewImage> image);
   void put_compared(FrameKey key, std::shared_ptr<const PreviewImage> image);
-  [[nodiscard]] bool has_untouched(FrameKey key) const;
-  [[nodiscard]] bool has_staged(FrameKey key) const;
+  [[nodiscard]] bool has_untouched(FrameKey key) const {
+    const std::lock_guard lock(mutex_);
+    return untouched_.is(key);
+  }
+  [[nodiscard]] bool has_staged(FrameKey key) const {
+    const std::lock_guard lock(mutex_);
+    return staged_.is(key);
+  }
   // staged: with its stages; a frame that could not be composed has none.
   [[nodiscard]] bool has_compared(FrameKey key, MethodChoice method, bool staged) const;
   // One for each of the project's intruders; null: not made yet.

@@ -62,8 +62,6 @@ TruthBuilder::TruthBuilder(std::function<void()> wake, StreamFrames show, std::c
       idle_time_(idle_time),
       worker_({.work = [this](const Scene& scene) { build(scene); }, .niceness = kBackgroundNiceness}) {}
 
-TruthBuilder::~TruthBuilder() = default;
-
 void TruthBuilder::want(std::shared_ptr<const OpenedScene> scene) {
   const std::lock_guard lock(mutex_);
   if (!scene) state_ = {};

@@ -53,7 +53,7 @@ class TruthBuilder {
   explicit TruthBuilder(std::function<void()> wake, StreamFrames show = stream_frames,
                         std::chrono::milliseconds idle_time = std::chrono::milliseconds(500));
   // Gives up what is under way, and waits until that has noticed, at its next frame.
-  ~TruthBuilder();
+  ~TruthBuilder() = default;
   TruthBuilder(const TruthBuilder&) = delete;
   TruthBuilder& operator=(const TruthBuilder&) = delete;
 
