@@ -73,21 +73,15 @@ Result<AppearanceFrames> frames_of(const AppearanceOptions& options, const std::
 
 Result<Appearance> found_in(const AppearanceFrames& frames, const std::optional<Project>& project,
                             const AppearanceOptions& options) {
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const AppearanceControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                   .cancel = &interrupt_flag(),
                                   .warn = print_warning};
-  const auto found = [&]() -> Result<Appearance> {
-    if (project)
-      return appearance_of_footage(*project, frames, is_still_guessed(*project, "camera.position_m"), control);
-    Result<FrameSource> footage = FrameSource::open(options.file, &interrupt_flag(), Quantisers::read, options.timing);
-    if (!footage) return fail(footage.error());
-    for (const Warning& warning : footage->info().warnings) print_warning(warning);
-    return estimate_appearance(*footage, frames, {}, control);
-  };
-  Result<Appearance> appearance = found();
-  progress.end();
-  return appearance;
+  if (project) return appearance_of_footage(*project, frames, is_still_guessed(*project, "camera.position_m"), control);
+  Result<FrameSource> footage = FrameSource::open(options.file, &interrupt_flag(), Quantisers::read, options.timing);
+  if (!footage) return fail(footage.error());
+  for (const Warning& warning : footage->info().warnings) print_warning(warning);
+  return estimate_appearance(*footage, frames, {}, control);
 }
 
 // What apply() sets, by its keys, nested as in a project file.
@@ -104,10 +98,6 @@ std::string settings_lines(const Json& settings, const std::vector<std::string>&
   return text;
 }
 
-Json number_or_null(bool is_there, double number) {
-  return is_there ? Json(number) : Json();
-}
-
 Json quantities_json(const std::vector<AppearanceQuantity>& quantities) {
   Json all = Json::array();
   for (const AppearanceQuantity& quantity : quantities) {
@@ -115,7 +105,7 @@ Json quantities_json(const std::vector<AppearanceQuantity>& quantities) {
     all.push_back({{"name", quantity.name},
                    {"unit", quantity.unit},
                    {"value", estimate.value},
-                   {"sd", number_or_null(estimate.is_known, estimate.sd)},
+                   {"sd", estimate.is_known ? Json(estimate.sd) : Json()},
                    {"is_known", estimate.is_known},
                    {"why", estimate.why},
                    {"how", quantity.how},
@@ -154,17 +144,6 @@ std::string table_text(const Appearance& found) {
   return text + settings_lines(settings_of(found), applied_settings(found));
 }
 
-// The settings, and what --plot draws.
-Result<void> write(OutputFiles& files, const Json& settings, const std::vector<Panel>& panels,
-                   const AppearanceOptions& options) {
-  if (!options.out.empty())
-    if (const Result<void> done = files.write(options.out, json_text(settings)); !done) return done;
-  if (!options.plot.empty())
-    if (const Result<void> done = files.write(options.plot, panel_page(panels)); !done) return done;
-  const Result<std::vector<fs::path>> written = files.commit();
-  return written ? Result<void>() : fail(written.error());
-}
-
 // Puts what was found into the project of --into, where there is one.
 template <class Found>
 Result<void> write_into(const Found& found, std::optional<Project>& into, const AppearanceOptions& options) {
@@ -180,14 +159,15 @@ Result<void> find_light(const Project& project, std::optional<Project>& into, co
   const Result<Box> box = box_of_option("--lit-like", options.lit_like);
   if (!box) return fail(box.error());
   if (!options.frame) return fail("--lit-like", "is in one frame; name it with --frame", ErrorKind::usage);
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const LitLikeControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                .cancel = &interrupt_flag()};
   const Result<LitLike> lit = lit_like(project, *options.frame, *box, control);
   progress.end();
   if (!lit) return fail(lit.error());
   const Json settings = settings_of(*lit);
-  if (const Result<void> written = write(files, settings, {}, options); !written) return written;
+  const Result<void> saved = files.write_and_commit({{options.out, [&] { return json_text(settings); }}});
+  if (!saved) return saved;
   if (const Result<void> written = write_into(*lit, into, options); !written) return written;
   const Json report{{"quantities", quantities_json(quantities_of(*lit))}, {"settings", settings}};
   const std::string text = options.json
@@ -203,8 +183,10 @@ Result<void> find_look(const std::optional<Project>& project, std::optional<Proj
   if (!frames) return fail(frames.error());
   const Result<Appearance> found = found_in(*frames, project, options);
   if (!found) return fail(found.error());
-  if (const Result<void> written = write(files, settings_of(*found), panels_of(*found), options); !written)
-    return written;
+  const Result<void> saved =
+      files.write_and_commit({{options.out, [&] { return json_text(settings_of(*found)); }},
+                              {options.plot, [&] { return png_bytes(panel_page(panels_of(*found))); }}});
+  if (!saved) return saved;
   if (const Result<void> written = write_into(*found, into, options); !written) return written;
   std::fputs((options.json ? report_json(*found) : table_text(*found)).c_str(), stdout);
   return {};
@@ -227,21 +209,22 @@ Result<void> run(const AppearanceOptions& options) {
   if (!options.into.empty()) inputs.push_back(options.into);
   if (const Result<void> named = check_outputs(outputs_of(options), inputs); !named) return named;
   if (const Result<void> fits = check_lit_like(options); !fits) return fits;
+  const auto read_into = [&](const fs::path& file, std::optional<Project>& project) -> Result<void> {
+    Result<Project> read = project_of({.file = file, .settings = {}, .camera = options.camera});
+    if (!read) return fail(read.error());
+    project = std::move(*read);
+    return {};
+  };
   std::optional<Project> project;
+  std::optional<Project> into;
   if (is_project_file(options.file)) {
     if (options.timing != SequenceTiming{})
       return fail(options.timing.times_file.empty() ? "--frame-rate" : "--timestamps",
                   "is stated by the project; leave it out", ErrorKind::usage);
-    Result<Project> read = project_of({.file = options.file, .settings = {}, .camera = options.camera});
-    if (!read) return fail(read.error());
-    project = std::move(*read);
+    if (const Result<void> read = read_into(options.file, project); !read) return read;
   }
-  std::optional<Project> into;
-  if (!options.into.empty()) {
-    Result<Project> read = project_of({.file = options.into, .settings = {}, .camera = options.camera});
-    if (!read) return fail(read.error());
-    into = std::move(*read);
-  }
+  if (!options.into.empty())
+    if (const Result<void> read = read_into(options.into, into); !read) return read;
   defer_interrupts();
   OutputFiles files(options.force);
   if (const Result<void> free = files.reserve(outputs_of(options)); !free) return free;

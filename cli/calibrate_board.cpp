@@ -3,12 +3,8 @@
 
 #include <cstdio>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "base/image_codecs.h"
-#include "base/paths.h"
-#include "base/staged_outputs.h"
 #include "base/text.h"
 #include "calibration/board.h"
 #include "calibration/board_calibration.h"
@@ -20,37 +16,6 @@
 namespace sigs::cli {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-struct NamedOutput {
-  const char* option;
-  const fs::path* path;
-};
-
-std::vector<NamedOutput> outputs_of(const CalibrateOptions& options) {
-  std::vector<NamedOutput> named;
-  for (const NamedOutput& one :
-       {NamedOutput{"--out", &options.out}, NamedOutput{"--plot", &options.plot}, NamedOutput{"--json", &options.json}})
-    if (!one.path->empty()) named.push_back(one);
-  return named;
-}
-
-// Before anything is read. Errors usage, cannot_create.
-Result<void> check_names(const CalibrateOptions& options) {
-  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
-    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  const std::vector<NamedOutput> named = outputs_of(options);
-  for (std::size_t i = 0; i < named.size(); ++i) {
-    const std::string option = std::string(named[i].option) + " " + named[i].path->string();
-    for (std::size_t k = 0; k < i; ++k)
-      if (canonical_name(*named[i].path) == canonical_name(*named[k].path))
-        return fail(option, std::string("is where ") + named[k].option + " goes", ErrorKind::usage);
-    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{*named[i].path}, options.inputs); !kept)
-      return fail(option, kept.error().what, ErrorKind::cannot_create);
-  }
-  return {};
-}
 
 Result<CalibrationBoard> board_of(const CalibrateOptions& options) {
   CalibrationBoard board;
@@ -93,7 +58,7 @@ Error nothing_found(const CalibrateOptions& options, const BoardFootage& footage
 }
 
 Result<BoardFootage> found_in(const CalibrateOptions& options, const CalibrationBoard& board) {
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const BoardSearch search{.progress = [&](int done, int total) { progress.update(done, total); },
                            .cancel = &interrupt_flag()};
   Result<BoardFootage> found = board_footage(options.inputs, board, search);
@@ -120,36 +85,23 @@ Result<BoardCalibration> calibrated(const CalibrateOptions& options, const Calib
   return calibration;
 }
 
-std::string bytes_of(const char* option, const BoardCalibration& calibration, const CalibrationBoard& board) {
-  if (option == std::string_view("--out")) return calibration_xml(calibration_text_of(calibration, board));
-  if (option == std::string_view("--json")) return board_report_json(calibration, board);
-  std::vector<uchar> png;
-  image_codecs::imencode(".png", board_plot(calibration), png);
-  return {png.begin(), png.end()};
-}
-
 }  // namespace
 
 Result<void> calibrate_with_board(const CalibrateOptions& options) {
-  if (const Result<void> named = check_names(options); !named) return named;
+  if (const Result<void> named = check_outputs(options.outputs(), options.inputs); !named) return named;
   const Result<CalibrationBoard> board = board_of(options);
   if (!board) return fail(board.error());
   defer_interrupts();
-  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  std::vector<fs::path> staged;
-  for (const NamedOutput& output : outputs_of(options)) {
-    const Result<fs::path> added = outputs.add_file(*output.path);
-    if (!added) return fail(added.error());
-    staged.push_back(*added);
-  }
+  OutputFiles files(options.force);
+  if (const Result<void> free = files.reserve(options.outputs()); !free) return free;
   const Result<BoardCalibration> calibration = calibrated(options, *board);
   if (!calibration) return fail(calibration.error());
   for (const Warning& warning : calibration->warnings) print_warning(warning);
-  const std::vector<NamedOutput> named = outputs_of(options);
-  for (std::size_t i = 0; i < named.size(); ++i)
-    if (const Result<void> done = write_bytes(staged[i], bytes_of(named[i].option, *calibration, *board)); !done)
-      return fail(outputs.with_final_names(done.error()));
-  if (const Result<void> done = outputs.commit(); !done) return done;
+  const Result<void> done =
+      files.write_and_commit({{options.out, [&] { return calibration_xml(calibration_text_of(*calibration, *board)); }},
+                              {options.plot, [&] { return png_bytes(board_plot(*calibration)); }},
+                              {options.json, [&] { return board_report_json(*calibration, *board); }}});
+  if (!done) return done;
   std::fputs(board_report_text(*calibration).c_str(), stdout);
   return {};
 }

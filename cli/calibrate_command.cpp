@@ -4,13 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "autocalibration/autocalibration.h"
 #include "base/paths.h"
 #include "base/pose.h"
-#include "base/staged_outputs.h"
 #include "cli/calibrate_options.h"
 #include "cli/commands.h"
 #include "cli/options.h"
@@ -50,87 +48,57 @@ Result<Autocalibration> found_in(const CalibrateOptions& options) {
   if (!inputs) return fail(inputs.error());
   AutocalibrationSettings settings{.max_frames = options.max_frames};
   if (options.fov_deg) settings.given_field_rad = rad_of_deg(*options.fov_deg);
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const AutocalibrationControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                        .cancel = &interrupt_flag()};
-  Result<Autocalibration> found =
-      autocalibrated(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);
-  progress.end();
-  return found;
+  return autocalibrated(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);
 }
 
-// The places of the outputs while they are written; empty: not asked for.
-struct AutocalibrationOutputs {
-  fs::path calibration, plot, json;
-};
-
-Result<AutocalibrationOutputs> begun(StagedOutputs& outputs, const CalibrateOptions& options) {
+// Takes the names of the outputs.
+Result<void> begin(OutputFiles& files, const CalibrateOptions& options) {
   if (options.inputs.size() != 1)
     return fail("INPUT", "is one video where there is no --board; there are " + std::to_string(options.inputs.size()),
                 ErrorKind::usage);
-  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
-    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  std::vector<fs::path> inputs{options.inputs[0]};
-  if (!options.log.empty()) inputs.push_back(options.log);
-  AutocalibrationOutputs staged;
-  for (const auto& [path, place] :
-       {std::pair(&options.out, &staged.calibration), {&options.plot, &staged.plot}, {&options.json, &staged.json}}) {
-    if (path->empty()) continue;
-    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{*path}, inputs); !kept)
-      return fail(path->string(), kept.error().what, ErrorKind::cannot_create);
-    const Result<fs::path> added = outputs.add_file(*path);
-    if (!added) return fail(added.error());
-    *place = *added;
+  if (!options.plot.empty())
+    if (const Result<void> named = check_png_output("--plot", options.plot, {}); !named) return named;
+  for (const CommandOutput& output : options.outputs()) {
+    if (output.path.empty()) continue;
+    if (const Result<void> kept =
+            check_inputs_not_overwritten(std::vector{output.path}, std::vector{options.inputs[0], options.log});
+        !kept)
+      return fail(output.path.string(), kept.error().what, ErrorKind::cannot_create);
+    if (const Result<void> reserved = files.reserve(output.path); !reserved) return reserved;
   }
-  return staged;
+  return {};
 }
-
-Result<void> write_all(StagedOutputs& outputs, const AutocalibrationOutputs& staged, const Autocalibration& found) {
-  const Result<CalibrationText> text = calibration_text(found);
-  if (!text) return fail(text.error());
-  if (const auto written = write_bytes(staged.calibration, calibration_xml(*text)); !written)
-    return fail(outputs.with_final_names(written.error()));
-  if (!staged.json.empty())
-    if (const auto written = write_bytes(staged.json, json_of(found)); !written)
-      return fail(outputs.with_final_names(written.error()));
-  if (!staged.plot.empty())
-    if (const auto drawn = write_png(staged.plot, autocalibration_plot(found)); !drawn)
-      return fail(outputs.with_final_names(drawn.error()));
-  return outputs.commit();
-}
-
-}  // namespace
 
 void add_autocalibration_options(CLI::App& command, CalibrateOptions& options) {
-  command.add_option("--log", options.log, "without a board: a log with the camera's rates; else the video's own")
-      ->option_text("FILE")
-      ->check(not_empty());
-  command
-      .add_option("--fov", options.fov_deg, "without a board: the horizontal field of view, where it is known; degrees")
-      ->option_text("DEG")
-      ->check(from_to(1, 300));
+  add_input(command, "--log", options.log, "without a board: a log with the camera's rates; else the video's own");
+  add_range(command, "--fov", options.fov_deg, "DEG", 1, 300,
+            "without a board: the horizontal field of view, where it is known; degrees");
   add_timing_options(command, options.timing);
-  command.add_option("--max-frames", options.max_frames, "without a board: look at no more frames than these")
-      ->option_text("N")
-      ->capture_default_str()
-      ->check(CLI::Range(2, 1000000));
+  add_number(command, "--max-frames", options.max_frames, "N", 2, 1000000,
+             "without a board: look at no more frames than these");
 }
 
 Result<void> autocalibrate(const CalibrateOptions& options) {
   defer_interrupts();
-  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  const Result<AutocalibrationOutputs> staged = begun(outputs, options);
-  if (!staged) return fail(staged.error());
+  OutputFiles files(options.force);
+  if (const Result<void> begun = begin(files, options); !begun) return begun;
   const Result<Autocalibration> found = found_in(options);
   if (!found) return fail(found.error());
   for (const Warning& warning : found->warnings) print_warning(warning);
-  if (const Result<void> written = write_all(outputs, *staged, *found); !written) return written;
-  for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
+  const Result<CalibrationText> text = calibration_text(*found);
+  if (!text) return fail(text.error());
+  const Result<void> written =
+      files.write_and_commit({{options.out, [&] { return calibration_xml(*text); }},
+                              {options.json, [&] { return json_of(*found); }},
+                              {options.plot, [&] { return png_bytes(autocalibration_plot(*found)); }}});
+  if (!written) return written;
+  print_written(files.final_paths());
   std::fprintf(stderr, "rough: %s\n", summary_of(*found).c_str());
   return {};
 }
-
-namespace {
 
 constexpr const char* kCalibrateFooter =
     "Examples:\n"
@@ -146,12 +114,8 @@ void add_board_options(CLI::App& command, CalibrateOptions& options) {
       ->check(CLI::IsMember({"chessboard", "charuco"}));
   command.add_option("--corners", options.corners, "inner corners in a row and in a column: one less than squares")
       ->option_text("9x6");
-  command.add_option("--square-m", options.square_m, "side of a square, metres")
-      ->option_text("M")
-      ->check(from_to(1e-5, 1e3));
-  command.add_option("--marker-m", options.marker_m, "charuco: side of a marker, metres")
-      ->option_text("M")
-      ->check(from_to(1e-5, 1e3));
+  add_range(command, "--square-m", options.square_m, "M", 1e-5, 1e3, "side of a square, metres");
+  add_range(command, "--marker-m", options.marker_m, "M", 1e-5, 1e3, "charuco: side of a marker, metres");
   command.add_option("--dictionary", options.dictionary, "charuco: the markers' dictionary, as DICT_4X4_50")
       ->option_text("NAME");
   command.add_option("--model", options.model, "the lens model; auto: the one with the smallest held-out error")
@@ -167,14 +131,9 @@ Command add_calibrate_command(CLI::App& program) {
   const auto options = std::make_shared<CalibrateOptions>();
   command->add_option("INPUT", options->inputs, "a video, or images of the same size")->required()->check(not_empty());
   add_board_options(*command, *options);
-  command->add_option("--out", options->out, "the calibration, as OpenCV XML")
-      ->option_text("FILE")
-      ->required()
-      ->check(output_path());
-  command->add_option("--plot", options->plot, "draw why; a PNG")->option_text("FILE")->check(output_path());
-  command->add_option("--json", options->json, "write all that was found as JSON")
-      ->option_text("FILE")
-      ->check(output_path());
+  add_output(*command, "--out", options->out, "the calibration, as OpenCV XML")->required();
+  add_output(*command, "--plot", options->plot, "draw why; a PNG");
+  add_output(*command, "--json", options->json, "write all that was found as JSON");
   add_autocalibration_options(*command, *options);
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);

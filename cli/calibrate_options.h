@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
+#include "cli/output_files.h"
 #include "video/image_sequence.h"
 
 namespace sigs::cli {
@@ -30,13 +30,13 @@ struct CalibrateOptions {
   int max_frames = 1800;          // without a board: that are looked at
   bool force = false;
   std::string progress = "auto";
+
+  [[nodiscard]] std::vector<CommandOutput> outputs() const {
+    return {{"--out", out}, {"--plot", plot}, {"--json", json}};
+  }
 };
 
 // With a board (calibrate_board.cpp).
 [[nodiscard]] Result<void> calibrate_with_board(const CalibrateOptions& options);
-
-// Without one, from the footage itself (calibrate_command.cpp), and the options that only this has.
-[[nodiscard]] Result<void> autocalibrate(const CalibrateOptions& options);
-void add_autocalibration_options(CLI::App& command, CalibrateOptions& options);
 
 }  // namespace sigs::cli

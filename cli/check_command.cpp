@@ -5,7 +5,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,10 +24,6 @@
 namespace sigs::cli {
 
 namespace {
-
-void print(const Error& error) {
-  std::printf("%s\n", error.text().c_str());
-}
 
 // Two lines an intruder. The condition is that of spline/trajectory.h.
 void print_intruders(const Project& project, const Scene& scene, const std::vector<Visibility>& visibilities) {
@@ -79,7 +74,7 @@ Result<void> check(const ProjectOptions& options) {
   const Result<Project> project = whole_project_of(options);
   if (!project) return fail(project.error());
   const std::vector<Problem> problems = validate(*project);
-  for (const Problem& problem : problems) print(error_of(*project, problem));
+  for (const Problem& problem : problems) std::printf("%s\n", error_of(*project, problem).text().c_str());
   if (!problems.empty())
     return fail(project->file.string(), count_text(problems.size(), "problem"), problems.front().kind);
   std::vector<bool> is_seen(project->intruders.size(), false);

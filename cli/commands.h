@@ -3,6 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "base/result.h"
 
@@ -35,10 +39,31 @@ using Command = std::function<Result<void>()>;
 [[nodiscard]] Command add_risk_command(CLI::App& program);             // sigs risk
 [[nodiscard]] Command add_telemetry_command(CLI::App& program);        // sigs telemetry
 
-// The same for the subcommands of sigs evaluate.
+// Adds the subcommands of a command that has to be given one, and returns what that one does.
+[[nodiscard]] Command add_below(CLI::App& command, std::initializer_list<Command (*)(CLI::App&)> below);
+
+// The subcommands of sigs evaluate.
 [[nodiscard]] Command add_evaluate_detect(CLI::App& evaluate);
 [[nodiscard]] Command add_evaluate_performance(CLI::App& evaluate);
 [[nodiscard]] Command add_evaluate_rig(CLI::App& evaluate);
 [[nodiscard]] Command add_evaluate_track(CLI::App& evaluate);
+
+// A subcommand of the program with what it does.
+struct AddedCommand {
+  CLI::App* app;
+  Command run;
+};
+
+// The program `sigs`: its options, subcommands and help, nothing run yet. Its descriptions are also the man pages' and
+// the completion's (cli/describe).
+struct Program {
+  std::unique_ptr<CLI::App> app;
+  std::vector<AddedCommand> commands;  // in the order of the help
+};
+
+[[nodiscard]] Program make_program();
+
+// The names of the subcommands, for messages: "export, frame and check".
+[[nodiscard]] std::string names_of(const std::vector<CLI::App*>& commands);
 
 }  // namespace sigs::cli

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <opencv2/imgproc.hpp>
@@ -18,7 +17,6 @@
 #include "cli/output_files.h"
 #include "cli/process.h"
 #include "comparison/inserted_target.h"
-#include "scene/opened_project.h"
 
 namespace sigs::cli {
 
@@ -232,14 +230,11 @@ Result<void> run(const CompareOptions& options) {
   if (!columns) return fail(columns.error());
   defer_interrupts();
   OutputFiles files(options.force);
-  if (!options.image.empty())
-    if (const Result<void> drawn = files.write(options.image, image_of(*columns)); !drawn) return drawn;
-  if (!options.csv.empty())
-    if (const Result<void> listed = files.write(options.csv, csv_of(*columns)); !listed) return listed;
-  const Result<std::vector<fs::path>> written = files.commit();
-  if (!written) return fail(written.error());
+  const Result<void> written = files.write_and_commit({{options.image, [&] { return png_bytes(image_of(*columns)); }},
+                                                       {options.csv, [&] { return csv_of(*columns); }}});
+  if (!written) return written;
   std::fputs(compare_table_of(*columns).c_str(), stdout);
-  print_written(*written);
+  print_written(files.final_paths());
   return {};
 }
 
@@ -256,10 +251,8 @@ Command add_compare_command(CLI::App& program) {
   command->add_option("--frame", options->frame, "which frame, from 0; with --boxes the middle one where left out")
       ->option_text("N")
       ->check(CLI::Range(0, 10'000'000));
-  command->add_option("--project", options->projects, "a project whose first intruder is put beside; may be repeated")
-      ->option_text("FILE")
-      ->allow_extra_args(false)
-      ->check(not_empty());
+  add_input(*command, "--project", options->projects, "a project whose first intruder is put beside; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--set", options->settings, "change a setting of the projects, KEY=VALUE; may be repeated")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false);

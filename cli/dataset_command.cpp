@@ -60,31 +60,27 @@ struct DatasetOptions {
 
 // Prints the table and writes the files; either all of these get their names or none.
 Result<void> report_coverage(const Coverage& coverage, const std::string& title, const DatasetOptions& options) {
-  const auto& [json, plot, fill, force] = options.files;
+  const std::filesystem::path &json = options.files.json, &plot = options.files.plot;
   if (const Result<void> named = check_outputs({{"--json", json}, {"--plot", plot}}, {}); !named) return named;
-  OutputFiles files(force);
-  if (!json.empty())
-    if (const Result<void> done = files.write(json, coverage_json(coverage, title)); !done) return done;
-  if (!plot.empty())
-    if (const Result<void> done = files.write(plot, coverage_plot(coverage, title)); !done) return done;
-  if (const Result<std::vector<std::filesystem::path>> done = files.commit(); !done) return fail(done.error());
+  OutputFiles files(options.files.force);
+  const Result<void> done = files.write_and_commit({{json, [&] { return coverage_json(coverage, title); }},
+                                                    {plot, [&] { return png_bytes(coverage_plot(coverage, title)); }}});
+  if (!done) return done;
   std::fputs(coverage_text(coverage, title).c_str(), stdout);
   return {};
 }
 
 // "2/3"
 Result<Shard> shard_of(const std::string& text) {
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const std::optional<int> part = parsed_number<int>(text.substr(0, slash));
-  const std::optional<int> parts = parsed_number<int>(text.substr(std::min(slash + 1, text.size())));
-  if (part && parts && *part >= 1 && *part <= *parts) return Shard{*part, *parts};
+  const std::optional<std::pair<int, int>> shard = fraction_of(text);
+  if (shard && shard->first >= 1 && shard->first <= shard->second) return Shard{shard->first, shard->second};
   return fail("--shard " + text, "expected I/N with I from 1 to N, as in 2/3", ErrorKind::usage);
 }
 
 // What several videos have in common is printed once.
 class ConsoleReporter {
  public:
-  explicit ConsoleReporter(ProgressStyle style) : style_(style), progress_(style) {}
+  explicit ConsoleReporter(const std::string& style) : style_(style), progress_(style) {}
 
   [[nodiscard]] DatasetControl control() {
     return {.progress =
@@ -117,7 +113,7 @@ class ConsoleReporter {
     part_ = part;
   }
 
-  ProgressStyle style_;
+  std::string style_;
   Progress progress_;
   std::string part_;
   std::set<std::string> printed_;
@@ -220,7 +216,7 @@ Result<void> list(const Recipe& recipe, const Plan& plan, const std::vector<cons
 }
 
 Result<void> print_report(const DatasetReport& report) {
-  for (const std::filesystem::path& path : report.written) std::printf("%s\n", path.c_str());
+  print_written(report.written);
   const double rate = report.frames / std::max(report.seconds, 1e-6);
   std::fprintf(stderr, "%s made, %d kept; %d frames in %s, %.1f frames/s\n",
                count_text(static_cast<std::size_t>(report.exported), "video").c_str(), report.kept, report.frames,
@@ -340,7 +336,7 @@ Result<void> run(const DatasetOptions& options) {
   request.folder = options.folder.empty() ? std::filesystem::path(plan->name) : options.folder;
   defer_interrupts();
   tune_allocator();
-  ConsoleReporter reporter(progress_style(options.progress));
+  ConsoleReporter reporter(options.progress);
   const Result<DatasetReport> report = make_dataset(*plan, request, reporter.control());
   reporter.end();
   if (!report) return fail(report.error());

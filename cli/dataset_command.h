@@ -9,7 +9,6 @@
 #include "base/result.h"
 #include "dataset/dataset_lock.h"
 #include "dataset/domain_coverage.h"
-#include "dataset/footage_cache.h"
 #include "dataset/plan.h"
 #include "dataset/recipe.h"
 

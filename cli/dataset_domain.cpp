@@ -5,7 +5,6 @@
 
 #include <cstdio>
 
-#include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "cli/options.h"
@@ -67,20 +66,20 @@ Result<void> report_domain(const DomainCoverage& coverage, const std::string& ti
       !named)
     return named;
   OutputFiles outputs(files.force);
-  if (!files.json.empty())
-    if (const Result<void> done = outputs.write(files.json, domain_json(coverage, title)); !done) return done;
-  if (!files.plot.empty())
-    if (const Result<void> done = outputs.write(files.plot, domain_plot(coverage, title)); !done) return done;
   std::string filled;
-  if (!files.fill.empty() && recipe != nullptr) {
-    if (const Result<void> reserved = outputs.reserve(files.fill); !reserved) return reserved;
-    const Result<DomainFill> fill = filled_recipe(*recipe, coverage, settings, files.fill, &interrupt_flag());
-    if (!fill) return fail(fill.error());
-    if (const Result<void> done = outputs.write(files.fill, fill->recipe); !done) return done;
-    filled = fmt::format("{}: {} added\n", files.fill.string(), count_text(fill->videos, "video"));
-    for (const std::string& line : fill->unfilled) filled += "not filled: " + line + "\n";
-  }
-  if (const Result<std::vector<std::filesystem::path>> done = outputs.commit(); !done) return fail(done.error());
+  const auto fill = [&]() -> Result<std::string> {
+    if (const Result<void> reserved = outputs.reserve(files.fill); !reserved) return fail(reserved.error());
+    Result<DomainFill> made = filled_recipe(*recipe, coverage, settings, files.fill, &interrupt_flag());
+    if (!made) return fail(made.error());
+    filled = fmt::format("{}: {} added\n", files.fill.string(), count_text(made->videos, "video"));
+    for (const std::string& line : made->unfilled) filled += "not filled: " + line + "\n";
+    return std::move(made->recipe);
+  };
+  const Result<void> done =
+      outputs.write_and_commit({{files.json, [&] { return domain_json(coverage, title); }},
+                                {files.plot, [&] { return png_bytes(domain_plot(coverage, title)); }},
+                                {recipe != nullptr ? files.fill : std::filesystem::path(), fill}});
+  if (!done) return done;
   std::fputs(domain_text(coverage, title).c_str(), stdout);
   warn_of_untold(coverage);
   std::fputs(filled.c_str(), stderr);
@@ -95,12 +94,10 @@ Result<void> write_data_sheet(const std::filesystem::path& dataset, const std::f
   const Result<Json> sheet =
       data_sheet_of(dataset, recipe.empty() ? GuessesByBackground{} : guesses_of(recipe), &interrupt_flag());
   if (!sheet) return fail(sheet.error());
-  Result<void> step = outputs.write(text, data_sheet_text(*sheet));
-  if (step) step = outputs.write(json, json_text(*sheet));
-  if (!step) return step;
-  const Result<std::vector<std::filesystem::path>> written = outputs.commit();
-  if (!written) return fail(written.error());
-  print_written(*written);
+  const Result<void> written = outputs.write_and_commit(
+      {{text, [&] { return data_sheet_text(*sheet); }}, {json, [&] { return json_text(*sheet); }}});
+  if (!written) return written;
+  print_written(outputs.final_paths());
   return {};
 }
 

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <set>
 
 #include "base/text.h"
-#include "dataset/run.h"
 #include "scene/opened_project.h"
 #include "video/frame_source.h"
 
@@ -20,30 +20,10 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-// Bytes a pixel of the sample footage with mask video and XML (crossing, 1280x960; h264: of 1LRB737). Other footage may
-// take half or twice as much.
-double bytes_a_pixel(const ExportSettings& output) {
-  switch (output.codec) {
-    case VideoCodec::ffv1:
-      return 0.38;
-    case VideoCodec::h264:
-    case VideoCodec::source:
-      return 0.017;
-    case VideoCodec::hevc:
-    case VideoCodec::av1:
-      return 0.012;
-    case VideoCodec::mjpeg:
-      return 0.13;
-    case VideoCodec::png:
-    case VideoCodec::tiff:
-      return 1.2;
-    case VideoCodec::jpeg:
-      return 0.15;
-    case VideoCodec::raw:
-      return 1.5;
-  }
-  return 1;
-}
+// Bytes a pixel of the sample footage with mask video and XML (crossing, 1280x960; h264 and source: of 1LRB737), in the
+// order of VideoCodec. Other footage may take half or twice as much.
+constexpr std::array kBytesAPixel{0.38, 0.017, 0.012, 0.012, 0.13, 1.2, 1.2, 0.15, 1.5, 0.017};
+static_assert(kBytesAPixel.size() == static_cast<std::size_t>(VideoCodec::source) + 1);
 
 std::string size_text(double bytes) {
   const char* const units[] = {"kB", "MB", "GB", "TB"};
@@ -104,21 +84,6 @@ std::string rounded_text(double value) {
   const double rounded = step < 1 ? std::round(value / step) * step : std::round(value);
   return short_number_text(rounded);
 }
-
-// Sizes of images, each footage opened once.
-class Footages {
- public:
-  Result<VideoInfo> info_of(const Project& project) {
-    const std::string path = resolved(project, project.footage.video).string();
-    if (const auto known = infos_.find(path); known != infos_.end()) return known->second;
-    const Result<FrameSource> source = open_footage(project);
-    if (!source) return fail(source.error());
-    return infos_[path] = source->info();
-  }
-
- private:
-  std::map<std::string, VideoInfo> infos_;
-};
 
 std::string or_dash(const std::map<std::string, std::string>& tags, const char* key) {
   const auto found = tags.find(key);
@@ -218,17 +183,23 @@ std::string resamples_line(const std::vector<const PlannedVideo*>& videos) {
 Result<std::string> table_of(const std::vector<const PlannedVideo*>& videos,
                              const std::vector<std::optional<Visibility>>& visibilities) {
   Measured all{.videos = videos, .visibilities = visibilities, .frames = {}};
-  Footages footages;
+  std::map<std::string, VideoInfo> footages;  // by file: each is opened once
   long long frames = 0;
   double bytes = 0;
   for (const PlannedVideo* const video : videos) {
-    const Result<VideoInfo> footage = footages.info_of(video->project);
-    if (!footage) return fail(video->name, footage.error().text(), footage.error().kind);
-    const Result<int> count = frames_of(video->project, shape_of(*footage));
+    const std::string file = resolved(video->project, video->project.footage.video).string();
+    if (!footages.contains(file)) {
+      const Result<FrameSource> source = open_footage(video->project);
+      if (!source) return fail(video->name, source.error().text(), source.error().kind);
+      footages.emplace(file, source->info());
+    }
+    const VideoInfo& footage = footages.at(file);
+    const Result<int> count = frames_of(video->project, shape_of(footage));
     if (!count) return fail(video->name, count.error().text(), count.error().kind);
     all.frames.push_back(*count);
     frames += *count;
-    bytes += double(footage->size_px.area()) * *count * bytes_a_pixel(video->project.output);
+    bytes +=
+        double(footage.size_px.area()) * *count * kBytesAPixel[static_cast<std::size_t>(video->project.output.codec)];
   }
   std::string text;
   for (const Block& block : blocks_of(videos)) text += table_text(columns_of(block, all));

@@ -12,6 +12,7 @@
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "cli/evaluation_folder.h"
 #include "cli/options.h"
 #include "cli/process.h"
 
@@ -43,32 +44,6 @@ Result<void> add_video(const fs::path& index, const nlohmann::json& video, const
     if (tags.is_object() && value.is_string()) clips.back().tags[key] = value;
   return {};
 }
-
-}  // namespace
-
-Result<std::vector<ClipFiles>> clips_of_dataset(const fs::path& folder, const std::string& split) {
-  const fs::path index = folder / "index.json";
-  if (std::error_code code; !fs::exists(index, code))
-    return fail(
-        index.string(),
-        "no such file; a dataset has it when it is whole: sigs dataset RECIPE --out DIR with --resume makes what "
-        "is missing, with --merge the index of what shards made",
-        ErrorKind::cannot_read);
-  const Result<std::string> text = read_text(index);
-  if (!text) return fail(text.error());
-  if (json_depth(*text) > kMaxNesting) return fail(index.string(), "is no index of a dataset");
-  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("sigs_dataset_index") || !json.contains("videos") ||
-      !json["videos"].is_array())
-    return fail(index.string(), "is no index of a dataset");
-  std::vector<ClipFiles> clips;
-  for (const nlohmann::json& video : json["videos"])
-    if (const Result<void> added = add_video(index, video, split, clips); !added) return fail(added.error());
-  if (clips.empty()) return fail(index.string(), split.empty() ? "names no video" : "has no video of split " + split);
-  return clips;
-}
-
-namespace {
 
 Result<void> check_labels(const fs::path& labels, const std::vector<ClipFiles>& before) {
   for (const ClipFiles& clip : before)
@@ -135,32 +110,6 @@ std::string endings_in(const Paths& there) {
   return endings.size() == 1 ? *endings.begin() : ".csv, .json or .txt";
 }
 
-}  // namespace
-
-Result<fs::path> results_in(const fs::path& folder, const std::string& name) {
-  const Result<Paths> there = folder_contents(folder);
-  if (!there) return fail(there.error());
-  Paths found;
-  for (const fs::path& path : *there)
-    if (std::error_code code; path.stem() == name && fs::is_regular_file(path, code)) found.push_back(path);
-  if (found.empty())
-    return fail((folder / name).string() + endings_in(*there),
-                "no results for this clip; where nothing was detected, they are a file without boxes",
-                ErrorKind::cannot_read);
-  if (found.size() > 1)
-    return fail(folder.string(),
-                fmt::format("has both {} and {}", found[0].filename().string(), found[1].filename().string()));
-  return found.front();
-}
-
-std::string name_of_folder(const fs::path& folder) {
-  const fs::path plain = folder.lexically_normal();
-  const fs::path name = plain.has_filename() ? plain.filename() : plain.parent_path().filename();
-  return name.empty() || name == "." || name == ".." ? "detector" : name.string();
-}
-
-namespace {
-
 Result<DetectInputs> by_folders(std::vector<ClipFiles> clips, const Paths& folders) {
   DetectInputs inputs{.clips = std::move(clips)};
   for (const fs::path& folder : folders) {
@@ -175,6 +124,10 @@ Result<DetectInputs> by_folders(std::vector<ClipFiles> clips, const Paths& folde
     }
   }
   return inputs;
+}
+
+void name_by(const Paths& files, DetectInputs& inputs) {
+  for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
 }
 
 // Each detector's file covers all clips: its image_id are those of the labels of all videos of the split together.
@@ -194,14 +147,14 @@ Result<DetectInputs> by_shared_files(std::vector<ClipFiles> clips, const Paths& 
     images += clip.frames;
   }
   for (ClipFiles& clip : inputs.clips) clip.last_image_id = images;
-  for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+  name_by(files, inputs);
   return inputs;
 }
 
 Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) {
   DetectInputs inputs{.clips = std::move(clips)};
   if (inputs.clips.size() == 1) {
-    for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+    name_by(files, inputs);
     inputs.clips.front().results = files;
     return inputs;
   }
@@ -211,7 +164,7 @@ Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) 
   if (files.size() != inputs.clips.size() && is_one_truth && is_json) {
     inputs.is_shared = true;
     for (ClipFiles& clip : inputs.clips) clip.results = files;
-    for (const fs::path& file : files) inputs.detectors.push_back(free_name(file.stem().string(), inputs.detectors));
+    name_by(files, inputs);
     return inputs;
   }
   if (files.size() != inputs.clips.size() && inputs.clips.front().frames > 0 && is_json)
@@ -226,37 +179,6 @@ Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) 
   for (std::size_t i = 0; i < files.size(); ++i) inputs.clips[i].results = {files[i]};
   return inputs;
 }
-
-}  // namespace
-
-void warn_of_other_clip(const Results& results, const fs::path& file, const std::string& clip) {
-  if (!results.clip.empty() && results.clip != clip)
-    print_warning({file.string(),
-                   fmt::format("its img_name is of {}, the clip is {}: are these its results?", results.clip, clip)});
-}
-
-std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
-  std::string free = name;
-  for (int n = 2; std::find(taken.begin(), taken.end(), free) != taken.end(); ++n)
-    free = fmt::format("{} ({})", name, n);
-  return free;
-}
-
-Result<DetectInputs> detect_inputs(const Paths& inputs, const Paths& results, const std::string& split,
-                                   const TruthOptions& options) {
-  for (const Paths* const paths : {&inputs, &results})
-    for (const fs::path& path : *paths)
-      if (std::error_code code; !fs::exists(path, code))
-        return fail(path.string(), "no such file or folder", ErrorKind::cannot_read);
-  Result<std::vector<ClipFiles>> clips = clips_of(inputs, split, options);
-  if (!clips) return fail(clips.error());
-  const auto folders = std::count_if(results.begin(), results.end(), is_folder);
-  if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*clips), results);
-  if (folders > 0) return fail("--results", "are folders and files; name either", ErrorKind::usage);
-  return by_files(std::move(*clips), results);
-}
-
-namespace {
 
 // The results of one detector on one clip.
 Result<Results> results_of(const ClipFiles& files, const fs::path& file, const FootageTruth& footage,
@@ -297,6 +219,82 @@ Result<std::vector<std::vector<DetectedClip>>> shared_clips(const DetectInputs& 
 
 }  // namespace
 
+Result<std::vector<ClipFiles>> clips_of_dataset(const fs::path& folder, const std::string& split) {
+  const fs::path index = folder / "index.json";
+  if (std::error_code code; !fs::exists(index, code))
+    return fail(
+        index.string(),
+        "no such file; a dataset has it when it is whole: sigs dataset RECIPE --out DIR with --resume makes what "
+        "is missing, with --merge the index of what shards made",
+        ErrorKind::cannot_read);
+  const Result<std::string> text = read_text(index);
+  if (!text) return fail(text.error());
+  if (json_depth(*text) > kMaxNesting) return fail(index.string(), "is no index of a dataset");
+  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("sigs_dataset_index") || !json.contains("videos") ||
+      !json["videos"].is_array())
+    return fail(index.string(), "is no index of a dataset");
+  std::vector<ClipFiles> clips;
+  for (const nlohmann::json& video : json["videos"])
+    if (const Result<void> added = add_video(index, video, split, clips); !added) return fail(added.error());
+  if (clips.empty()) return fail(index.string(), split.empty() ? "names no video" : "has no video of split " + split);
+  return clips;
+}
+
+Result<fs::path> results_in(const fs::path& folder, const std::string& name) {
+  const Result<Paths> there = folder_contents(folder);
+  if (!there) return fail(there.error());
+  Paths found;
+  for (const fs::path& path : *there)
+    if (std::error_code code; path.stem() == name && fs::is_regular_file(path, code)) found.push_back(path);
+  if (found.empty())
+    return fail((folder / name).string() + endings_in(*there),
+                "no results for this clip; where nothing was detected, they are a file without boxes",
+                ErrorKind::cannot_read);
+  if (found.size() > 1)
+    return fail(folder.string(),
+                fmt::format("has both {} and {}", found[0].filename().string(), found[1].filename().string()));
+  return found.front();
+}
+
+std::string name_of_folder(const fs::path& folder) {
+  const fs::path plain = folder.lexically_normal();
+  const fs::path name = plain.has_filename() ? plain.filename() : plain.parent_path().filename();
+  return name.empty() || name == "." || name == ".." ? "detector" : name.string();
+}
+
+void warn_of_other_clip(const Results& results, const fs::path& file, const std::string& clip) {
+  if (!results.clip.empty() && results.clip != clip)
+    print_warning({file.string(),
+                   fmt::format("its img_name is of {}, the clip is {}: are these its results?", results.clip, clip)});
+}
+
+std::string free_name(const std::string& name, const std::vector<std::string>& taken) {
+  std::string free = name;
+  for (int n = 2; std::ranges::find(taken, free) != taken.end(); ++n) free = fmt::format("{} ({})", name, n);
+  return free;
+}
+
+Result<DetectInputs> detect_inputs(const DetectSources& sources) {
+  const Paths& results = sources.results;
+  TruthOptions truth = sources.truth;
+  if (!sources.size.empty()) {
+    const Result<cv::Size> size_px = size_of_option(sources.size);
+    if (!size_px) return fail(size_px.error());
+    truth.size_px = *size_px;
+  }
+  for (const Paths* const paths : {&sources.inputs, &results})
+    for (const fs::path& path : *paths)
+      if (std::error_code code; !fs::exists(path, code))
+        return fail(path.string(), "no such file or folder", ErrorKind::cannot_read);
+  Result<std::vector<ClipFiles>> clips = clips_of(sources.inputs, sources.split, truth);
+  if (!clips) return fail(clips.error());
+  const auto folders = std::count_if(results.begin(), results.end(), is_folder);
+  if (folders == static_cast<std::ptrdiff_t>(results.size())) return by_folders(std::move(*clips), results);
+  if (folders > 0) return fail("--results", "are folders and files; name either", ErrorKind::usage);
+  return by_files(std::move(*clips), results);
+}
+
 Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInputs& inputs, ResultsFormat format) {
   if (inputs.is_shared) return shared_clips(inputs, format);
   std::vector<std::vector<DetectedClip>> clips(inputs.detectors.size());
@@ -314,17 +312,9 @@ Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInp
   return clips;
 }
 
-Result<TruthOptions> with_size(TruthOptions truth, const std::string& size) {
-  if (size.empty()) return truth;
-  const Result<cv::Size> size_px = size_of_option(size);
-  if (!size_px) return fail(size_px.error());
-  truth.size_px = *size_px;
-  return truth;
-}
-
-std::vector<fs::path> files_read(const Paths& inputs, const Paths& results, const DetectInputs& clips) {
-  std::vector<fs::path> read = inputs;
-  read.insert(read.end(), results.begin(), results.end());
+std::vector<fs::path> files_read(const DetectSources& sources, const DetectInputs& clips) {
+  std::vector<fs::path> read = sources.inputs;
+  read.insert(read.end(), sources.results.begin(), sources.results.end());
   for (const ClipFiles& clip : clips.clips) {
     read.push_back(clip.labels);
     read.insert(read.end(), clip.results.begin(), clip.results.end());
@@ -332,8 +322,13 @@ std::vector<fs::path> files_read(const Paths& inputs, const Paths& results, cons
   return read;
 }
 
-void add_truth_options(CLI::App& command, TruthOptions& truth, std::string& size) {
-  command.add_option("--size", size, "size of the images of a yolo truth; else read from the images")
+void add_source_options(CLI::App& command, DetectSources& sources, const SourceHelp& help) {
+  command.add_option("LABELS", sources.inputs, help.labels)->required()->check(not_empty());
+  add_input(command, "--results", sources.results, help.results, help.results_value)->required();
+  command.add_option("--split", sources.split, "only the clips of this split of a dataset")->option_text("NAME");
+  add_format_option(command, sources.format);
+  TruthOptions& truth = sources.truth;
+  command.add_option("--size", sources.size, "size of the images of a yolo truth; else read from the images")
       ->option_text("WxH");
   command.add_option("--rate", truth.rate_hz, "frames a second of another program's truth; else as it says")
       ->type_name("HZ")

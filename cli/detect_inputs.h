@@ -35,31 +35,42 @@ struct DetectInputs {
   std::vector<ClipFiles> clips;
 };
 
-// Which results go with which labels.
+// Where labels and results come from, as the command line names them.
 //   inputs   label files, truths of other programs (evaluation/readers/truth_files.h), or one folder of a dataset
 //   results  a folder for each detector, in which NAME.csv or the like tells of the clip NAME; or, for label files, one
 //            file for each in the same order; or, for one label file, a file for each detector; or, for one split of a
 //            dataset, a file in COCO's layout for each detector, with the image_id of the split's coco labels; or, for
 //            one truth of another program, a file for each detector that names images as the truth does
 //   split    only these clips of a dataset; empty: all
-// Errors name what is missing or left over.
-[[nodiscard]] Result<DetectInputs> detect_inputs(const std::vector<std::filesystem::path>& inputs,
-                                                 const std::vector<std::filesystem::path>& results,
-                                                 const std::string& split, const TruthOptions& options);
+//   size     of --size: of the truth's images; empty: not given
+struct DetectSources {
+  std::vector<std::filesystem::path> inputs;
+  std::vector<std::filesystem::path> results;
+  std::string split = {};
+  ResultsFormat format = ResultsFormat::automatic;
+  TruthOptions truth = {};
+  std::string size = {};
+};
+
+// Which results go with which labels. Errors name what is missing or left over.
+[[nodiscard]] Result<DetectInputs> detect_inputs(const DetectSources& sources);
 
 // Everything that is read: truths once, then the results of each detector on each clip.
 [[nodiscard]] Result<std::vector<std::vector<DetectedClip>>> clips_by_detector(const DetectInputs& inputs,
                                                                                ResultsFormat format);
 
-// --size, --rate, --classes and --stills; with_size() takes what --size says. What is added to must outlive the
-// command.
-void add_truth_options(CLI::App& command, TruthOptions& truth, std::string& size);
-[[nodiscard]] Result<TruthOptions> with_size(TruthOptions truth, const std::string& size);
+// Help of the options that differ from command to command.
+struct SourceHelp {
+  const char* labels;
+  const char* results;
+  const char* results_value;
+};
+
+// LABELS, --results, --split, --format, --size, --rate, --classes and --stills. The sources must outlive the command.
+void add_source_options(CLI::App& command, DetectSources& sources, const SourceHelp& help);
 
 // All files that an evaluation reads, which its outputs may not replace.
-[[nodiscard]] std::vector<std::filesystem::path> files_read(const std::vector<std::filesystem::path>& inputs,
-                                                            const std::vector<std::filesystem::path>& results,
-                                                            const DetectInputs& clips);
+[[nodiscard]] std::vector<std::filesystem::path> files_read(const DetectSources& sources, const DetectInputs& clips);
 
 // The index of a dataset: its clips, or those of one split; no results.
 [[nodiscard]] Result<std::vector<ClipFiles>> clips_of_dataset(const std::filesystem::path& folder,

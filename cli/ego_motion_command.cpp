@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "base/image_file.h"
-#include "base/paths.h"
 #include "base/pose.h"
-#include "base/staged_outputs.h"
 #include "base/text.h"
 #include "camera/camera.h"
 #include "cli/commands.h"
@@ -18,7 +16,6 @@
 #include "cli/process.h"
 #include "ego_motion/ego_motion.h"
 #include "ego_motion/project_motion.h"
-#include "project/json.h"
 #include "scene/opened_project.h"
 #include "telemetry/read_track.h"
 #include "telemetry/track_csv.h"
@@ -49,6 +46,8 @@ struct EgoMotionOptions {
   std::optional<double> readout_ms;
   bool force = false;
   std::string progress = "auto";
+
+  [[nodiscard]] std::vector<CommandOutput> outputs() const { return {{"--out", csv}, {"--plot", plot}}; }
 };
 
 // With a project it names footage, calibration and the rest; without one they are asked for.
@@ -70,29 +69,6 @@ Result<void> check_inputs(const EgoMotionOptions& options) {
   return {};
 }
 
-Result<void> check_names(const EgoMotionOptions& options) {
-  if (!options.plot.empty() && lower_extension(options.plot) != ".png")
-    return fail("--plot " + options.plot.string(), "is written as PNG; end its name in .png", ErrorKind::usage);
-  if (!options.plot.empty() && canonical_name(options.csv) == canonical_name(options.plot))
-    return fail("--plot " + options.plot.string(), "is where --out goes", ErrorKind::usage);
-  std::vector<fs::path> inputs;
-  for (const fs::path& one :
-       {options.video, options.calibration, options.mask, options.telemetry, options.timing.times_file, options.into})
-    if (!one.empty()) inputs.push_back(one);
-  for (const auto& [option, path] : {std::pair("--out ", options.csv), std::pair("--plot ", options.plot)}) {
-    if (path.empty()) continue;
-    if (const Result<void> kept = check_inputs_not_overwritten(std::vector{path}, inputs); !kept)
-      return fail(option + path.string(), kept.error().what, ErrorKind::cannot_create);
-  }
-  return {};
-}
-
-// Empty where no mask is asked for.
-Result<cv::Mat> mask_of(const fs::path& path) {
-  if (path.empty()) return cv::Mat();
-  return read_image_file(path, cv::IMREAD_GRAYSCALE);
-}
-
 // What is found, and the same with what the log of the flight knows besides.
 struct Estimated {
   EgoMotion motion;
@@ -107,7 +83,8 @@ Result<Estimated> estimated(const EgoMotionOptions& options, const EgoMotionCont
   const Result<Camera> camera = read_calibration(options.calibration, footage->info().size_px);
   if (!camera) return fail(camera.error());
   for (const Warning& warning : camera->warnings) print_warning(warning);
-  const Result<cv::Mat> mask = mask_of(options.mask);
+  const Result<cv::Mat> mask = options.mask.empty() ? Result<cv::Mat>(cv::Mat())  // none is asked for
+                                                    : read_image_file(options.mask, cv::IMREAD_GRAYSCALE);
   if (!mask) return fail(mask.error());
   std::optional<Track> log;
   if (!options.telemetry.empty()) {
@@ -127,15 +104,6 @@ Result<Estimated> estimated(const EgoMotionOptions& options, const EgoMotionCont
   if (log) add_log(track, *log, *motion);
   if (options.readout_ms) track.readout_s = *options.readout_ms / 1000;
   return Estimated{*std::move(motion), std::move(track)};
-}
-
-Result<void> write(StagedOutputs& outputs, const fs::path& csv, const fs::path& plot, const Estimated& found) {
-  if (const Result<void> listed = write_bytes(csv, track_csv_text(found.track)); !listed)
-    return fail(outputs.with_final_names(listed.error()));
-  if (!plot.empty())
-    if (const Result<void> drawn = write_png(plot, attitude_plot(found.motion)); !drawn)
-      return fail(outputs.with_final_names(drawn.error()));
-  return outputs.commit();
 }
 
 void print_summary(const EgoMotion& motion) {
@@ -166,13 +134,6 @@ void print_summary(const EgoMotion& motion) {
         fixed_text(motion.gyro->slope, 3).c_str(), motion.gyro->is_fused ? "" : "; not used");
 }
 
-// As the project names it: relative to its folder, so that both can be moved together.
-std::string path_beside(const fs::path& file, const fs::path& project) {
-  const fs::path relative =
-      canonical_name(file).lexically_relative(canonical_path(fs::absolute(project).parent_path()));
-  return relative.empty() ? canonical_name(file).string() : relative.generic_string();
-}
-
 // What a project is estimated from, and becomes.
 Result<Estimated> estimated_for(Project& project, const EgoMotionOptions& options, const EgoMotionControl& control) {
   Result<ProjectMotion> found = estimated_project_motion(project, control, options.max_unknown_percent / 100);
@@ -192,25 +153,21 @@ Result<void> estimate_and_write(const EgoMotionOptions& options) {
     project = *std::move(read);
   }
   defer_interrupts();
-  StagedOutputs outputs(options.force ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  const Result<fs::path> csv = outputs.add_file(options.csv);
-  if (!csv) return fail(csv.error());
-  fs::path plot;
-  if (!options.plot.empty()) {
-    const Result<fs::path> added = outputs.add_file(options.plot);
-    if (!added) return fail(added.error());
-    plot = *added;
-  }
-  Progress progress(progress_style(options.progress));
+  OutputFiles files(options.force);
+  if (const Result<void> free = files.reserve(options.outputs()); !free) return free;
+  Progress progress(options.progress);
   const EgoMotionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                  .cancel = &interrupt_flag()};
   const Result<Estimated> found = project ? estimated_for(*project, options, control) : estimated(options, control);
   progress.end();
   if (!found) return fail(found.error());
-  if (const Result<void> written = write(outputs, *csv, plot, *found); !written) return written;
+  const Result<void> written =
+      files.write_and_commit({{options.csv, [&] { return track_csv_text(found->track); }},
+                              {options.plot, [&] { return png_bytes(attitude_plot(found->motion)); }}});
+  if (!written) return written;
   if (project)
     if (const Result<void> saved = rewrite_project(*project, options.into); !saved) return saved;
-  for (const fs::path& path : outputs.final_paths()) std::printf("%s\n", path.c_str());
+  print_written(files.final_paths());
   if (project) std::printf("%s\n", options.into.c_str());
   print_summary(found->motion);
   return {};
@@ -219,7 +176,11 @@ Result<void> estimate_and_write(const EgoMotionOptions& options) {
 Result<void> run(EgoMotionOptions options) {
   if (const Result<void> given = check_inputs(options); !given) return given;
   if (options.csv.empty()) options.csv = options.into.parent_path() / (options.into.stem().string() + ".attitude.csv");
-  if (const Result<void> named = check_names(options); !named) return named;
+  if (const Result<void> named =
+          check_outputs(options.outputs(), {options.video, options.calibration, options.mask, options.telemetry,
+                                            options.timing.times_file, options.into});
+      !named)
+    return named;
   return estimate_and_write(options);
 }
 
@@ -228,33 +189,19 @@ Result<void> run(EgoMotionOptions options) {
 Command add_ego_motion_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("ego-motion", "estimate the camera's attitude from its footage");
   const auto options = std::make_shared<EgoMotionOptions>();
-  const auto add_input = [command](const char* name, fs::path& path, const char* help) {
-    return command->add_option(name, path, help)->option_text("FILE")->check(not_empty());
-  };
   command->add_option("VIDEO", options->video, "the footage; with --into the project names it")->check(not_empty());
-  add_input("--calibration", options->calibration, "the camera's calibration");
-  add_input("--mask", options->mask, "the own body's mask: 8-bit grey, white where the own body is");
-  add_input("--telemetry", options->telemetry, "a log with the camera's rates, or the video that has it");
+  add_input(*command, "--calibration", options->calibration, "the camera's calibration");
+  add_input(*command, "--mask", options->mask, "the own body's mask: 8-bit grey, white where the own body is");
+  add_input(*command, "--telemetry", options->telemetry, "a log with the camera's rates, or the video that has it");
   add_timing_options(*command, options->timing);
-  command->add_option("--readout-ms", options->readout_ms, "rolling shutter, first row to last; milliseconds")
-      ->option_text("MS")
-      ->check(from_to(0, 1000));
-  command
-      ->add_option("--into", options->into,
-                   "estimate from what this project names, and make it follow the attitudes (camera.track)")
-      ->option_text("PROJECT")
-      ->check(not_empty());
-  command
-      ->add_option("--max-unknown", options->max_unknown_percent,
-                   "fail if the rotation since frame 0 is not known in more of the frames, percent (50)")
-      ->option_text("PERCENT")
-      ->check(from_to(0, 100));
-  command->add_option("--out", options->csv, "the attitudes, as CSV; with --into beside the project by default")
-      ->option_text("FILE")
-      ->check(output_path());
-  command->add_option("--plot", options->plot, "draw roll, pitch and yaw with their deviations; a PNG")
-      ->option_text("FILE")
-      ->check(output_path());
+  add_range(*command, "--readout-ms", options->readout_ms, "MS", 0, 1000,
+            "rolling shutter, first row to last; milliseconds");
+  add_input(*command, "--into", options->into,
+            "estimate from what this project names, and make it follow the attitudes (camera.track)", "PROJECT");
+  add_range(*command, "--max-unknown", options->max_unknown_percent, "PERCENT", 0, 100,
+            "fail if the rotation since frame 0 is not known in more of the frames, percent (50)");
+  add_output(*command, "--out", options->csv, "the attitudes, as CSV; with --into beside the project by default");
+  add_output(*command, "--plot", options->plot, "draw roll, pitch and yaw with their deviations; a PNG");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);
   command->footer(kEgoMotionFooter);

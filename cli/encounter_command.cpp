@@ -66,17 +66,13 @@ struct Flights {
   std::vector<double> steps_s;
 };
 
-// --- Options.
-
 // Those named, each once, and then the user's own. Error usage.
 Result<std::vector<WellClearVolume>> volumes_of(const EncounterOptions& options) {
   std::vector<WellClearVolume> volumes;
   for (const std::string& name : options.volumes) {
     const Result<WellClearVolume> volume = well_clear_volume(name);
     if (!volume) return fail("--volume " + line_text(name), volume.error().what, ErrorKind::usage);
-    const bool is_there = std::any_of(volumes.begin(), volumes.end(),
-                                      [&](const WellClearVolume& other) { return other.name == volume->name; });
-    if (!is_there) volumes.push_back(*volume);
+    if (std::ranges::find(volumes, volume->name, &WellClearVolume::name) == volumes.end()) volumes.push_back(*volume);
   }
   if (options.has_own_volume()) {
     WellClearVolume own = volumes.empty() ? well_clear_volumes().front() : volumes.front();
@@ -93,8 +89,6 @@ Result<std::vector<WellClearVolume>> volumes_of(const EncounterOptions& options)
   if (volumes.empty()) volumes.assign(well_clear_volumes().begin(), well_clear_volumes().end());
   return volumes;
 }
-
-// --- Flights.
 
 SampledTrack sampled(const EncounterTrack& track, const std::vector<double>& times_s) {
   SampledTrack samples{.name = track.name, .has_velocities = true};
@@ -152,32 +146,15 @@ Result<Flights> chosen(Flights flights, const EncounterOptions& options) {
               ErrorKind::usage);
 }
 
-// --- Outputs.
-
-Result<cv::Mat> plot_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
+Result<std::string> plot_of(const std::vector<EncounterSummary>& encounters, const EncounterOptions& options) {
   if (encounters.size() > kMaxPlotted)
     return fail("--plot " + options.plot.string(),
                 fmt::format("draws at most {} encounters, there are {}; choose one with --intruder", kMaxPlotted,
                             encounters.size()),
                 ErrorKind::usage);
-  cv::Mat image = encounter_plot(encounters);
+  const cv::Mat image = encounter_plot(encounters);
   if (image.empty()) return fail(options.file.string(), "has no step in the time that both fly, to be drawn");
-  return image;
-}
-
-Result<void> write(OutputFiles& files, const std::vector<EncounterSummary>& encounters, const Flights& flights,
-                   const EncounterOptions& options) {
-  Result<void> step;
-  if (!options.json.empty())
-    step = files.write(options.json, encounter_json_text(encounters, options.file.filename().string()));
-  if (step && !options.daa.empty()) step = files.write(options.daa, daa_text(flights.samples));
-  if (step && !options.plot.empty()) {
-    const Result<cv::Mat> image = plot_of(encounters, options);
-    step = image ? files.write(options.plot, *image) : fail(image.error());
-  }
-  if (!step) return step;
-  const Result<std::vector<fs::path>> written = files.commit();
-  return written ? Result<void>() : fail(written.error());
+  return png_bytes(image);
 }
 
 Result<void> encounter(const EncounterOptions& options) {
@@ -199,14 +176,14 @@ Result<void> encounter(const EncounterOptions& options) {
     if (!summary) return fail(options.file.string() + ": " + line_text(summary.error().where), summary.error().what);
     encounters.push_back(*std::move(summary));
   }
-  if (const Result<void> written = write(files, encounters, *flights, options); !written) return written;
+  const Result<void> written = files.write_and_commit(
+      {{options.json, [&] { return encounter_json_text(encounters, options.file.filename().string()); }},
+       {options.daa, [&] { return daa_text(flights->samples); }},
+       {options.plot, [&] { return plot_of(encounters, options); }}});
+  if (!written) return written;
   for (const EncounterSummary& summary : encounters)
     std::printf("%s%s", &summary == encounters.data() ? "" : "\n", encounter_report_text(summary).c_str());
   return {};
-}
-
-void add_limit(CLI::App& command, const char* name, const char* unit, const char* help, std::optional<double>& value) {
-  command.add_option(name, value, help)->option_text(unit)->check(from_to(0, 1e9));
 }
 
 }  // namespace
@@ -223,11 +200,12 @@ Command add_encounter_command(CLI::App& program) {
           "a volume by name, may be repeated: dwc-en-route, dwc-non-cooperative, dwc-terminal, small-uas, nmac")
       ->option_text("NAME")
       ->allow_extra_args(false);
-  add_limit(*command, "--dmod-ft", "FT", "a volume \"own\": like the first one but for its DMOD", options->dmod_ft);
-  add_limit(*command, "--hmd-ft", "FT", "its HMD (that of --dmod-ft)", options->hmd_ft);
-  add_limit(*command, "--tau-s", "S", "its modified tau", options->tau_s);
-  add_limit(*command, "--zthr-ft", "FT", "its vertical limit", options->zthr_ft);
-  add_limit(*command, "--tcoa-s", "S", "its time to co-altitude", options->tcoa_s);
+  add_range(*command, "--dmod-ft", options->dmod_ft, "FT", 0, 1e9,
+            "a volume \"own\": like the first one but for its DMOD");
+  add_range(*command, "--hmd-ft", options->hmd_ft, "FT", 0, 1e9, "its HMD (that of --dmod-ft)");
+  add_range(*command, "--tau-s", options->tau_s, "S", 0, 1e9, "its modified tau");
+  add_range(*command, "--zthr-ft", options->zthr_ft, "FT", 0, 1e9, "its vertical limit");
+  add_range(*command, "--tcoa-s", options->tcoa_s, "S", 0, 1e9, "its time to co-altitude");
   command->add_option("--intruder", options->intruder, "only this aircraft against the ownship")->option_text("NAME");
   add_output(*command, "--json", options->json, "write all quantities at each step, and the intervals");
   add_output(*command, "--plot", options->plot, "draw range, times and vertical offset; a PNG");

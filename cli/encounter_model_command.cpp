@@ -94,9 +94,9 @@ Result<void> draw(const EncounterModel& model, const EncounterModelOptions& opti
   const Result<DrawnFlights> drawn =
       drawn_flights(model, options, options.csv.empty() ? fs::path() : files.staged(options.csv));
   if (!drawn) return fail(files.with_final_names(drawn.error()));
-  if (!options.plot.empty())
-    if (const Result<void> done = files.write(options.plot, flights_plot(drawn->first)); !done) return done;
-  if (const Result<std::vector<fs::path>> written = files.commit(); !written) return fail(written.error());
+  const Result<void> written =
+      files.write_and_commit({{options.plot, [&] { return png_bytes(flights_plot(drawn->first)); }}});
+  if (!written) return written;
   print_drawn(*drawn, options);
   return {};
 }

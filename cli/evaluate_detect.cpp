@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 #include "base/text.h"
 #include "base/threads.h"
@@ -33,12 +31,7 @@ constexpr const char* kEvaluateDetectFooter =
     "  sigs evaluate detect groundtruth.json --rules aot --results result.json --target-hfar 0.5 --out report";
 
 struct DetectOptions {
-  std::vector<fs::path> inputs;
-  std::vector<fs::path> results;
-  std::string split;
-  ResultsFormat format = ResultsFormat::automatic;
-  TruthOptions truth;
-  std::string size;
+  DetectSources sources;
   DetectionPolicy policy;
   std::string rules = "sigs";
   AotPolicy aot;
@@ -47,7 +40,7 @@ struct DetectOptions {
 };
 
 Result<DetectionReport> report_of(const DetectOptions& options, const DetectInputs& inputs) {
-  const Result<std::vector<std::vector<DetectedClip>>> clips = clips_by_detector(inputs, options.format);
+  const Result<std::vector<std::vector<DetectedClip>>> clips = clips_by_detector(inputs, options.sources.format);
   if (!clips) return fail(clips.error());
   DetectionReport report{.policy = options.policy};
   for (const ClipFiles& files : inputs.clips) report.clips.push_back(files.name);
@@ -74,16 +67,17 @@ void print(const DetectionReport& report) {
 Result<void> run_by_aot_rules(const DetectOptions& options) {
   AotPolicy policy = options.aot;
   policy.min_score = options.policy.min_score;
-  if (options.inputs.size() != 1 || options.results.size() != 1)
+  const DetectSources& sources = options.sources;
+  if (sources.inputs.size() != 1 || sources.results.size() != 1)
     return fail("--rules aot", "takes one groundtruth.json and one result.json", ErrorKind::usage);
   if (policy.target_fppi && policy.target_hfar)
     return fail("--target-fppi", "and --target-hfar exclude each other", ErrorKind::usage);
-  const fs::path& result_file = options.results.front();
+  const fs::path& result_file = sources.results.front();
   defer_interrupts();
   Result<std::optional<EvaluationFolder>> folder =
-      EvaluationFolder::reserved(options.folder, options.force, {options.inputs.front(), result_file});
+      EvaluationFolder::reserved(options.folder, options.force, {sources.inputs.front(), result_file});
   if (!folder) return fail(folder.error());
-  const Result<AotTruth> truth = read_aot_truth(options.inputs.front());
+  const Result<AotTruth> truth = read_aot_truth(sources.inputs.front());
   if (!truth) return fail(truth.error());
   const Result<std::vector<AotReport>> reports = read_aot_reports(result_file);
   if (!reports) return fail(reports.error());
@@ -103,12 +97,10 @@ Result<void> run(const DetectOptions& options) {
     return fail("--target-fppi, --target-hfar and --min-track-length", "need --rules aot", ErrorKind::usage);
   if (options.policy.false_overlap > options.policy.match_overlap)
     return fail("--false-overlap", "is more than --match-overlap", ErrorKind::usage);
-  const Result<TruthOptions> truth = with_size(options.truth, options.size);
-  if (!truth) return fail(truth.error());
-  const Result<DetectInputs> inputs = detect_inputs(options.inputs, options.results, options.split, *truth);
+  const Result<DetectInputs> inputs = detect_inputs(options.sources);
   if (!inputs) return fail(inputs.error());
   defer_interrupts();
-  const std::vector<fs::path> read = files_read(options.inputs, options.results, *inputs);
+  const std::vector<fs::path> read = files_read(options.sources, *inputs);
   Result<std::optional<EvaluationFolder>> folder = EvaluationFolder::reserved(options.folder, options.force, read);
   if (!folder) return fail(folder.error());
   const Result<DetectionReport> report = report_of(options, *inputs);
@@ -140,10 +132,8 @@ void add_policy_options(CLI::App& command, DetectionPolicy& policy) {
         Number{"--detect-range", &policy.detect_range_m, kLarge, "M", "detected in time: before it comes nearer"},
         Number{"--window", &policy.window_s, kLarge, "S", "detected: within a window of this length"},
         Number{"--window-share", &policy.min_window_share, 1, "SHARE", "... in this share of its frames"}}) {
-    command.add_option(number.name, *number.value, number.help)
-        ->type_name(number.unit)
-        ->check(from_to(number.value == &policy.min_score ? -kLarge : 0.0, number.largest))
-        ->capture_default_str();
+    add_figure(command, number.name, *number.value, number.unit, number.value == &policy.min_score ? -kLarge : 0.0,
+               number.largest, number.help);
   }
 }
 
@@ -171,22 +161,13 @@ Command add_evaluate_detect(CLI::App& evaluate) {
   CLI::App* const command =
       evaluate.add_subcommand("detect", "measure detectors on clips: encounters detected, false alarms");
   const auto options = std::make_shared<DetectOptions>();
-  command
-      ->add_option("LABELS", options->inputs,
-                   "exported clips' NAME.xml, the folder of a dataset, or another program's truth: a coco or aot "
-                   "file, a mot or yolo folder")
-      ->required()
-      ->check(not_empty());
-  command
-      ->add_option("--results", options->results,
-                   "what a detector reports: a file for each clip in order, a folder for each detector, or one file in "
-                   "COCO's layout for all clips of a split")
-      ->option_text("FILES|DIRS ...")
-      ->required()
-      ->check(not_empty());
-  command->add_option("--split", options->split, "only the clips of this split of a dataset")->option_text("NAME");
-  add_format_option(*command, options->format);
-  add_truth_options(*command, options->truth, options->size);
+  add_source_options(
+      *command, options->sources,
+      {.labels = "exported clips' NAME.xml, the folder of a dataset, or another program's truth: a coco or aot "
+                 "file, a mot or yolo folder",
+       .results = "what a detector reports: a file for each clip in order, a folder for each detector, or one file in "
+                  "COCO's layout for all clips of a split",
+       .results_value = "FILES|DIRS ..."});
   add_policy_options(*command, options->policy);
   add_aot_options(*command, *options);
   add_report_options(*command, options->folder, options->force);

@@ -41,13 +41,6 @@ struct PerformanceOptions {
   bool force = false;
 };
 
-Result<Json> json_of_file(const fs::path& file) {
-  if (file.empty()) return Json(nullptr);
-  const Result<std::string> text = read_text(file);
-  if (!text) return fail(text.error());
-  return parsed_json(*text, file.string(), ErrorKind::bad_data);
-}
-
 Result<PerformanceReport> report_of(const PerformanceOptions& options) {
   Result<ReadPerformance> read = read_performance(options.read);
   if (!read) return fail(read.error());
@@ -78,10 +71,10 @@ Result<PerformanceReport> report_of(const PerformanceOptions& options) {
                              ": too few to conclude from");
   for (const auto& [file, json, check] : {std::tuple(&options.risk, &report.risk, &check_risk_json),
                                           std::tuple(&options.coverage, &report.coverage, &check_coverage_json)}) {
+    if (file->empty()) continue;
     Result<Json> text = json_of_file(*file);
     if (!text) return fail(text.error());
     *json = *std::move(text);
-    if (file->empty()) continue;
     if (const Result<void> good = check(*json, file->string()); !good) return fail(good.error());
   }
   if (report.risk.is_object() && report.sensor &&
@@ -100,10 +93,10 @@ Result<PerformanceReport> report_of(const PerformanceOptions& options) {
 }
 
 Result<void> run(const PerformanceOptions& options) {
-  const Result<DetectInputs> inputs = found_inputs(options.read);
+  const Result<DetectInputs> inputs = detect_inputs(options.read.sources);
   if (!inputs) return fail(inputs.error());
   defer_interrupts();
-  std::vector<fs::path> read = files_read(options.read.inputs, options.read.results, *inputs);
+  std::vector<fs::path> read = files_read(options.read.sources, *inputs);
   read.insert(read.end(), options.read.empty.begin(), options.read.empty.end());
   for (const fs::path& file : {options.read.calibration, options.risk, options.coverage})
     if (!file.empty()) read.push_back(file);
@@ -137,15 +130,12 @@ void add_performance_options(CLI::App& command, PerformanceOptions& options) {
         std::tuple("--decide", &options.times.decide_s, "S", kMost, "time to decide"),
         std::tuple("--manoeuvre", &options.times.manoeuvre_s, "S", kMost,
                    "time until the manoeuvre has the aircraft out of the way")})
-    command.add_option(name, *value, help)->type_name(unit)->capture_default_str()->check(from_to(0, high));
-  command.add_option("--min-score", options.read.policy.matching.min_score, "reports below it are left out")
-      ->type_name("SCORE")
-      ->capture_default_str()
-      ->check(from_to(-1e9, 1e9));
+    add_figure(command, name, *value, unit, 0, high, help);
+  add_figure(command, "--min-score", options.read.policy.matching.min_score, "SCORE", -1e9, 1e9,
+             "reports below it are left out");
   add_number(command, "--min-encounters", options.min_encounters, "N", 1, 1'000'000, "fewer are called too few");
-  command.add_option("--empty", options.read.empty, "videos without any aircraft, for false tracks an hour")
-      ->option_text("VIDEO ...")
-      ->check(not_empty());
+  add_input(command, "--empty", options.read.empty, "videos without any aircraft, for false tracks an hour",
+            "VIDEO ...");
   add_input(command, "--calibration", options.read.calibration,
             "the lens, for errors of angles and the field of view; of a dataset its projects' own");
   add_input(command, "--risk", options.risk, "put this risk ratio, a JSON file of sigs risk, into the report");
@@ -158,21 +148,12 @@ Command add_evaluate_performance(CLI::App& evaluate) {
   CLI::App* const command = evaluate.add_subcommand(
       "performance", "a sensor's performance by range: detection, declared tracks, range needed, a sensor model");
   const auto options = std::make_shared<PerformanceOptions>();
-  command
-      ->add_option("LABELS", options->read.inputs,
-                   "exported clips' NAME.xml, the folder of a dataset, or another program's truth with ranges")
-      ->required()
-      ->check(not_empty());
-  command
-      ->add_option("--results", options->read.results,
-                   "what one detector or tracker reports: a file for each clip in order, a folder, or one file in "
-                   "COCO's layout for all clips of a split")
-      ->option_text("FILES|DIR")
-      ->required()
-      ->check(not_empty());
-  command->add_option("--split", options->read.split, "only the clips of this split of a dataset")->option_text("NAME");
-  add_format_option(*command, options->read.format);
-  add_truth_options(*command, options->read.truth, options->read.size);
+  add_source_options(
+      *command, options->read.sources,
+      {.labels = "exported clips' NAME.xml, the folder of a dataset, or another program's truth with ranges",
+       .results = "what one detector or tracker reports: a file for each clip in order, a folder, or one file in "
+                  "COCO's layout for all clips of a split",
+       .results_value = "FILES|DIR"});
   add_performance_options(*command, *options);
   add_report_options(*command, options->folder, options->force);
   command->footer(kEvaluatePerformanceFooter);

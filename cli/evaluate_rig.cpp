@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "base/threads.h"
 #include "cli/detect_inputs.h"
@@ -54,10 +53,10 @@ Result<void> run_rig_evaluation(const RigOptions& options) {
                 ErrorKind::usage);
   const Result<RigClip> rig = read_rig(options.rig);
   if (!rig) return fail(rig.error());
-  const Result<DetectInputs> inputs = detect_inputs(rig->labels, options.results, "", {});
+  const Result<DetectInputs> inputs = detect_inputs({.inputs = rig->labels, .results = options.results});
   if (!inputs) return fail(inputs.error());
   defer_interrupts();
-  const std::vector<fs::path> read = files_read({options.rig}, options.results, *inputs);
+  const std::vector<fs::path> read = files_read({.inputs = {options.rig}, .results = options.results}, *inputs);
   Result<std::optional<EvaluationFolder>> folder = EvaluationFolder::reserved(options.folder, options.force, read);
   if (!folder) return fail(folder.error());
   const Result<RigDetectionReport> report = rig_report_of(options, *rig, *inputs);
@@ -74,21 +73,16 @@ Command add_evaluate_rig(CLI::App& evaluate) {
       "rig", "measure detectors on several cameras of one aircraft: who has it first, handovers");
   const auto options = std::make_shared<RigOptions>();
   add_subject(*command, "RIG", options->rig, "NAME.rig.json, as an export of several cameras writes it");
-  command
-      ->add_option("--results", options->results,
-                   "what a detector reports: a file for each camera in order, or a folder for each detector")
-      ->option_text("FILES|DIRS ...")
-      ->required()
-      ->check(not_empty());
+  add_input(*command, "--results", options->results,
+            "what a detector reports: a file for each camera in order, or a folder for each detector", "FILES|DIRS ...")
+      ->required();
   add_format_option(*command, options->format);
   constexpr double kLarge = 1e9;
-  const auto add_figure = [&](const char* name, double& value, const char* unit, double low, double high,
-                              const char* help) {
-    command->add_option(name, value, help)->type_name(unit)->check(from_to(low, high))->capture_default_str();
-  };
-  add_figure("--min-score", options->policy.min_score, "SCORE", -kLarge, kLarge, "reports below it are left out");
-  add_figure("--min-area", options->policy.min_area_px2, "PX2", 0, kLarge, "smaller true boxes are grown to it");
-  add_figure("--match-overlap", options->policy.match_overlap, "SHARE", 0, 1, "extended overlap of a match");
+  add_figure(*command, "--min-score", options->policy.min_score, "SCORE", -kLarge, kLarge,
+             "reports below it are left out");
+  add_figure(*command, "--min-area", options->policy.min_area_px2, "PX2", 0, kLarge,
+             "smaller true boxes are grown to it");
+  add_figure(*command, "--match-overlap", options->policy.match_overlap, "SHARE", 0, 1, "extended overlap of a match");
   add_report_options(*command, options->folder, options->force);
   command->footer(kEvaluateRigFooter);
   return [options] { return run_rig_evaluation(*options); };

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <thread>
 #include <utility>
 
 #include "cli/detect_inputs.h"
@@ -56,9 +55,7 @@ Result<TrackRequest> request_of(const TrackOptions& options) {
     if (!range) return fail(range.error());
     request.frames = *range;
   }
-  // The trackers occupy one core.
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  request.jobs = options.jobs > 0 ? options.jobs : std::max(1, cores - 1);
+  request.jobs = jobs_of_option(options.jobs);
   for (const fs::path& file : request.results)
     if (std::error_code code; !fs::exists(file, code))
       return fail(file.string(), "no such file", ErrorKind::cannot_read);
@@ -147,16 +144,10 @@ void add_scoring_options(CLI::App& command, TrackOptions& options) {
   command.add_option("--truth", options.truth, "true box: visible, what can be seen; silhouette, the whole")
       ->option_text("NAME=visible")
       ->check(CLI::IsMember({"visible", "silhouette"}));
-  command
-      .add_option("--min-visible", request.policy.min_visible_fraction,
-                  "frames in which a smaller share of the intruder can be seen are not scored, 0 to 1")
-      ->option_text("SHARE=0")
-      ->check(from_to(0, 1));
-  command
-      .add_option("--min-side", request.min_side_px,
-                  "trackers start, and scoring begins, where both sides of the true box are at least this long")
-      ->option_text("PX=1")
-      ->check(from_to(0, 1e6));
+  add_range(command, "--min-visible", request.policy.min_visible_fraction, "SHARE=0", 0, 1,
+            "frames in which a smaller share of the intruder can be seen are not scored, 0 to 1");
+  add_range(command, "--min-side", request.min_side_px, "PX=1", 0, 1e6,
+            "trackers start, and scoring begins, where both sides of the true box are at least this long");
 }
 
 }  // namespace
@@ -166,12 +157,9 @@ Command add_evaluate_track(CLI::App& evaluate) {
       evaluate.add_subcommand("track", "measure trackers on one clip or many: centre error, overlap");
   const auto options = std::make_shared<TrackOptions>();
   TrackRequest& request = options->request;
-  command
-      ->add_option("PROJECT_OR_LABELS", request.input.file,
-                   "a project, an exported clip's NAME.xml, an otb or vot sequence, or a folder of "
-                   "many clips: a dataset, or such sequences")
-      ->required()
-      ->check(not_empty());
+  add_subject(*command, "PROJECT_OR_LABELS", request.input.file,
+              "a project, an exported clip's NAME.xml, an otb or vot sequence, or a folder of "
+              "many clips: a dataset, or such sequences");
   std::string known = "all";
   for (const std::string_view name : tracker_names()) known.append(", ").append(name);
   command
@@ -179,17 +167,13 @@ Command add_evaluate_track(CLI::App& evaluate) {
       ->option_text("NAMES ...")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command
-      ->add_option("--results", request.results,
-                   "what trackers have reported, a file for each, of many clips a folder for each; may be repeated")
-      ->option_text("FILES|DIRS ...")
-      ->check(not_empty());
+  add_input(*command, "--results", request.results,
+            "what trackers have reported, a file for each, of many clips a folder for each; may be repeated",
+            "FILES|DIRS ...");
   add_format_option(*command, request.format);
   command->add_option("--split", options->split, "only the clips of this split of a dataset")->option_text("NAME");
   add_scoring_options(*command, *options);
-  command->add_option("--video", request.video, "images of the labels; else those beside them")
-      ->option_text("FILE")
-      ->check(not_empty());
+  add_input(*command, "--video", request.video, "images of the labels; else those beside them");
   add_report_options(*command, options->folder, options->force);
   command->add_option("--frames", options->frames, "only these frames of a project's footage")->option_text("A-B");
   add_set_option(*command, request.input);

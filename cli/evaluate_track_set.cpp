@@ -76,7 +76,7 @@ Result<void> add_runs(const TrackRequest& request, TrackRuns& all, std::size_t i
     TrackRun run{.name = first == last && targets == 1 ? input.name : fmt::format("{}-{}", input.name, target),
                  .input = index,
                  .target = target};
-    const std::optional<TrackPolicy> policy = started_policy(request, input, target);
+    const std::optional<TrackPolicy> policy = started_policy(request, input.truth, target);
     if (!policy) {
       all.remarks.push_back(run.name + " has no frame in which the intruder can be followed; it is left out");
       continue;
@@ -160,7 +160,7 @@ Result<void> make_run(const TrackRequest& request, const TrackInput& input, Trac
 Result<void> make_runs(const TrackRequest& request, TrackRuns& all) {
   const int total = std::accumulate(all.runs.begin(), all.runs.end(), 0,
                                     [](int sum, const TrackRun& run) { return sum + run.frames; });
-  Progress progress(progress_style(request.progress));
+  Progress progress(request.progress);
   std::mutex mutex;
   int done = 0;
   std::atomic<int> first_failed{INT_MAX};

@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "base/paths.h"
+#include "cli/commands.h"
 #include "cli/options.h"
 #include "evaluation/opencv_tracker.h"
 #include "labels/label_files.h"
@@ -21,29 +20,40 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr const char* kEvaluateFooter =
+    "Examples:\n"
+    "  sigs evaluate track projects/crossing/crossing.json --tracker csrt,kcf --out report\n"
+    "  sigs evaluate track out/crossing.xml --results mine.txt --format otb\n"
+    "  sigs evaluate detect out/crossing.xml --results found.csv\n"
+    "  sigs evaluate performance datasets/mine --results found --out report --sensor sensor.json\n"
+    "  sigs evaluate rig out/ring.rig.json --results found --out report\n"
+    "\n"
+    "sigs evaluate track --help, detect --help, performance --help and rig --help have the options of each.";
+
 Error not_free(const fs::path& folder, const std::string& what) {
   return {folder.string(), what, ErrorKind::cannot_create};
 }
 
+bool is_csv(const fs::path& path) {
+  std::error_code code;
+  return path.extension() == ".csv" && fs::symlink_status(path, code).type() == fs::file_type::regular;
+}
+
+bool is_tracker(const fs::path& name) {
+  return std::ranges::find(tracker_names(), name.string()) != tracker_names().end();
+}
+
 // Named after a tracker that ran, as evaluate track writes it.
 bool is_result_file(const fs::path& path) {
-  std::error_code code;
-  const std::span<const std::string_view> trackers = tracker_names();
-  return path.extension() == ".csv" && fs::symlink_status(path, code).type() == fs::file_type::regular &&
-         std::find(trackers.begin(), trackers.end(), path.stem().string()) != trackers.end();
+  return is_csv(path) && is_tracker(path.stem());
 }
 
 // Named after a tracker that ran, with nothing but a file for each clip, as evaluate track writes it of many.
 bool is_results_folder(const fs::path& path) {
-  const std::span<const std::string_view> trackers = tracker_names();
   std::error_code code;
-  if (fs::symlink_status(path, code).type() != fs::file_type::directory) return false;
-  if (std::find(trackers.begin(), trackers.end(), path.filename().string()) == trackers.end()) return false;
+  if (fs::symlink_status(path, code).type() != fs::file_type::directory || !is_tracker(path.filename())) return false;
   const Result<std::vector<fs::path>> files = folder_contents(path);
-  return files && std::all_of(files->begin(), files->end(), [](const fs::path& file) {
-           std::error_code quiet;
-           return file.extension() == ".csv" && fs::symlink_status(file, quiet).type() == fs::file_type::regular;
-         });
+  return files && std::ranges::all_of(*files, is_csv);
 }
 
 // The first entry of the folder that no evaluation writes; empty: there is none.
@@ -122,10 +132,14 @@ void add_format_option(CLI::App& command, ResultsFormat& format) {
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
 }
 
+Command add_evaluate_command(CLI::App& program) {
+  CLI::App* const command = program.add_subcommand("evaluate", "measure trackers and detectors against the truth");
+  command->footer(kEvaluateFooter);
+  return add_below(*command, {add_evaluate_track, add_evaluate_detect, add_evaluate_performance, add_evaluate_rig});
+}
+
 void add_report_options(CLI::App& command, std::filesystem::path& folder, bool& force) {
-  command.add_option("--out", folder, "folder to be made, with tables, plots and report.html")
-      ->option_text("DIR")
-      ->check(output_path());
+  add_output(command, "--out", folder, "folder to be made, with tables, plots and report.html", "DIR");
   command.add_flag("--force", force, "replace an evaluation that is there");
 }
 

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/result.h"
@@ -42,12 +41,8 @@ class EvaluationFolder {
   TemporaryFile file_;
 };
 
-// What both kinds of `sigs evaluate` take. What is added to must outlive the command.
-
-// --format
+// --format; --out and --force. What is added to must outlive the command.
 void add_format_option(CLI::App& command, ResultsFormat& format);
-
-// --out and --force
 void add_report_options(CLI::App& command, std::filesystem::path& folder, bool& force);
 
 }  // namespace sigs::cli

@@ -10,12 +10,12 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <thread>
 
 #include "base/allocator.h"
 #include "base/output_stream.h"
 #include "base/text.h"
 #include "cli/options.h"
+#include "cli/output_files.h"
 #include "cli/process.h"
 #include "export/export_project.h"
 #include "labels/labels.h"
@@ -162,9 +162,7 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
                         .overwrite = options.force,
                         .labels_descriptor = options.labels_descriptor,
                         .in_real_time = options.in_real_time};
-  // Decoding and writing occupy one core.
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  request.jobs = options.jobs > 0 ? options.jobs : std::max(1, cores - 1);
+  request.jobs = jobs_of_option(options.jobs);
   if (!options.frames.empty()) {
     const Result<FrameRange> range = frame_range_of(options.frames);
     if (!range) return fail(range.error());
@@ -210,7 +208,7 @@ Result<void> run_rig(const ExportRequest& request, const ExportOptions& options,
   const Result<RigReport> report = export_rig(request, control);
   progress.end();
   if (!report) return fail(report.error());
-  for (const std::filesystem::path& path : report->written) std::printf("%s\n", path.c_str());
+  print_written(report->written);
   for (std::size_t i = 0; i < report->cameras.size(); ++i) {
     if (options.progress != "none") std::fprintf(stderr, "camera \"%s\":\n", request.project.cameras[i].name.c_str());
     if (options.times) print_times(report->cameras[i]);
@@ -229,7 +227,7 @@ Result<void> run(const ExportOptions& options) {
   }
   defer_interrupts();
   tune_allocator();
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                               .warn =
                                   [&](const Warning& warning) {
@@ -241,8 +239,7 @@ Result<void> run(const ExportOptions& options) {
   const Result<ExportReport> report = export_project(*request, control);
   progress.end();
   if (!report) return fail(report.error());
-  if (options.labels_descriptor != STDOUT_FILENO)
-    for (const std::filesystem::path& path : report->written) std::printf("%s\n", path.c_str());
+  if (options.labels_descriptor != STDOUT_FILENO) print_written(report->written);
   if (options.times) print_times(*report);
   if (options.progress != "none" && request->project.output.codec == VideoCodec::source) print_copied(*report);
   if (options.progress != "none") print_visibilities(request->project, report->visibilities);

@@ -3,10 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 #include <optional>
-#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -97,9 +95,8 @@ Result<void> write(const NamedImages& images, const Project& project, bool overw
   OutputFiles files(overwrite);
   for (const auto& [path, image] : images)
     if (const Result<void> step = files.write(path, image); !step) return step;
-  const Result<std::vector<fs::path>> written = files.commit();
-  if (!written) return fail(written.error());
-  print_written(*written);
+  if (const Result<void> done = files.commit(); !done) return done;
+  print_written(files.final_paths());
   return {};
 }
 

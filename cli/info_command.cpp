@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands.h"
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,57 +23,23 @@ namespace sigs::cli {
 
 namespace {
 
-const char* name_of(PixelLayout layout) {
-  switch (layout) {
-    case PixelLayout::gray:
-      return "gray";
-    case PixelLayout::yuv420:
-      return "Y'CbCr 4:2:0";
-    case PixelLayout::yuv422:
-      return "Y'CbCr 4:2:2";
-    case PixelLayout::yuv444:
-      return "Y'CbCr 4:4:4";
-    case PixelLayout::rgb:
-      return "RGB";
-  }
-  return "";
-}
+constexpr std::array kLayoutNames{"gray", "Y'CbCr 4:2:0", "Y'CbCr 4:2:2", "Y'CbCr 4:4:4", "RGB"};
+static_assert(kLayoutNames.size() == static_cast<std::size_t>(PixelLayout::rgb) + 1);
+constexpr std::array kMatrixNames{"BT.601", "BT.709", "BT.2020"};
+static_assert(kMatrixNames.size() == static_cast<std::size_t>(ColorMatrix::bt2020) + 1);
+constexpr std::array kSiteNames{"left", "midway", "top left"};
+static_assert(kSiteNames.size() == static_cast<std::size_t>(ChromaSite::top_left) + 1);
 
-const char* name_of(ColorMatrix matrix) {
-  switch (matrix) {
-    case ColorMatrix::bt601:
-      return "BT.601";
-    case ColorMatrix::bt709:
-      return "BT.709";
-    case ColorMatrix::bt2020:
-      return "BT.2020";
-  }
-  return "";
-}
-
-const char* name_of(ChromaSite site) {
-  switch (site) {
-    case ChromaSite::left:
-      return "left";
-    case ChromaSite::center:
-      return "midway";
-    case ChromaSite::top_left:
-      return "top left";
-  }
-  return "";
+template <std::size_t N, class Enum>
+const char* name_in(const std::array<const char*, N>& names, Enum value) {
+  return names[static_cast<std::size_t>(value)];
 }
 
 // The transfer function used for the footage, where it differs from the stated one.
 const char* curve_of(int transfer) {
-  switch (transfer_function_of(transfer).value_or(TransferFunction::srgb)) {
-    case TransferFunction::srgb:
-      return " (sRGB's curve is used)";
-    case TransferFunction::pq:
-    case TransferFunction::hlg:
-      return " (an intruder's white is 203 cd/m2)";
-    default:
-      return "";
-  }
+  const TransferFunction used = transfer_function_of(transfer).value_or(TransferFunction::srgb);
+  if (used == TransferFunction::srgb) return " (sRGB's curve is used)";
+  return used == TransferFunction::pq || used == TransferFunction::hlg ? " (an intruder's white is 203 cd/m2)" : "";
 }
 
 // To the end of the last frame, whose duration follows from the nominal rate.
@@ -83,17 +50,17 @@ double length_s(const VideoInfo& video) {
 
 void print_video(const VideoInfo& video) {
   std::printf("video: %s, %s, %s (%s), container %s\n", video.codec.c_str(), image_size_text(video.size_px).c_str(),
-              name_of(video.layout), video.pixel_format.c_str(), video.container.c_str());
+              name_in(kLayoutNames, video.layout), video.pixel_format.c_str(), video.container.c_str());
   if (video.bit_depth > 8) std::printf("bits a sample: %d\n", video.bit_depth);
   if (!video.conversion.empty()) std::printf("conversion: %s\n", video.conversion.c_str());
   if (!video.projection.empty()) std::printf("360 degree footage: %s\n", video.projection.c_str());
   std::printf("frames: %d, %d/%d a second%s, %.3f s\n", video.frame_count(), video.frame_rate_num, video.frame_rate_den,
               video.variable_frame_rate ? " (variable)" : "", length_s(video));
   std::printf("color: %s range%s, matrix %s%s\n", video.color.range == ColorRange::full ? "full" : "limited",
-              video.color.range_stated ? "" : " (assumed)", name_of(video.color.matrix),
+              video.color.range_stated ? "" : " (assumed)", name_in(kMatrixNames, video.color.matrix),
               video.color.matrix_stated ? "" : " (assumed)");
   if (video.layout == PixelLayout::yuv420 || video.layout == PixelLayout::yuv422)
-    std::printf("chroma: %s\n", name_of(video.color.chroma_site));
+    std::printf("chroma: %s\n", name_in(kSiteNames, video.color.chroma_site));
   std::printf("light: transfer %s%s, primaries %s%s\n", transfer_name(video.color.transfer).c_str(),
               curve_of(video.color.transfer), primaries_name(video.color.primaries).c_str(),
               video.color.primaries == 2 || !from_bt709(video.color.primaries) ? " (BT.709's are used)" : "");

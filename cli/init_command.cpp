@@ -27,7 +27,7 @@ Result<void> init(const InitOptions& options, bool has_fov) {
   FirstProjectOptions project = options.project;
   if (has_fov) project.horizontal_fov_deg = options.fov_deg;
   defer_interrupts();
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const auto tell = [&](int done, int total, const std::string& step) {
     if (done > 0) progress.update(done, total, step);
   };
@@ -63,9 +63,8 @@ Command add_init_command(CLI::App& program) {
   add_subject(*command, "VIDEO", options->project.video, "the footage");
   CLI::Option* const calibration =
       add_input(*command, "--calibration", options->project.calibration, "the camera's calibration file");
-  CLI::Option* const fov = command->add_option("--fov", options->fov_deg, "horizontal field of view, in degrees")
-                               ->option_text("DEG")
-                               ->check(from_to(1, 359));
+  CLI::Option* const fov =
+      add_range(*command, "--fov", options->fov_deg, "DEG", 1, 359, "horizontal field of view, in degrees");
   fov->excludes(calibration);
   add_timing_options(*command, options->project.timing);
   add_input(*command, "--model", options->project.model, "the intruder's model (obj); default: a light aircraft");

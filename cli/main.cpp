@@ -4,34 +4,33 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/threads.h"
+#include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/process.h"
-#include "cli/program.h"
 
 namespace {
 
-bool is_no_evaluation(std::string_view word) {
-  return !word.starts_with('-') && word != "track" && word != "detect" && word != "performance" && word != "rig";
+// Whether the word is meant as a subcommand, and there is none of that name; then it is said.
+bool is_unknown(CLI::App& program, const std::string& above, const std::string& word) {
+  const std::vector<CLI::App*> commands = program.get_subcommands({});
+  const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == word; };
+  if (word.starts_with('-') || std::ranges::any_of(commands, is_asked_for)) return false;
+  sigs::cli::print_error(
+      {above + word, "no such command; there are " + sigs::cli::names_of(commands), sigs::ErrorKind::usage});
+  return true;
 }
 
 int run(int argc, char** argv) {
   using namespace sigs::cli;
   const Program made = make_program();
   CLI::App& program = *made.app;
-  const auto is_asked_for = [&](const AddedCommand& command) { return command.app->get_name() == argv[1]; };
-  const bool is_unknown = argc > 1 && argv[1][0] != '-' && std::ranges::none_of(made.commands, is_asked_for);
-  if (is_unknown) {
-    print_error(
-        {argv[1], "no such command; there are " + names_of(program.get_subcommands({})), sigs::ErrorKind::usage});
+  if (argc > 1 && is_unknown(program, "", argv[1])) return static_cast<int>(sigs::ErrorKind::usage);
+  if (argc > 2 && argv[1] == std::string_view("evaluate") &&
+      is_unknown(*program.get_subcommand("evaluate"), "evaluate ", argv[2]))
     return static_cast<int>(sigs::ErrorKind::usage);
-  }
-  if (argc > 2 && argv[1] == std::string_view("evaluate") && is_no_evaluation(argv[2])) {
-    print_error({std::string("evaluate ") + argv[2], "no such command; there are track, detect, performance and rig",
-                 sigs::ErrorKind::usage});
-    return static_cast<int>(sigs::ErrorKind::usage);
-  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

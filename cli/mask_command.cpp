@@ -2,12 +2,10 @@
 #include "cli/commands.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -36,39 +34,8 @@ namespace fs = std::filesystem;
 
 // Where `sigs mask` writes.
 struct MaskPaths {
-  // PNG files, and a folder for images of the steps. Confidence and stages may be empty: not asked for.
-  fs::path mask;
-  fs::path confidence;
-  fs::path stages;
-};
-
-// The images of one run. They get their names together, or none of them and no folder is left.
-class MaskOutputs {
- public:
-  // Before the work begins: finding that a file stands in the way after minutes would be late. inputs: what the command
-  // reads; may be empty paths. Errors: usage (not a PNG, one output where another goes), cannot_create.
-  [[nodiscard]] static Result<MaskOutputs> reserved(MaskPaths paths, const std::vector<fs::path>& inputs,
-                                                    bool overwrite);
-
-  [[nodiscard]] bool has_stages() const { return !paths_.stages.empty(); }
-
-  // Writes all; what the files are called. bgr: a frame of the footage, for the stages; empty where there are none.
-  // Images of stages that another run has left in the folder go: they would look like steps of this one.
-  [[nodiscard]] Result<std::vector<fs::path>> write(const OwnBody& found, const cv::Mat& bgr);
-
- private:
-  MaskOutputs(MaskPaths paths, bool overwrite) : paths_(std::move(paths)), overwrite_(overwrite), files_(overwrite) {}
-  // Checks a name against the inputs, makes the folder that it lies in and takes it. option: named in the error.
-  [[nodiscard]] Result<void> reserve(const char* option, const fs::path& path, const std::vector<fs::path>& inputs);
-  [[nodiscard]] Result<void> reserve_stages(const std::vector<fs::path>& inputs);
-  [[nodiscard]] Result<void> write_stages(const OwnBody& found, const cv::Mat& bgr);
-  // File of a step in the folder, by its number and name.
-  [[nodiscard]] fs::path stage(std::size_t number, std::string_view name) const;
-
-  MaskPaths paths_;
-  bool overwrite_ = false;
-  CreatedFolders folders_;  // outlives the files: a folder can go only once it is empty
-  OutputFiles files_;
+  fs::path mask, confidence;  // PNG files; no confidence: not asked for
+  fs::path stages;            // a folder for images of the steps; likewise
 };
 
 const cv::Vec3b kTint(255, 0, 255);  // magenta: neither sky nor ground nor paint
@@ -138,64 +105,83 @@ std::vector<fs::path> stages_in(const fs::path& folder) {
   return found;
 }
 
-fs::path MaskOutputs::stage(std::size_t number, std::string_view name) const {
-  std::string file = std::to_string(number);
-  if (number < 10) file.insert(0, 1, '0');
-  return paths_.stages / file.append("_").append(name).append(".png");
-}
+// The images of one run. They get their names together, or none of them and no folder is left.
+class MaskOutputs {
+ public:
+  // Before the work begins: finding that a file stands in the way after minutes would be late. inputs: what the command
+  // reads; may be empty paths. Errors: usage (not a PNG, one output where another goes), cannot_create.
+  static Result<MaskOutputs> reserved(MaskPaths paths, const std::vector<fs::path>& inputs, bool overwrite) {
+    if (const Result<void> apart = check_distinct(paths); !apart) return fail(apart.error());
+    MaskOutputs out(std::move(paths), overwrite);
+    Result<void> step = out.reserve("--out", out.paths_.mask, inputs);
+    if (step && !out.paths_.confidence.empty()) step = out.reserve("--confidence", out.paths_.confidence, inputs);
+    if (step && out.has_stages()) step = out.reserve_stages(inputs);
+    if (!step) return fail(step.error());
+    return out;
+  }
 
-// Reserves the name of an image, in a folder that is created if it is missing.
-Result<void> MaskOutputs::reserve(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
-  Result<void> step = check_png_output(option, path, inputs);
-  if (step) step = folders_.make(path.parent_path());
-  if (step) step = files_.reserve(path);
-  return step;
-}
+  [[nodiscard]] bool has_stages() const { return !paths_.stages.empty(); }
 
-// Which steps there will be is known only at the end; any existing one is an error.
-Result<void> MaskOutputs::reserve_stages(const std::vector<fs::path>& inputs) {
-  if (const Result<void> made = folders_.make(paths_.stages); !made) return made;
-  const std::vector<fs::path> there = stages_in(paths_.stages);
-  if (!overwrite_ && !there.empty())
-    return fail(there.front().string(), "exists already; --force replaces the stages that are there",
-                ErrorKind::cannot_create);
-  if (const Result<void> kept = check_inputs_not_overwritten(there, inputs); !kept) return kept;
-  return files_.reserve(stage(0, "frame"));
-}
+  // Writes all; what the files are called. bgr: a frame of the footage, for the stages; empty where there are none.
+  // Images of stages that another run has left in the folder go: they would look like steps of this one.
+  Result<std::vector<fs::path>> write(const OwnBody& found, const cv::Mat& bgr) {
+    Result<void> step = files_.write(paths_.mask, found.mask);
+    if (step && !paths_.confidence.empty()) step = files_.write(paths_.confidence, found.confidence);
+    if (step && has_stages()) step = write_stages(found, bgr);
+    if (step) step = files_.commit();
+    if (!step) return fail(step.error());
+    const std::vector<fs::path> written = files_.final_paths();
+    if (!has_stages() || !overwrite_) return written;
+    std::error_code code;
+    for (const fs::path& there : stages_in(paths_.stages))
+      if (std::ranges::find(written, there) == written.end() && !fs::is_directory(there, code)) fs::remove(there, code);
+    return written;
+  }
 
-Result<MaskOutputs> MaskOutputs::reserved(MaskPaths paths, const std::vector<fs::path>& inputs, bool overwrite) {
-  if (const Result<void> apart = check_distinct(paths); !apart) return fail(apart.error());
-  MaskOutputs out(std::move(paths), overwrite);
-  Result<void> step = out.reserve("--out", out.paths_.mask, inputs);
-  if (step && !out.paths_.confidence.empty()) step = out.reserve("--confidence", out.paths_.confidence, inputs);
-  if (step && out.has_stages()) step = out.reserve_stages(inputs);
-  if (!step) return fail(step.error());
-  return out;
-}
+ private:
+  MaskOutputs(MaskPaths paths, bool overwrite) : paths_(std::move(paths)), overwrite_(overwrite), files_(overwrite) {}
 
-// The steps of the method, between a frame of the footage and that frame with the result tinted over it.
-Result<void> MaskOutputs::write_stages(const OwnBody& found, const cv::Mat& bgr) {
-  Result<void> step = files_.write(stage(0, "frame"), bgr);
-  std::size_t number = 1;
-  for (const DetectionStage& made : found.stages)
-    if (step) step = files_.write(stage(number++, made.name), made.image);
-  if (step) step = files_.write(stage(number, "overlay"), tinted(bgr, found.mask));
-  return step;
-}
+  // Reserves the name of an image, in a folder that is created if it is missing. option: named in the error.
+  Result<void> reserve(const char* option, const fs::path& path, const std::vector<fs::path>& inputs) {
+    Result<void> step = check_png_output(option, path, inputs);
+    if (step) step = folders_.make(path.parent_path());
+    if (step) step = files_.reserve(path);
+    return step;
+  }
 
-Result<std::vector<fs::path>> MaskOutputs::write(const OwnBody& found, const cv::Mat& bgr) {
-  Result<void> step = files_.write(paths_.mask, found.mask);
-  if (step && !paths_.confidence.empty()) step = files_.write(paths_.confidence, found.confidence);
-  if (step && has_stages()) step = write_stages(found, bgr);
-  if (!step) return fail(step.error());
-  Result<std::vector<fs::path>> written = files_.commit();
-  if (!written || !has_stages() || !overwrite_) return written;
-  std::error_code code;
-  for (const fs::path& there : stages_in(paths_.stages))
-    if (std::find(written->begin(), written->end(), there) == written->end() && !fs::is_directory(there, code))
-      fs::remove(there, code);
-  return written;
-}
+  // Which steps there will be is known only at the end; any existing one is an error.
+  Result<void> reserve_stages(const std::vector<fs::path>& inputs) {
+    if (const Result<void> made = folders_.make(paths_.stages); !made) return made;
+    const std::vector<fs::path> there = stages_in(paths_.stages);
+    if (!overwrite_ && !there.empty())
+      return fail(there.front().string(), "exists already; --force replaces the stages that are there",
+                  ErrorKind::cannot_create);
+    if (const Result<void> kept = check_inputs_not_overwritten(there, inputs); !kept) return kept;
+    return files_.reserve(stage(0, "frame"));
+  }
+
+  // The steps of the method, between a frame of the footage and that frame with the result tinted over it.
+  Result<void> write_stages(const OwnBody& found, const cv::Mat& bgr) {
+    Result<void> step = files_.write(stage(0, "frame"), bgr);
+    std::size_t number = 1;
+    for (const DetectionStage& made : found.stages)
+      if (step) step = files_.write(stage(number++, made.name), made.image);
+    if (step) step = files_.write(stage(number, "overlay"), tinted(bgr, found.mask));
+    return step;
+  }
+
+  // File of a step in the folder, by its number and name.
+  [[nodiscard]] fs::path stage(std::size_t number, std::string_view name) const {
+    std::string file = std::to_string(number);
+    if (number < 10) file.insert(0, 1, '0');
+    return paths_.stages / file.append("_").append(name).append(".png");
+  }
+
+  MaskPaths paths_;
+  bool overwrite_ = false;
+  CreatedFolders folders_;  // outlives the files: a folder can go only once it is empty
+  OutputFiles files_;
+};
 
 constexpr const char* kMaskFooter =
     "Examples:\n"
@@ -260,23 +246,15 @@ fs::path default_mask(const fs::path& video) {
   return named.stem().string() + ".own-body.png";
 }
 
-Result<MaskOutputs> reserved(const MaskOptions& options, const Project& project, const fs::path& video) {
-  MaskPaths paths = options.paths;
-  if (paths.mask.empty()) paths.mask = default_mask(video);
-  return MaskOutputs::reserved(std::move(paths), {video, project.file}, options.force);
-}
-
 Result<OwnBody> found_in(FrameSource& footage, const FrameRange& range, const Project& project,
                          const MaskOptions& options) {
   OwnBodySettings settings = project.own_body;
   settings.frames = std::min(settings.frames, range.last - range.first + 1);
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   const DetectionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
                                  .cancel = &interrupt_flag(),
                                  .stages = options.paths.stages.empty() ? KeepStages::no : KeepStages::yes};
-  Result<OwnBody> found = detect_own_body(footage, range.first, settings, control);
-  progress.end();
-  return found;
+  return detect_own_body(footage, range.first, settings, control);
 }
 
 Result<void> write(MaskOutputs& out, const OwnBody& found, FrameSource& footage, int first_frame) {
@@ -331,7 +309,10 @@ Result<void> run(const MaskOptions& options) {
   const Result<FrameRange, Problem> range = scene_range(project->footage, shape_of(footage->info()));
   if (!range) return fail(error_in(*project, range.error()));
   defer_interrupts();
-  Result<MaskOutputs> out = reserved(options, *project, footage->info().path);
+  MaskPaths paths = options.paths;
+  const fs::path& video = footage->info().path;
+  if (paths.mask.empty()) paths.mask = default_mask(video);
+  Result<MaskOutputs> out = MaskOutputs::reserved(std::move(paths), {video, project->file}, options.force);
   if (!out) return fail(out.error());
   const Result<OwnBody> found = found_in(*footage, *range, *project, options);
   if (!found) return fail(found.error());

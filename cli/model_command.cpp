@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -104,11 +102,10 @@ Result<void> run_import(ImportOptions options) {
   for (const ImportedFile& file : model->files)
     if (const Result<void> written = files.write(out.parent_path() / file.name, file.bytes); !written) return written;
   for (const std::string& note : model->notes) std::fprintf(stderr, "%s\n", note.c_str());
-  const Result<std::vector<fs::path>> written = files.commit();
-  if (!written) return fail(written.error());
+  if (const Result<void> done = files.commit(); !done) return done;
   std::fprintf(stderr, "%zu triangles; %.2f m long, %.2f m across, %.2f m high\n", model->triangles, model->size_m.x,
                model->size_m.y, model->size_m.z);
-  print_written(*written);
+  print_written(files.final_paths());
   return {};
 }
 
@@ -143,11 +140,8 @@ Command add_list(CLI::App& model) {
 
 Command add_model_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("model", "list models of aircraft, and import others");
-  command->require_subcommand(1);
   command->footer(kModelFooter);
-  const Command import = add_import(*command);
-  const Command list = add_list(*command);
-  return [command, import, list] { return command->got_subcommand("import") ? import() : list(); };
+  return add_below(*command, {add_import, add_list});
 }
 
 }  // namespace sigs::cli

@@ -10,7 +10,6 @@
 #include "cli/output_files.h"
 #include "cli/process.h"
 #include "occlusion/parallax.h"
-#include "project/validate.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
 
@@ -65,30 +64,14 @@ Result<NearScenery> scenery_in(OpenedProject& opened, const OccluderOptions& opt
   const CameraPoseAt pose_at = [&](int frame) {
     return camera_at(scene.motion, time_of_frame_s(scene.footage, frame));
   };
-  Progress progress(progress_style(options.progress));
-  Result<NearScenery> found = near_scenery(
+  Progress progress(options.progress);
+  return near_scenery(
       opened.source, scene.camera, pose_at,
       {.frame = options.frame,
        .span = options.span,
        .min_parallax_px = options.min_parallax_px,
        .max_m = options.max_m},
       {.progress = [&](int done, int total) { progress.update(done, total); }, .cancel = &interrupt_flag()});
-  progress.end();
-  return found;
-}
-
-Result<void> write(OutputFiles& files, const NearScenery& found, const OccluderOptions& options, FrameSource& source) {
-  if (const Result<void> written = files.write(options.mask, found.mask); !written) return written;
-  if (!options.overlay.empty()) {
-    const Result<Frame> frame = source.read(options.frame);
-    if (!frame) return fail(frame.error());
-    if (const Result<void> written = files.write(options.overlay, overlay_of(*frame, found.mask)); !written)
-      return written;
-  }
-  const Result<std::vector<fs::path>> names = files.commit();
-  if (!names) return fail(names.error());
-  print_written(*names);
-  return {};
 }
 
 Result<void> run(const OccluderOptions& options) {
@@ -107,7 +90,14 @@ Result<void> run(const OccluderOptions& options) {
                 ErrorKind::usage);
   const Result<NearScenery> found = scenery_in(*opened, options);
   if (!found) return fail(found.error());
-  if (const Result<void> written = write(files, *found, options, opened->source); !written) return written;
+  const auto overlay = [&]() -> Result<std::string> {
+    const Result<Frame> frame = opened->source.read(options.frame);
+    return frame ? Result<std::string>(png_bytes(overlay_of(*frame, found->mask))) : fail(frame.error());
+  };
+  const Result<void> written =
+      files.write_and_commit({{options.mask, [&] { return png_bytes(found->mask); }}, {options.overlay, overlay}});
+  if (!written) return written;
+  print_written(files.final_paths());
   for (const Warning& warning : found->warnings) print_warning(warning);
   const double share = static_cast<double>(cv::countNonZero(found->mask)) / static_cast<double>(found->mask.total());
   std::fprintf(stderr, "occluder: %.1f %% of the image; parallax up to %.1f px in %d frames, seen in %.0f %% of it\n",
@@ -131,10 +121,9 @@ Command add_occluder_command(CLI::App& program) {
       ->option_text("PX")
       ->capture_default_str()
       ->check(from_to(0.01, 1e4));
-  command->add_option("--max-distance", options->max_m, "instead: what is nearer than this, by the camera's way")
-      ->option_text("M")
-      ->check(from_to(0.1, 1e7));
-  command->add_option("--out", options->mask, "the mask, a PNG")->required()->option_text("FILE")->check(output_path());
+  add_range(*command, "--max-distance", options->max_m, "M", 0.1, 1e7,
+            "instead: what is nearer than this, by the camera's way");
+  add_output(*command, "--out", options->mask, "the mask, a PNG")->required();
   add_output(*command, "--overlay", options->overlay, "the frame with the mask tinted over it, a PNG");
   command->add_flag("--force", options->force, "overwrite what is there");
   add_progress_option(*command, options->progress);

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <optional>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "base/csv.h"
@@ -31,7 +32,7 @@ std::optional<int> whole_number(std::string_view text) {
 
 Field field_of(Project& project, const std::string& key) {
   const std::vector<Field> fields = fields_of(project);
-  const auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& one) { return one.key == key; });
+  const auto field = std::ranges::find(fields, key, &Field::key);
   ENSURE(field != fields.end());
   return *field;
 }
@@ -194,11 +195,6 @@ CLI::Validator output_path() {
           ""};
 }
 
-CLI::Option* add_input(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
-                       const char* value) {
-  return command.add_option(name, path, help)->option_text(value)->check(not_empty());
-}
-
 CLI::Option* add_output(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
                         const char* value) {
   return command.add_option(name, path, help)->option_text(value)->check(output_path());
@@ -216,6 +212,14 @@ std::optional<std::vector<double>> numbers_of(const std::string& text, std::size
     numbers.push_back(*number);
   }
   return numbers.size() == count ? std::optional(numbers) : std::nullopt;
+}
+
+std::optional<std::pair<int, int>> fraction_of(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const std::optional<int> part = parsed_number<int>(text.substr(0, slash));
+  const std::optional<int> whole = parsed_number<int>(text.substr(slash + 1));
+  return part && whole ? std::optional(std::pair(*part, *whole)) : std::nullopt;
 }
 
 Result<Box> box_of_option(const std::string& option, const std::string& text) {
@@ -236,14 +240,20 @@ CLI::Validator from_to(double low, double high) {
 }
 
 void add_timing_options(CLI::App& command, SequenceTiming& timing) {
-  CLI::Option* const rate =
-      command.add_option("--frame-rate", timing.frame_rate_hz, "frames a second of images, which do not state it")
-          ->option_text("HZ")
-          ->check(from_to(0.001, 1e6));
-  command.add_option("--timestamps", timing.times_file, "of images: a file with the time of each")
-      ->option_text("FILE")
-      ->check(not_empty())
-      ->excludes(rate);
+  CLI::Option* const rate = add_range(command, "--frame-rate", timing.frame_rate_hz, "HZ", 0.001, 1e6,
+                                      "frames a second of images, which do not state it");
+  add_input(command, "--timestamps", timing.times_file, "of images: a file with the time of each")->excludes(rate);
+}
+
+int jobs_of_option(int jobs) {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return jobs > 0 ? jobs : std::max(1, cores - 1);
+}
+
+std::string path_beside(const std::filesystem::path& file, const std::filesystem::path& project) {
+  const std::filesystem::path relative =
+      canonical_name(file).lexically_relative(canonical_path(std::filesystem::absolute(project).parent_path()));
+  return relative.empty() ? canonical_name(file).string() : relative.generic_string();
 }
 
 void add_progress_option(CLI::App& command, std::string& style) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/image.h"
@@ -68,10 +69,13 @@ void add_setting_option(CLI::App& command, const SettingOption& option, OptionSe
 // For what is written: the same, and not "-", which stands for standard output elsewhere.
 [[nodiscard]] CLI::Validator output_path();
 
-// An option that names a file or folder to read, or one to write.
+// An option that names a file or folder to read (or several of them), or one to write.
 //   value  what the help calls it
-CLI::Option* add_input(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
-                       const char* value = "FILE");
+template <class Paths>
+CLI::Option* add_input(CLI::App& command, const char* name, Paths& paths, const char* help,
+                       const char* value = "FILE") {
+  return command.add_option(name, paths, help)->option_text(value)->check(not_empty());
+}
 CLI::Option* add_output(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
                         const char* value = "FILE");
 
@@ -85,6 +89,23 @@ CLI::Option* add_number(CLI::App& command, const char* name, Number& value, cons
   return command.add_option(name, value, help)->option_text(unit)->capture_default_str()->check(CLI::Range(low, high));
 }
 
+// A number of this range. CLI::Range lets NaN through.
+[[nodiscard]] CLI::Validator from_to(double low, double high);
+
+// An option of such a number, without its default: it says nothing, or the help has it.
+template <class Number>
+CLI::Option* add_range(CLI::App& command, const char* name, Number& value, const char* unit, double low, double high,
+                       const char* help) {
+  return command.add_option(name, value, help)->option_text(unit)->check(from_to(low, high));
+}
+
+// The same with its default shown.
+template <class Number>
+CLI::Option* add_figure(CLI::App& command, const char* name, Number& value, const char* unit, double low, double high,
+                        const char* help) {
+  return command.add_option(name, value, help)->type_name(unit)->capture_default_str()->check(from_to(low, high));
+}
+
 // The value of --size, as in "1280x960". Error usage.
 [[nodiscard]] Result<cv::Size> size_of_option(const std::string& text);
 
@@ -92,14 +113,20 @@ CLI::Option* add_number(CLI::App& command, const char* name, Number& value, cons
 // else.
 [[nodiscard]] std::optional<std::vector<double>> numbers_of(const std::string& text, std::size_t count);
 
+// "3/5" as two whole numbers; none where the text says anything else.
+[[nodiscard]] std::optional<std::pair<int, int>> fraction_of(const std::string& text);
+
 // The value of --box, X,Y,W,H: the first column and row, the width and height in pixels. Error usage.
 [[nodiscard]] Result<Box> box_of_option(const std::string& option, const std::string& text);
 
-// A number of this range. CLI::Range lets NaN through.
-[[nodiscard]] CLI::Validator from_to(double low, double high);
-
-// --progress, as progress_style() takes it.
+// --progress, as Progress takes it.
 void add_progress_option(CLI::App& command, std::string& style);
+
+// The value of --jobs: 0 stands for one less than there are cores, as decoding and writing, or trackers, occupy one.
+[[nodiscard]] int jobs_of_option(int jobs);
+
+// As a project names a file: relative to its own folder, so that both can be moved together.
+[[nodiscard]] std::string path_beside(const std::filesystem::path& file, const std::filesystem::path& project);
 
 // --frame-rate and --timestamps, for commands that take footage and not the project that names it.
 void add_timing_options(CLI::App& command, SequenceTiming& timing);

@@ -45,18 +45,6 @@ std::string png_bytes(const cv::Mat& image) {
   return {bytes.begin(), bytes.end()};
 }
 
-Result<void> write_bytes(const fs::path& staged, std::string_view bytes) {
-  std::ofstream out(staged, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (out) return {};
-  return fail(staged.string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
-}
-
-Result<void> write_png(const fs::path& staged, const cv::Mat& image) {
-  return write_bytes(staged, png_bytes(image));
-}
-
 CreatedFolders::~CreatedFolders() {
   std::error_code code;
   for (auto last = created_.rbegin(); last != created_.rend(); ++last)
@@ -91,18 +79,26 @@ Result<void> OutputFiles::reserve(const std::vector<CommandOutput>& outputs) {
 Result<void> OutputFiles::write(const fs::path& path, std::string_view bytes) {
   if (!staged_.contains(path))
     if (const Result<void> reserved = reserve(path); !reserved) return reserved;
-  if (const Result<void> written = write_bytes(staged_[path], bytes); !written)
-    return fail(with_final_names(written.error()));
-  return {};
+  std::ofstream out(staged_[path], std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (out) return {};
+  return fail(with_final_names(
+      {staged_[path].string(), std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed}));
 }
 
 Result<void> OutputFiles::write(const fs::path& path, const cv::Mat& image) {
   return write(path, png_bytes(image));
 }
 
-Result<std::vector<fs::path>> OutputFiles::commit() {
-  if (const Result<void> kept = outputs_.commit(); !kept) return fail(kept.error());
-  return outputs_.final_paths();
+Result<void> OutputFiles::write_and_commit(const std::vector<OutputBytes>& outputs) {
+  for (const auto& [path, bytes_of] : outputs) {
+    if (path.empty()) continue;
+    const Result<std::string> bytes = bytes_of();
+    if (!bytes) return fail(bytes.error());
+    if (const Result<void> written = write(path, std::string_view(*bytes)); !written) return written;
+  }
+  return commit();
 }
 
 void print_written(const std::vector<fs::path>& paths) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <opencv2/core.hpp>
 #include <string>
@@ -20,6 +21,12 @@ struct CommandOutput {
   std::filesystem::path path;  // empty: not asked for
 };
 
+// The bytes of an output, made only where it is asked for.
+struct OutputBytes {
+  std::filesystem::path path;  // empty: not asked for
+  std::function<Result<std::string>()> bytes;
+};
+
 // The names of a command's outputs, before anything is read: that of --plot ends in .png, no two outputs go to the same
 // file, and none replaces an input. Errors usage, cannot_create.
 [[nodiscard]] Result<void> check_outputs(const std::vector<CommandOutput>& outputs,
@@ -32,10 +39,6 @@ struct CommandOutput {
 // An image as PNG, encoded in memory: OpenCV's own writing of files prints lines on stderr, and does not notice where
 // the last bytes find no room.
 [[nodiscard]] std::string png_bytes(const cv::Mat& image);
-
-// Writes a file under its temporary name (StagedOutputs). Error write_failed.
-[[nodiscard]] Result<void> write_bytes(const std::filesystem::path& staged, std::string_view bytes);
-[[nodiscard]] Result<void> write_png(const std::filesystem::path& staged, const cv::Mat& image);
 
 // Files that get their final names together, once all of them are written. Without commit() none is left.
 class OutputFiles {
@@ -57,13 +60,16 @@ class OutputFiles {
   [[nodiscard]] std::filesystem::path staged(const std::filesystem::path& path) const { return staged_.at(path); }
   [[nodiscard]] Error with_final_names(Error error) const { return outputs_.with_final_names(std::move(error)); }
 
-  // Final names for all, in the order in which they were taken; what they are.
-  [[nodiscard]] Result<std::vector<std::filesystem::path>> commit();
+  // Final names for all.
+  [[nodiscard]] Result<void> commit() { return outputs_.commit(); }
+  [[nodiscard]] Result<void> write_and_commit(const std::vector<OutputBytes>& outputs);
+
+  // In the order in which they were taken.
+  [[nodiscard]] std::vector<std::filesystem::path> final_paths() const { return outputs_.final_paths(); }
 
  private:
   StagedOutputs outputs_;
-  // Temporary files by their final names.
-  std::map<std::filesystem::path, std::filesystem::path> staged_;
+  std::map<std::filesystem::path, std::filesystem::path> staged_;  // temporary files by their final names
 };
 
 // Prints the names of files that were written, a line each.

@@ -135,7 +135,7 @@ std::string table_of(const RecordedPaths& paths) {
 }
 
 // As KML or CZML, by the output's extension.
-Result<std::string> globe_text(const std::vector<GeoPath>& paths, const PathOptions& options) {
+std::string globe_text(const std::vector<GeoPath>& paths, const PathOptions& options) {
   const std::string title = options.file.filename().string();
   return lower_extension(options.out) == ".kml" ? kml_text(paths, title) : czml_text(paths, title);
 }
@@ -166,9 +166,7 @@ Result<void> run_on_project(const Project& project, const PathOptions& options) 
                 ErrorKind::usage);
   const Result<std::vector<GeoPath>> paths = paths_of_project(project);
   if (!paths) return fail(paths.error());
-  const Result<std::string> text = globe_text(*paths, options);
-  if (!text) return fail(text.error());
-  return write(*text, options);
+  return write(globe_text(*paths, options), options);
 }
 
 Result<void> run(const PathOptions& options) {

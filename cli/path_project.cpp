@@ -10,7 +10,6 @@
 
 #include "base/input_file.h"
 #include "base/json.h"
-#include "base/paths.h"
 #include "base/text.h"
 #include "cli/options.h"
 #include "cli/process.h"
@@ -31,10 +30,6 @@ Result<Project> with_warnings_printed(Result<ReadProject> read) {
   if (!read) return fail(read.error());
   for (const Warning& warning : read->warnings) print_warning(warning);
   return read->project.cameras.empty() ? std::move(read->project) : seen_by(read->project, 0);
-}
-
-Result<Project> checked_project(const fs::path& file) {
-  return with_warnings_printed(read_project(file));
 }
 
 // Whether a text is meant to be a project, be it broken: an object with a member that projects or recipes have, or,
@@ -94,7 +89,7 @@ Result<std::vector<GeoPath>> paths_of_project(const Project& project) {
 }
 
 Result<void> write_into_project(const RecordedPath& path, const IntoProject& into) {
-  Result<Project> project = checked_project(into.project);
+  Result<Project> project = with_warnings_printed(read_project(into.project));
   if (!project) return fail(project.error());
   const auto count = static_cast<int>(project->intruders.size());
   const std::string where = fmt::format("--intruder {}", into.intruder);

@@ -2,11 +2,13 @@
 #include "cli/performance_inputs.h"
 
 #include <optional>
+#include <tuple>
 #include <utility>
 
+#include "base/input_file.h"
 #include "base/paths.h"
-#include "base/text.h"
 #include "camera/camera.h"
+#include "cli/options.h"
 #include "dataset/video_folder.h"
 #include "project/json.h"
 #include "scene/scene_parts.h"
@@ -20,14 +22,10 @@ namespace fs = std::filesystem;
 
 // "3/5"
 Result<void> read_declare(const std::string& text, PerformancePolicy& policy) {
-  const std::size_t slash = text.find('/');
-  const std::optional<int> hits = parsed_number<int>(text.substr(0, slash));
-  const std::optional<int> window =
-      slash == std::string::npos ? std::nullopt : parsed_number<int>(text.substr(slash + 1));
-  if (!hits || !window || *hits < 1 || *window < *hits || *window > 64)
+  const std::optional<std::pair<int, int>> declare = fraction_of(text);
+  if (!declare || declare->first < 1 || declare->second < declare->first || declare->second > 64)
     return fail("--declare " + text, "must be M/N, as in 3/5: M of N frames, 1 <= M <= N <= 64", ErrorKind::usage);
-  policy.declare_hits = *hits;
-  policy.declare_window = *window;
+  std::tie(policy.declare_hits, policy.declare_window) = *declare;
   return {};
 }
 
@@ -70,7 +68,7 @@ Result<std::vector<PerformanceClip>> performance_clips(const PerformanceInputs& 
   if (inputs.detectors.size() != 1)
     return fail("--results", "performance is of one detector; name one folder or file of results for each clip",
                 ErrorKind::usage);
-  Result<std::vector<std::vector<DetectedClip>>> clips = clips_by_detector(inputs, options.format);
+  Result<std::vector<std::vector<DetectedClip>>> clips = clips_by_detector(inputs, options.sources.format);
   if (!clips) return fail(clips.error());
   std::vector<PerformanceClip> all;
   for (std::size_t i = 0; i < inputs.clips.size(); ++i) {
@@ -89,7 +87,7 @@ Result<std::vector<PerformanceClip>> performance_clips(const PerformanceInputs& 
 // Footage without intruders has no labels: its frames are what is known of it. Its results lie in the same folder.
 Result<void> add_empty_clips(const PerformanceInputs& options, std::vector<PerformanceClip>& clips) {
   if (options.empty.empty()) return {};
-  if (options.results.size() != 1 || !is_folder(options.results.front()))
+  if (options.sources.results.size() != 1 || !is_folder(options.sources.results.front()))
     return fail("--empty", "needs a folder of results, in which a file is called as the video", ErrorKind::usage);
   for (const fs::path& path : options.empty) {
     for (const PerformanceClip& clip : clips)
@@ -106,10 +104,10 @@ Result<void> add_empty_clips(const PerformanceInputs& options, std::vector<Perfo
                                 .frame_rate_num = info.frame_rate_num,
                                 .frame_rate_den = info.frame_rate_den}};
     truth.times_s = info.times_s;
-    const Result<fs::path> file = results_in(options.results.front(), path.stem().string());
+    const Result<fs::path> file = results_in(options.sources.results.front(), path.stem().string());
     if (!file) return fail(file.error());
     Result<Results> results =
-        read_results(*file, truth.footage, {.format = options.format, .multiple_per_frame = true});
+        read_results(*file, truth.footage, {.format = options.sources.format, .multiple_per_frame = true});
     if (!results) return fail(results.error());
     clips.push_back(
         {.detected = {.name = path.stem().string(), .truth = std::move(truth), .results = *std::move(results)}});
@@ -119,16 +117,15 @@ Result<void> add_empty_clips(const PerformanceInputs& options, std::vector<Perfo
 
 }  // namespace
 
-Result<DetectInputs> found_inputs(const PerformanceInputs& inputs) {
-  const Result<TruthOptions> truth = with_size(inputs.truth, inputs.size);
-  if (!truth) return fail(truth.error());
-  return detect_inputs(inputs.inputs, inputs.results, inputs.split, *truth);
+Result<Json> json_of_file(const fs::path& file) {
+  const Result<std::string> text = read_text(file);
+  return text ? parsed_json(*text, file.string(), ErrorKind::bad_data) : fail(text.error());
 }
 
 Result<ReadPerformance> read_performance(const PerformanceInputs& inputs) {
   ReadPerformance read{.policy = inputs.policy, .clips = {}, .observations = {}};
   if (const Result<void> declared = read_declare(inputs.declare, read.policy); !declared) return fail(declared.error());
-  const Result<DetectInputs> found = found_inputs(inputs);
+  const Result<DetectInputs> found = detect_inputs(inputs.sources);
   if (!found) return fail(found.error());
   Result<std::vector<PerformanceClip>> clips = performance_clips(inputs, *found);
   if (!clips) return fail(clips.error());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/json.h"
 #include "cli/detect_inputs.h"
 #include "performance/observations.h"
 
@@ -12,12 +13,7 @@ namespace sigs::cli {
 
 // What sigs evaluate performance and sigs risk read: labels with one detector's results, and what datasets know beyond.
 struct PerformanceInputs {
-  std::vector<std::filesystem::path> inputs;  // see detect_inputs()
-  std::vector<std::filesystem::path> results;
-  std::string split;
-  ResultsFormat format = ResultsFormat::automatic;
-  TruthOptions truth;
-  std::string size;
+  DetectSources sources;
   PerformancePolicy policy;
   std::string declare = "3/5";
   std::vector<std::filesystem::path> empty;  // videos without aircraft, whose results lie in the same folder
@@ -30,8 +26,10 @@ struct ReadPerformance {
   Observations observations;
 };
 
+// A JSON file. Errors: those of reading it, bad_data.
+[[nodiscard]] Result<Json> json_of_file(const std::filesystem::path& file);
+
 // Errors usage, cannot_read, bad_data.
-[[nodiscard]] Result<DetectInputs> found_inputs(const PerformanceInputs& inputs);
 [[nodiscard]] Result<ReadPerformance> read_performance(const PerformanceInputs& inputs);
 
 }  // namespace sigs::cli

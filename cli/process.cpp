@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "base/result.h"
 #include "base/text.h"
@@ -37,6 +38,13 @@ void on_signal(int signal) {
   if (!deferred) end_at_once(signal);
   if (!interrupted.exchange(true)) first_signal = signal;
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
+}
+
+constexpr int kBarWidth = 32;
+
+bool is_plain_terminal() {
+  const char* const term = std::getenv("TERM");
+  return term == nullptr || std::strcmp(term, "dumb") == 0;
 }
 
 }  // namespace
@@ -75,25 +83,9 @@ void prepare_mesa() {
   if (getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) setenv("LP_NUM_THREADS", "0", 0);
 }
 
-namespace {
-
-constexpr int kBarWidth = 32;
-
-bool is_plain_terminal() {
-  const char* const term = std::getenv("TERM");
-  return term == nullptr || std::strcmp(term, "dumb") == 0;
-}
-
-}  // namespace
-
-ProgressStyle progress_style(const std::string& name) {
-  if (name == "plain") return ProgressStyle::plain;
-  if (name == "json") return ProgressStyle::json;
-  return name == "none" ? ProgressStyle::none : ProgressStyle::automatic;
-}
-
-Progress::Progress(ProgressStyle style) : style_(style) {
-  bar_ = style == ProgressStyle::automatic && isatty(STDERR_FILENO) == 1 && !is_plain_terminal();
+Progress::Progress(std::string style) : style_(std::move(style)) {
+  const bool is_automatic = style_ != "plain" && style_ != "json" && style_ != "none";
+  bar_ = is_automatic && isatty(STDERR_FILENO) == 1 && !is_plain_terminal();
   color_ = bar_ && std::getenv("NO_COLOR") == nullptr;
 }
 
@@ -108,11 +100,11 @@ void Progress::update(int done, int total, const std::string& step) {
   const double left_s = elapsed_s * (total - done) / done;
   if (bar_) {
     draw_bar(done, total, elapsed_s, step);
-  } else if (style_ == ProgressStyle::plain && !step.empty()) {
+  } else if (style_ == "plain" && !step.empty()) {
     std::fprintf(stderr, "%d %%: %s\n", static_cast<int>(100LL * done / total), step.c_str());
-  } else if (style_ == ProgressStyle::plain) {
+  } else if (style_ == "plain") {
     std::fprintf(stderr, "frame %d of %d, %s left\n", done, total, clock_text(left_s).c_str());
-  } else if (style_ == ProgressStyle::json) {
+  } else if (style_ == "json") {
     std::fprintf(stderr, "{\"done\": %d, \"total\": %d, \"elapsed_s\": %.3f, \"left_s\": %.3f}\n", done, total,
                  elapsed_s, left_s);
   }

@@ -36,34 +36,27 @@ void defer_interrupts();
 // ever for those that it could not start.
 void prepare_mesa();
 
-// automatic as below; plain: lines of text; json: a JSON object a line; none: nothing.
-enum class ProgressStyle { automatic, plain, json, none };
-
-// "auto", "plain", "json", "none"; anything else counts as "auto".
-[[nodiscard]] ProgressStyle progress_style(const std::string& name);
-
 // Says on stderr how far a long job is and how long it still takes, at most ten times a second (bar) or once a second,
 // and at each step that begins.
-// automatic: a bar where stderr is a terminal, else nothing. NO_COLOR is respected. The clock starts with the object.
+// NO_COLOR is respected. The clock starts with the object.
 class Progress {
  public:
-  explicit Progress(ProgressStyle style);
+  // style  plain: lines of text; json: a JSON object a line; none: nothing; anything else: a bar where stderr is a
+  //        terminal, else nothing
+  explicit Progress(std::string style);
+  ~Progress() { end(); }
 
-  // Frames done and in all, 0 < done <= total. To be called from one thread at a time.
-  void update(int done, int total) { update(done, total, ""); }
+  // Frames done and in all, 0 < done <= total; of a job that consists of steps of different kinds parts of the whole,
+  // and the step that goes on, which is said in place of the count of frames. To be called from one thread at a time.
+  void update(int done, int total, const std::string& step = "");
 
-  // The same of a job that consists of steps of different kinds: parts of the whole, and the step that goes on, which
-  // is said in place of the count of frames.
-  void update(int done, int total, const std::string& step);
-
-  // Ends the bar's line, so that what follows begins on its own.
-  void end();
+  void end();  // ends the bar's line, so that what follows begins on its own
 
  private:
   using Clock = std::chrono::steady_clock;
   void draw_bar(int done, int total, double elapsed_s, const std::string& step);
 
-  ProgressStyle style_;
+  std::string style_;
   // A bar is drawn, in colour; its line is not ended yet.
   bool bar_ = false;
   bool color_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/program.h"
+#include "cli/commands.h"
 
 #include <sstream>
 #include <utility>
@@ -44,7 +44,24 @@ std::string footer_of(const std::string& command) {
   return text;
 }
 
+// With what it does, the last command that was added.
+AddedCommand added(CLI::App& program, Command (*add)(CLI::App&)) {
+  Command run = add(program);
+  return {program.get_subcommands({}).back(), std::move(run)};
+}
+
 }  // namespace
+
+Command add_below(CLI::App& command, std::initializer_list<Command (*)(CLI::App&)> below) {
+  command.require_subcommand(1);
+  std::vector<AddedCommand> commands;
+  for (const auto add : below) commands.push_back(added(command, add));
+  return [commands]() -> Result<void> {
+    for (const AddedCommand& one : commands)
+      if (one.app->parsed()) return one.run();
+    return {};
+  };
+}
 
 Program make_program() {
   Program program{std::make_unique<CLI::App>(
@@ -73,10 +90,9 @@ Program make_program() {
                          add_risk_command,
                          add_model_command,
                          add_rig_command}) {
-    Command run = add(*program.app);
-    CLI::App* const command = program.app->get_subcommands({}).back();
+    program.commands.push_back(added(*program.app, add));
+    CLI::App* const command = program.commands.back().app;
     if (command->get_footer() == kProgramFooter) command->footer(footer_of(command->get_name()));
-    program.commands.push_back({command, std::move(run)});
   }
   return program;
 }

@@ -8,10 +8,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "base/paths.h"
 #include "base/pose.h"
 #include "camera/rig_calibration.h"
 #include "cli/commands.h"
@@ -20,7 +20,6 @@
 #include "cli/process.h"
 #include "ego_motion/clock_sync.h"
 #include "ego_motion/project_motion.h"
-#include "project/json.h"
 #include "project/rig.h"
 #include "telemetry/read_track.h"
 
@@ -136,9 +135,7 @@ Result<void> run_rig_calibration(const RigCalibrationOptions& options) {
   if (!project) return fail(project.error());
   const Result<std::vector<std::size_t>> places = matched(*rig, *project, options.file);
   if (!places) return fail(places.error());
-  const fs::path beside =
-      canonical_name(options.file).lexically_relative(canonical_path(fs::absolute(options.into).parent_path()));
-  take(*rig, *places, beside.empty() ? canonical_name(options.file).string() : beside.generic_string(), *project);
+  take(*rig, *places, path_beside(options.file, options.into), *project);
   if (rig->cameras[1].clock_offset_s)
     std::fprintf(stderr,
                  "clocks are those that stamped the images of the calibration; footage whose times do not count from "
@@ -157,21 +154,17 @@ struct RigSyncOptions {
   std::string progress = "auto";
 };
 
-const std::vector<std::pair<std::string, ClockSource>>& source_words() {
-  static const std::vector<std::pair<std::string, ClockSource>> words{{"turns", ClockSource::turns},
-                                                                      {"sound", ClockSource::sound},
-                                                                      {"log", ClockSource::log},
-                                                                      {"timecode", ClockSource::time_code},
-                                                                      {"creation-time", ClockSource::creation_time}};
-  return words;
-}
+constexpr std::pair<std::string_view, ClockSource> kSourceWords[] = {{"turns", ClockSource::turns},
+                                                                     {"sound", ClockSource::sound},
+                                                                     {"log", ClockSource::log},
+                                                                     {"timecode", ClockSource::time_code},
+                                                                     {"creation-time", ClockSource::creation_time}};
 
 Result<std::vector<ClockSource>> sources_of(const std::vector<std::string>& words) {
   std::vector<ClockSource> sources;
   for (const std::string& word : words) {
-    const auto known =
-        std::find_if(source_words().begin(), source_words().end(), [&](const auto& one) { return one.first == word; });
-    if (known == source_words().end())
+    const auto known = std::ranges::find(kSourceWords, word, &std::pair<std::string_view, ClockSource>::first);
+    if (known == std::end(kSourceWords))
       return fail("--by " + word, "expected turns, sound, log, timecode or creation-time", ErrorKind::usage);
     sources.push_back(known->second);
   }
@@ -282,16 +275,13 @@ Result<void> run_rig_sync(const RigSyncOptions& options) {
   defer_interrupts();
   std::vector<KnownCamera> cameras;
   const int count = static_cast<int>(project->cameras.size());
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   for (int i = 0; i < count; ++i) {
     const EgoMotionControl control{
         .progress = [&, i](int done, int total) { progress.update(i * total + done, count * total); },
         .cancel = &interrupt_flag()};
     Result<KnownCamera> camera = known_camera(seen_by(*project, static_cast<std::size_t>(i)), *sources, control);
-    if (!camera) {
-      progress.end();
-      return fail(camera.error());
-    }
+    if (!camera) return fail(camera.error());
     cameras.push_back(*std::move(camera));
   }
   progress.end();
@@ -353,11 +343,8 @@ Command add_rig_sync(CLI::App& rig) {
 
 Command add_rig_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("rig", "calibrate and synchronise several cameras of one aircraft");
-  command->require_subcommand(1);
   command->footer(kRigFooter);
-  const Command calibration = add_rig_calibration(*command);
-  const Command sync = add_rig_sync(*command);
-  return [command, calibration, sync] { return command->got_subcommand("calibration") ? calibration() : sync(); };
+  return add_below(*command, {add_rig_calibration, add_rig_sync});
 }
 
 }  // namespace sigs::cli

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <memory>
 #include <mutex>
@@ -101,14 +99,10 @@ Result<void> read_pairs(const std::vector<fs::path>& files, std::vector<RiskPair
 // "2/4"
 Result<void> read_shard(const std::string& text, RiskSettings& settings) {
   if (text.empty()) return {};
-  const std::size_t slash = text.find('/');
-  const std::optional<int> shard = parsed_number<int>(text.substr(0, slash));
-  const std::optional<int> shards =
-      slash == std::string::npos ? std::nullopt : parsed_number<int>(text.substr(slash + 1));
-  if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > 100'000)
+  const std::optional<std::pair<int, int>> shard = fraction_of(text);
+  if (!shard || shard->first < 1 || shard->first > shard->second || shard->second > 100'000)
     return fail("--shard " + text, "must be I/N, as in 2/4: the second of four", ErrorKind::usage);
-  settings.shard = *shard;
-  settings.shards = *shards;
+  std::tie(settings.shard, settings.shards) = *shard;
   if (settings.until > 0)
     return fail("--shard", "and --until exclude each other: a shard does not know the others", ErrorKind::usage);
   return {};
@@ -121,7 +115,7 @@ Result<RiskSettings> settings_of(const RiskOptions& options) {
   settings.sensor = *std::move(sensor);
   RiskEncounters& encounters = settings.encounters;
   encounters.importance_sampling = !options.plain_sampling;
-  const bool has_images = !options.images.inputs.empty(), has_pairs = !options.pairs.empty();
+  const bool has_images = !options.images.sources.inputs.empty(), has_pairs = !options.pairs.empty();
   const bool is_drawn = !options.own.empty() || !options.intruders.empty() || !options.own_speed.empty() ||
                         !options.intruder_speed.empty();
   if ((has_images && has_pairs) || (is_drawn && (has_images || has_pairs)))
@@ -176,7 +170,7 @@ Result<Logic> logic_of(const RiskOptions& options) {
 }
 
 Result<RiskResult> flown(const RiskSettings& settings, const Logic& logic, const RiskOptions& options) {
-  Progress progress(progress_style(options.progress));
+  Progress progress(options.progress);
   std::mutex mutex;
   const auto total =
       static_cast<int>(std::min<std::int64_t>((settings.count + settings.shards - 1) / settings.shards, 2'000'000'000));
@@ -190,22 +184,11 @@ Result<RiskResult> flown(const RiskSettings& settings, const Logic& logic, const
   return result;
 }
 
-Result<void> write(OutputFiles& files, const RiskOptions& options, const Json& json) {
-  Result<void> step;
-  if (!options.json.empty()) step = files.write(options.json, json_text(json));
-  if (step && !options.plot.empty()) step = files.write(options.plot, image_of(risk_plot(json)));
-  if (!step) return step;
-  const Result<std::vector<fs::path>> written = files.commit();
-  return written ? Result<void>() : fail(written.error());
-}
-
 Result<Json> merged(const RiskOptions& options) {
   std::vector<RiskShard> shards;
   std::vector<std::string> names;
   for (const fs::path& file : options.merge) {
-    const Result<std::string> text = read_text(file);
-    if (!text) return fail(text.error());
-    const Result<Json> json = parsed_json(*text, file.string(), ErrorKind::bad_data);
+    const Result<Json> json = json_of_file(file);
     if (!json) return fail(json.error());
     Result<RiskShard> shard = risk_shard_of(*json, file.string());
     if (!shard) return fail(shard.error());
@@ -256,7 +239,7 @@ Result<void> run(const RiskOptions& options) {
   if (options.sensor.empty() == options.merge.empty())
     return fail("SENSOR", "name a sensor model, which sigs evaluate performance --out writes, or --merge shards",
                 ErrorKind::usage);
-  if (options.images.inputs.empty() != options.images.results.empty())
+  if (options.images.sources.inputs.empty() != options.images.sources.results.empty())
     return fail("--labels", "and --results go together", ErrorKind::usage);
   OutputFiles files(options.force);
   defer_interrupts();
@@ -269,7 +252,7 @@ Result<void> run(const RiskOptions& options) {
     if (!settings) return fail(settings.error());
     const Result<Logic> logic = logic_of(options);
     if (!logic) return fail(logic.error());
-    if (!options.images.inputs.empty()) {
+    if (!options.images.sources.inputs.empty()) {
       json = compared(options, *settings, *logic);
     } else {
       const Result<RiskResult> result = flown(*settings, *logic, options);
@@ -278,25 +261,22 @@ Result<void> run(const RiskOptions& options) {
     }
   }
   if (!json) return fail(json.error());
-  if (const Result<void> written = write(files, options, *json); !written) return written;
+  const Result<void> written =
+      files.write_and_commit({{options.json, [&] { return json_text(*json); }},
+                              {options.plot, [&] { return png_bytes(image_of(risk_plot(*json))); }}});
+  if (!written) return written;
   std::printf("%s", risk_text(*json).c_str());
   return {};
 }
 
 void add_encounter_options(CLI::App& command, RiskOptions& options) {
   RiskEncounters& encounters = options.settings.encounters;
-  command
-      .add_option("--intruder", options.intruders,
-                  "encounter models that intruders fly by, each as often; else straight")
-      ->option_text("FILE ...")
-      ->check(not_empty());
+  add_input(command, "--intruder", options.intruders,
+            "encounter models that intruders fly by, each as often; else straight", "FILE ...");
   add_input(command, "--own", options.own,
             "an encounter model that the own aircraft flies by; else straight and level");
-  command
-      .add_option("--pairs", options.pairs,
-                  "fly these pairs again and again: .daa, .txt or CSV, as sigs encounter reads")
-      ->option_text("FILE ...")
-      ->check(not_empty());
+  add_input(command, "--pairs", options.pairs,
+            "fly these pairs again and again: .daa, .txt or CSV, as sigs encounter reads", "FILE ...");
   for (const auto& [name, speeds, help] :
        {std::tuple("--own-speed", &options.own_speed,
                    "of straight flights, one or the lowest and the highest; else 25"),
@@ -309,7 +289,7 @@ void add_encounter_options(CLI::App& command, RiskOptions& options) {
   for (const auto& [name, value, most, help] :
        {std::tuple("--miss", &encounters.miss_m, 1e6, "horizontal offset at the closest approach, to both sides"),
         std::tuple("--vertical-miss", &encounters.vertical_miss_m, 1e5, "vertical offset, up and down")})
-    command.add_option(name, *value, help)->type_name("M")->capture_default_str()->check(from_to(0, most));
+    add_figure(command, name, *value, "M", 0, most, help);
   add_number(command, "--lead", encounters.lead_s, "S", 1, 3600, "whole seconds before the closest approach");
   add_number(command, "--after", encounters.after_s, "S", 0, 3600, "whole seconds after it");
   command.add_flag("--plain-sampling", options.plain_sampling, "small misses are not drawn more often");
@@ -329,20 +309,13 @@ void add_manoeuvre_options(CLI::App& command, RiskOptions& options) {
         std::tuple("--acceleration", &manoeuvre.acceleration_mps2, "MPS2", "of slow-down and speed-up"),
         std::tuple("--min-speed", &manoeuvre.min_speed_mps, "MPS", "of slow-down"),
         std::tuple("--max-speed", &manoeuvre.max_speed_mps, "MPS", "of speed-up")})
-    command.add_option(name, *value, help)->type_name(unit)->capture_default_str()->check(from_to(0, 1e6));
-  command.add_option("--height-change", manoeuvre.height_change_m, "after which it flies level; else never")
-      ->option_text("M")
-      ->check(from_to(0, 1e6));
-  command
-      .add_option("--alert-range", options.settings.alert_range_m,
-                  "a track declared farther away waits; else none does")
-      ->option_text("M")
-      ->check(from_to(0, 1e9));
-  command
-      .add_option("--alert-rate", options.alert_rate_deg_s,
-                  "a track whose line of sight turns faster waits; else none does: a collision course does not turn")
-      ->option_text("DEG_S")
-      ->check(from_to(0, 1e6));
+    add_figure(command, name, *value, unit, 0, 1e6, help);
+  add_range(command, "--height-change", manoeuvre.height_change_m, "M", 0, 1e6,
+            "after which it flies level; else never");
+  add_range(command, "--alert-range", options.settings.alert_range_m, "M", 0, 1e9,
+            "a track declared farther away waits; else none does");
+  add_range(command, "--alert-rate", options.alert_rate_deg_s, "DEG_S", 0, 1e6,
+            "a track whose line of sight turns faster waits; else none does: a collision course does not turn");
   add_input(command, "--logic", options.logic, "a table of rules that decides instead: bearing_min_deg, ..., manoeuvre",
             "CSV");
   command
@@ -366,27 +339,16 @@ Command add_risk_command(CLI::App& program) {
       ->capture_default_str();
   add_number(*command, "--count", options->settings.count, "N", std::int64_t{1}, std::int64_t{1'000'000'000},
              "encounters at most");
-  command
-      ->add_option("--until", options->settings.until,
-                   "stop when half the 95 % interval of the NMAC ratio is within this share of it; 0: fly all")
-      ->type_name("SHARE")
-      ->capture_default_str()
-      ->check(from_to(0, 1));
+  add_figure(*command, "--until", options->settings.until, "SHARE", 0, 1,
+             "stop when half the 95 % interval of the NMAC ratio is within this share of it; 0: fly all");
   add_number(*command, "--seed", options->settings.seed, "S", std::uint64_t{0},
              std::numeric_limits<std::uint64_t>::max(), "the same seed gives the same encounters");
-  command
-      ->add_option("--labels", options->images.inputs,
-                   "compare with images: labels or a dataset, whose encounters are flown")
-      ->option_text("FILES|DIR")
-      ->check(not_empty());
-  command->add_option("--results", options->images.results, "of the detector on these images")
-      ->option_text("FILES|DIR")
-      ->check(not_empty());
-  command->add_option("--split", options->images.split, "of the dataset")->option_text("NAME");
+  add_input(*command, "--labels", options->images.sources.inputs,
+            "compare with images: labels or a dataset, whose encounters are flown", "FILES|DIR");
+  add_input(*command, "--results", options->images.sources.results, "of the detector on these images", "FILES|DIR");
+  command->add_option("--split", options->images.sources.split, "of the dataset")->option_text("NAME");
   command->add_option("--shard", options->shard, "only these of the encounters")->option_text("I/N");
-  command->add_option("--merge", options->merge, "results of all shards, instead of SENSOR")
-      ->option_text("FILES ...")
-      ->check(not_empty());
+  add_input(*command, "--merge", options->merge, "results of all shards, instead of SENSOR", "FILES ...");
   add_number(*command, "--jobs", options->jobs, "N", 0, 1024, "threads; 0: as many as there are cores");
   add_output(*command, "--json", options->json, "write all figures and settings");
   add_output(*command, "--plot", options->plot, "draw the ratios by class; a PNG");

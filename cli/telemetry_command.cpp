@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/commands.h"
@@ -34,17 +33,11 @@ struct TelemetryOptions {
   bool force = false;
 };
 
-Result<void> write(OutputFiles& files, const Track& track, const TelemetryOptions& options) {
-  if (!options.csv.empty())
-    if (const Result<void> done = files.write(options.csv, track_csv_text(track)); !done) return done;
-  if (!options.plot.empty()) {
-    const cv::Mat image = track_plot(track);
-    if (image.empty())
-      return fail(track.file.string(), "there is no attitude, rate or place in it that --plot could draw");
-    if (const Result<void> done = files.write(options.plot, image); !done) return done;
-  }
-  const Result<std::vector<fs::path>> written = files.commit();
-  return written ? Result<void>() : fail(written.error());
+Result<std::string> plot_of(const Track& track) {
+  const cv::Mat image = track_plot(track);
+  if (image.empty())
+    return fail(track.file.string(), "there is no attitude, rate or place in it that --plot could draw");
+  return png_bytes(image);
 }
 
 Result<void> run(const TelemetryOptions& options) {
@@ -56,7 +49,9 @@ Result<void> run(const TelemetryOptions& options) {
   const Result<Track> track = read_track(options.file, {.cancel = &interrupt_flag()});
   if (!track) return fail(track.error());
   for (const Warning& warning : track->warnings) print_warning(warning);
-  if (const Result<void> written = write(files, *track, options); !written) return written;
+  const Result<void> written = files.write_and_commit(
+      {{options.csv, [&] { return track_csv_text(*track); }}, {options.plot, [&] { return plot_of(*track); }}});
+  if (!written) return written;
   std::fputs(track_report_text(*track, options.gaps).c_str(), stdout);
   return {};
 }

@@ -26,6 +26,7 @@
 #include "evaluation/readers/truth_files.h"
 #include "export/frame_stream.h"
 #include "labels/labels.h"
+#include "video/frame_source.h"
 
 namespace sigs::cli {
 
@@ -68,72 +69,6 @@ Result<std::vector<fs::path>> images_by_number(const fs::path& folder, ImageName
   return paths;
 }
 
-}  // namespace
-
-Result<fs::path> LabelledImages::beside(const fs::path& labels) {
-  std::vector<fs::path> found;
-  std::error_code code;
-  for (const char* const extension : {".mkv", ".mp4", ".mov", ".avi", ".nut", ".y4m", ""})
-    if (const fs::path path = fs::path(labels).replace_extension(extension); fs::exists(path, code))
-      found.push_back(path);
-  if (found.empty())
-    return fail(
-        labels.string(),
-        fmt::format(
-            "has neither {}.mkv, .mp4, .mov, .avi, .nut, .y4m nor a folder {} beside it; name its images with --video",
-            labels.stem().string(), labels.stem().string()),
-        ErrorKind::cannot_read);
-  if (found.size() > 1)
-    return fail(labels.string(),
-                fmt::format("has both {} and {} beside it; choose with --video", found[0].filename().string(),
-                            found[1].filename().string()),
-                ErrorKind::cannot_read);
-  return found.front();
-}
-
-Result<LabelledImages> LabelledImages::open(const fs::path& path, const ClipTruth& clip, ImageNames names) {
-  LabelledImages images(path, clip.footage);
-  if (is_folder(path)) {
-    Result<std::vector<fs::path>> files = images_by_number(path, names);
-    if (!files) return fail(files.error());
-    if (const Result<void> fits = check_count(path, static_cast<int>(files->size()), clip); !fits)
-      return fail(fits.error());
-    for (int frame = clip.footage.first_frame; frame <= clip.footage.last_frame && names == ImageNames::by_frame;
-         ++frame)
-      (*files)[static_cast<std::size_t>(frame - clip.footage.first_frame)] =
-          path / image_name(frame, files->front().extension().string());
-    images.files_ = std::move(*files);
-    const Result<cv::Mat> first = images.at(clip.footage.first_frame);
-    if (!first) return fail(first.error());
-    images.footage_.size_px = first->size();  // of all others too, where the labels state none
-    return images;
-  }
-  Result<FrameSource> video = FrameSource::open(path, &interrupt_flag());
-  if (!video) return fail(video.error());
-  Result<void> fits = check_size(path, video->info().size_px, clip.footage);
-  if (fits) fits = check_count(path, video->info().frame_count(), clip);
-  if (!fits) return fail(fits.error());
-  images.video_ = std::move(*video);
-  return images;
-}
-
-Result<cv::Mat> LabelledImages::at(int frame) {
-  if (video_) {
-    const Result<Frame> image = video_->read(frame - footage_.first_frame);
-    if (!image) return fail(image.error());
-    return bgr_of(*image);
-  }
-  const fs::path& file = files_[static_cast<std::size_t>(frame - footage_.first_frame)];
-  Result<cv::Mat> image = read_image_file(file, cv::IMREAD_COLOR);
-  if (!image) return fail(image.error());
-  if (const Result<void> fits = check_size(file, image->size(), footage_); !fits) return fail(fits.error());
-  return image;
-}
-
-namespace fs = std::filesystem;
-
-namespace {
-
 // Which intruder is tracked. Names are those of the clip's, in their order.
 Result<int> target_of(const TrackRequest& request, const std::vector<std::string>& names) {
   const std::string file = request.input.file.string();
@@ -149,21 +84,12 @@ Result<int> target_of(const TrackRequest& request, const std::vector<std::string
   return fail(file, fmt::format("has {} intruders; choose with --intruder: {}", count, there), ErrorKind::usage);
 }
 
-const Box& start_box(const TargetFrame& frame, TruthBox truth) {
-  return truth == TruthBox::visible ? *frame.visible : *frame.amodal_box;
-}
-
 // Passes the next image to the trackers. They start in the first frame in which the target can be tracked.
 void track_frame(TrackerGroup& group, TrackedClip& clip, int frame, const cv::Mat& image, const TrackRequest& request) {
   if (group.is_started()) return group.follow(frame, image);
   const TargetTruth& target = clip.truth.targets[static_cast<std::size_t>(clip.target)];
   const TargetFrame& here = target.frames[static_cast<std::size_t>(frame - clip.truth.footage.first_frame)];
-  group.start(frame, image, start_box(here, request.policy.truth));
-}
-
-std::optional<TrackPolicy> started(const TrackRequest& request, const TrackedClip& clip) {
-  return policy_from_start(clip.truth, clip.truth.targets[static_cast<std::size_t>(clip.target)], request.policy,
-                           request.min_side_px);
+  group.start(frame, image, request.policy.truth == TruthBox::visible ? *here.visible : *here.amodal_box);
 }
 
 Error never_trackable(const TrackRequest& request, const TrackedClip& clip, const fs::path& file) {
@@ -183,7 +109,7 @@ Result<TrackedClip> checked_start(const TrackRequest& request, TrackedClip clip)
 }
 
 Result<TrackedClip> finished(const TrackRequest& request, TrackedClip clip, const TrackerGroup& group) {
-  const std::optional<TrackPolicy> policy = started(request, clip);
+  const std::optional<TrackPolicy> policy = started_policy(request, clip.truth, clip.target);
   if (!policy) return fail(never_trackable(request, clip, request.input.file));
   clip.policy = *policy;
   clip.results = group.results();
@@ -223,11 +149,11 @@ Result<TrackedClip> tracked_project(const TrackRequest& request, TrackerGroup gr
   for (const Warning& warning : clip->warnings()) print_warning(warning);
   TrackedClip tracked{.name = project->name, .truth = {.footage = clip->footage()}, .target = *target};
   const int total = clip->footage().last_frame - clip->footage().first_frame + 1;
-  Progress progress(progress_style(request.progress));
+  Progress progress(request.progress);
   const Result<int> damaged = clip->show(request.jobs, [&](const StreamFrame& frame) -> Result<void> {
     if (const Result<void> on = check_interrupt(&interrupt_flag()); !on) return on;
     if (const Result<void> added = add_frame(tracked.truth, frame.truth); !added) return added;
-    if (!request.trackers.empty() && (group.is_started() || started(request, tracked)))
+    if (!request.trackers.empty() && (group.is_started() || started_policy(request, tracked.truth, tracked.target)))
       track_frame(group, tracked, frame.truth.index, frame.image, request);
     progress.update(tracked.truth.frames(), total);
     return {};
@@ -248,7 +174,7 @@ Result<TrackedClip> tracked_labels(const TrackRequest& request, TrackerGroup gro
   for (const TargetTruth& target : input->truth.targets) names.push_back(target.name);
   const Result<int> target = target_of(request, names);
   if (!target) return fail(target.error());
-  Progress progress(progress_style(request.progress));
+  Progress progress(request.progress);
   Result<TrackedClip> clip = tracked_input(request, *input, *target, std::move(group), [&](int done, int total) {
     progress.update(done, total);
     return true;
@@ -258,34 +184,80 @@ Result<TrackedClip> tracked_labels(const TrackRequest& request, TrackerGroup gro
   return checked_start(request, std::move(*clip));
 }
 
-}  // namespace
-
-Result<TrackInput> read_track_input(const TrackRequest& request, const fs::path& path) {
-  if (!request.input.settings.empty()) return fail("--set", "goes with a project, not with labels", ErrorKind::usage);
-  if (request.frames) return fail("--frames", "goes with a project; labels have their own", ErrorKind::usage);
-  if (!is_sequence_folder(path)) {
-    Result<ClipTruth> truth = read_truth(path);
-    if (!truth) return fail(truth.error());
-    return TrackInput{.name = path.stem().string(), .labels = path, .truth = std::move(*truth)};
+// The images that labels belong to: an exported video, or a folder of images.
+class LabelledImages {
+ public:
+  // Error bad_data where number or size of the images are not those of the labels. A size that the labels do not state
+  // is not compared.
+  static Result<LabelledImages> open(const fs::path& path, const ClipTruth& clip, ImageNames names) {
+    LabelledImages images(clip.footage);
+    if (is_folder(path)) {
+      Result<std::vector<fs::path>> files = images_by_number(path, names);
+      if (!files) return fail(files.error());
+      if (const Result<void> fits = check_count(path, static_cast<int>(files->size()), clip); !fits)
+        return fail(fits.error());
+      for (int frame = clip.footage.first_frame; frame <= clip.footage.last_frame && names == ImageNames::by_frame;
+           ++frame)
+        (*files)[static_cast<std::size_t>(frame - clip.footage.first_frame)] =
+            path / image_name(frame, files->front().extension().string());
+      images.files_ = std::move(*files);
+      const Result<cv::Mat> first = images.at(clip.footage.first_frame);
+      if (!first) return fail(first.error());
+      images.footage_.size_px = first->size();  // of all others too, where the labels state none
+      return images;
+    }
+    Result<FrameSource> video = FrameSource::open(path, &interrupt_flag());
+    if (!video) return fail(video.error());
+    Result<void> fits = check_size(path, video->info().size_px, clip.footage);
+    if (fits) fits = check_count(path, video->info().frame_count(), clip);
+    if (!fits) return fail(fits.error());
+    images.video_ = std::move(*video);
+    return images;
   }
-  if (request.policy.truth == TruthBox::amodal)
-    return fail("--truth silhouette", "the truth of " + path.string() + " has one box, of what can be seen",
-                ErrorKind::usage);
-  Result<SequenceTruth> sequence = read_sequence_truth(path);
-  if (!sequence) return fail(sequence.error());
-  return TrackInput{.name = sequence->name,
-                    .labels = path,
-                    .truth = std::move(sequence->truth),
-                    .images = sequence->images,
-                    .image_names = ImageNames::in_order};
-}
 
-std::optional<TrackPolicy> started_policy(const TrackRequest& request, const TrackInput& input, int target) {
-  return policy_from_start(input.truth, input.truth.targets[static_cast<std::size_t>(target)], request.policy,
-                           request.min_side_px);
-}
+  // The image of a frame, by the footage's number; CV_8UC3, BGR.
+  Result<cv::Mat> at(int frame) {
+    if (video_) {
+      const Result<Frame> image = video_->read(frame - footage_.first_frame);
+      if (!image) return fail(image.error());
+      return bgr_of(*image);
+    }
+    const fs::path& file = files_[static_cast<std::size_t>(frame - footage_.first_frame)];
+    Result<cv::Mat> image = read_image_file(file, cv::IMREAD_COLOR);
+    if (!image) return fail(image.error());
+    if (const Result<void> fits = check_size(file, image->size(), footage_); !fits) return fail(fits.error());
+    return image;
+  }
 
-namespace {
+ private:
+  explicit LabelledImages(const FootageTruth& footage) : footage_(footage) {}
+
+  FootageTruth footage_;
+  std::vector<fs::path> files_;       // of a folder, one for each frame
+  std::optional<FrameSource> video_;  // none: a folder
+};
+
+// Beside NAME.xml: NAME.mkv, .mp4, .avi or the folder NAME. Error cannot_read: there is none, or more than one.
+Result<fs::path> images_beside(const fs::path& labels) {
+  std::vector<fs::path> found;
+  std::error_code code;
+  for (const char* const extension : {".mkv", ".mp4", ".mov", ".avi", ".nut", ".y4m", ""})
+    if (const fs::path path = fs::path(labels).replace_extension(extension); fs::exists(path, code))
+      found.push_back(path);
+  if (found.empty())
+    return fail(
+        labels.string(),
+        fmt::format(
+            "has neither {}.mkv, .mp4, .mov, .avi, .nut, .y4m nor a folder {} beside it; name its images with --video",
+            labels.stem().string(), labels.stem().string()),
+        ErrorKind::cannot_read);
+  if (found.size() > 1)
+    return fail(labels.string(),
+                fmt::format("has both {} and {} beside it; choose with --video", found[0].filename().string(),
+                            found[1].filename().string()),
+                ErrorKind::cannot_read);
+  return found.front();
+}
 
 Result<LabelledImages> images_of(const TrackRequest& request, const TrackInput& input) {
   Result<fs::path> path = request.video.empty() ? input.images : request.video;
@@ -293,7 +265,7 @@ Result<LabelledImages> images_of(const TrackRequest& request, const TrackInput& 
     return fail(input.labels.string(),
                 "has neither images (img/, color/ or its own) nor a video; name them with --video",
                 ErrorKind::cannot_read);
-  if (path->empty()) path = LabelledImages::beside(input.labels);
+  if (path->empty()) path = images_beside(input.labels);
   if (!path) return fail(path.error());
   return LabelledImages::open(*path, input.truth, input.image_names);
 }
@@ -318,10 +290,34 @@ Result<void> track_images(const TrackRequest& request, const TrackInput& input, 
 
 }  // namespace
 
+Result<TrackInput> read_track_input(const TrackRequest& request, const fs::path& path) {
+  if (!request.input.settings.empty()) return fail("--set", "goes with a project, not with labels", ErrorKind::usage);
+  if (request.frames) return fail("--frames", "goes with a project; labels have their own", ErrorKind::usage);
+  if (!is_sequence_folder(path)) {
+    Result<ClipTruth> truth = read_truth(path);
+    if (!truth) return fail(truth.error());
+    return TrackInput{.name = path.stem().string(), .labels = path, .truth = std::move(*truth)};
+  }
+  if (request.policy.truth == TruthBox::amodal)
+    return fail("--truth silhouette", "the truth of " + path.string() + " has one box, of what can be seen",
+                ErrorKind::usage);
+  Result<SequenceTruth> sequence = read_sequence_truth(path);
+  if (!sequence) return fail(sequence.error());
+  return TrackInput{.name = sequence->name,
+                    .labels = path,
+                    .truth = std::move(sequence->truth),
+                    .images = sequence->images,
+                    .image_names = ImageNames::in_order};
+}
+
+std::optional<TrackPolicy> started_policy(const TrackRequest& request, const ClipTruth& truth, int target) {
+  return policy_from_start(truth, truth.targets[static_cast<std::size_t>(target)], request.policy, request.min_side_px);
+}
+
 Result<TrackedClip> tracked_input(const TrackRequest& request, const TrackInput& input, int target, TrackerGroup group,
                                   const FrameCounter& on_frame) {
   TrackedClip clip{.name = input.name, .truth = input.truth, .target = target};
-  const std::optional<TrackPolicy> policy = started_policy(request, input, target);
+  const std::optional<TrackPolicy> policy = started_policy(request, input.truth, target);
   if (!policy) return fail(never_trackable(request, clip, input.labels));
   clip.policy = *policy;
   if (!request.trackers.empty())

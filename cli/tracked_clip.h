@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "evaluation/opencv_tracker.h"
 #include "evaluation/readers/clip_truth.h"
 #include "evaluation/readers/results.h"
-#include "video/frame_source.h"
 
 namespace sigs::cli {
 
@@ -22,49 +20,19 @@ namespace sigs::cli {
 // order of the numbers at the end of their names.
 enum class ImageNames { by_frame, in_order };
 
-// The images that labels belong to: an exported video, or a folder of images.
-class LabelledImages {
- public:
-  // Beside NAME.xml: NAME.mkv, .mp4, .avi or the folder NAME. Error cannot_read: there is none, or more than one.
-  [[nodiscard]] static Result<std::filesystem::path> beside(const std::filesystem::path& labels);
-
-  // Error bad_data where number or size of the images are not those of the labels. A size that the labels do not state
-  // is not compared.
-  [[nodiscard]] static Result<LabelledImages> open(const std::filesystem::path& path, const ClipTruth& clip,
-                                                   ImageNames names = ImageNames::by_frame);
-
-  // The image of a frame, by the footage's number; CV_8UC3, BGR.
-  [[nodiscard]] Result<cv::Mat> at(int frame);
-
- private:
-  LabelledImages(std::filesystem::path path, FootageTruth footage) : path_(std::move(path)), footage_(footage) {}
-
-  std::filesystem::path path_;
-  FootageTruth footage_;
-  std::vector<std::filesystem::path> files_;  // of a folder, one for each frame
-  std::optional<FrameSource> video_;          // none: path_ is a folder
-};
-
 // What `sigs evaluate track` was asked for.
 struct TrackRequest {
-  // A project or, by its name, a label file, or the folder of an otb or vot sequence.
-  ProjectOptions input;
-  // Names of OpenCV's trackers that are to run; may be empty.
-  std::vector<std::string> trackers;
-  // Files with results of other trackers, and their format.
-  std::vector<std::filesystem::path> results;
+  ProjectOptions input;  // a project or, by its name, a label file, or the folder of an otb or vot sequence
+  std::vector<std::string> trackers;           // names of OpenCV's trackers that are to run; may be empty
+  std::vector<std::filesystem::path> results;  // files with results of other trackers, in this format
   ResultsFormat format = ResultsFormat::automatic;
-  // Index of the intruder that is followed; none: the only one.
-  std::optional<int> intruder;
+  std::optional<int> intruder;  // index of the one that is followed; none: the only one
   TrackPolicy policy;
   // Trackers start in the first frame in which the visible box has sides of at least this length.
   double min_side_px = kMinSide_px;
-  // The images of a label file; empty: what lies beside the labels.
-  std::filesystem::path video;
-  // Of a project, in place of its own range.
-  std::optional<FrameRange> frames;
-  // Frames composed in parallel.
-  int jobs = 1;
+  std::filesystem::path video;       // the images of a label file; empty: what lies beside the labels
+  std::optional<FrameRange> frames;  // of a project, in place of its own range
+  int jobs = 1;                      // frames composed in parallel
   std::string progress = "auto";
 };
 
@@ -72,8 +40,7 @@ struct TrackRequest {
 struct TrackedClip {
   std::string name;
   ClipTruth truth;
-  // Index in truth.targets of the intruder that is followed.
-  int target = 0;
+  int target = 0;      // index in truth.targets of the intruder that is followed
   TrackPolicy policy;  // as asked for, from the frame where trackers start
   std::vector<Results> results;
   std::vector<std::string> remarks;
@@ -82,11 +49,9 @@ struct TrackedClip {
 // Labels that trackers can be run on.
 struct TrackInput {
   std::string name;
-  // NAME.xml, or the folder of a sequence.
-  std::filesystem::path labels;
+  std::filesystem::path labels;  // NAME.xml, or the folder of a sequence
   ClipTruth truth;
-  // Empty: beside NAME.xml, if images are wanted.
-  std::filesystem::path images;
+  std::filesystem::path images;  // empty: beside NAME.xml, if images are wanted
   ImageNames image_names = ImageNames::by_frame;
 };
 
@@ -96,8 +61,8 @@ using FrameCounter = std::function<bool(int done, int total)>;
 // Reads the truth of NAME.xml or of an otb or vot folder. Errors: as the readers; settings that go with a project.
 [[nodiscard]] Result<TrackInput> read_track_input(const TrackRequest& request, const std::filesystem::path& path);
 
-// The policy of a target of the input with the frame in which trackers start; nullopt: they cannot be started.
-[[nodiscard]] std::optional<TrackPolicy> started_policy(const TrackRequest& request, const TrackInput& input,
+// The policy of a target with the frame in which trackers start; nullopt: they cannot be started.
+[[nodiscard]] std::optional<TrackPolicy> started_policy(const TrackRequest& request, const ClipTruth& truth,
                                                         int target);
 
 // Runs trackers on one target. Those that cannot be started are missing in the results. Errors: nothing to follow,

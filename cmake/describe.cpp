@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/describe/command_facts.h"
-#include "cli/program.h"
+#include "cli/commands.h"
 #include "editor/app/command_line.h"
 
 // Writes the man pages and the completion of sigs and sigs-editor into a folder: man/, bash/, zsh/.

@@ -2,7 +2,6 @@
 #include "cli/describe/command_facts.h"
 
 #include <algorithm>
-#include <optional>
 #include <sstream>
 #include <string_view>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/text.h"
 #include "cli/describe/command_facts.h"
 
@@ -84,26 +86,9 @@ std::string option_cases(const CommandFacts& command) {
 
 std::string function_name(const std::string& command) {
   std::string name = "_" + command;
-  for (char& c : name)
-    if (c == '-' || c == ' ') c = '_';
+  for (const char c : {'-', ' '}) std::ranges::replace(name, c, '_');
   return name;
 }
-
-}  // namespace
-
-std::string bash_completion(const CommandFacts& program) {
-  const std::string function = function_name(program.name);
-  std::string text =
-      fmt::format("# Completion of {} for bash; made from the program's own descriptions.\n", program.name);
-  text += fmt::format("{}() {{", function) + kBegin + fmt::format("  command='{}'\n", program.name);
-  if (!program.commands.empty())
-    text += "  for ((i = 1; i < COMP_CWORD; ++i)); do\n    case \"$command:${COMP_WORDS[i]}\" in\n" +
-            command_cases(program) + "    esac\n  done\n";
-  text += "  case $command in\n" + option_cases(program) + "  esac" + kEnd;
-  return text + fmt::format("complete -F {} {}\n", function, program.name);
-}
-
-namespace {
 
 // Within single quotes and the brackets of _arguments.
 std::string quoted(const std::string& text) {
@@ -160,6 +145,18 @@ std::string function_of(const CommandFacts& command) {
 }
 
 }  // namespace
+
+std::string bash_completion(const CommandFacts& program) {
+  const std::string function = function_name(program.name);
+  std::string text =
+      fmt::format("# Completion of {} for bash; made from the program's own descriptions.\n", program.name);
+  text += fmt::format("{}() {{", function) + kBegin + fmt::format("  command='{}'\n", program.name);
+  if (!program.commands.empty())
+    text += "  for ((i = 1; i < COMP_CWORD; ++i)); do\n    case \"$command:${COMP_WORDS[i]}\" in\n" +
+            command_cases(program) + "    esac\n  done\n";
+  text += "  case $command in\n" + option_cases(program) + "  esac" + kEnd;
+  return text + fmt::format("complete -F {} {}\n", function, program.name);
+}
 
 std::string zsh_completion(const CommandFacts& program) {
   return fmt::format("#compdef {}\n# Completion for zsh; made from the program's own descriptions.\n\n", program.name) +

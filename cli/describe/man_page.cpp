@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace sigs::cli {
 
@@ -17,20 +19,12 @@ std::string page_name(const std::string& command) {
 
 // roff gives backslashes, hyphens, and dots and quotes at the start of a line a meaning of their own.
 std::string roff(const std::string& text) {
+  constexpr std::pair<char, const char*> kEscapes[] = {
+      {'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'^', "\\(ha"}, {'~', "\\(ti"}};
   std::string escaped;
   for (const char c : text) {
-    if (c == '\\')
-      escaped += "\\e";
-    else if (c == '-')
-      escaped += "\\-";
-    else if (c == '\'')
-      escaped += "\\(aq";
-    else if (c == '^')
-      escaped += "\\(ha";
-    else if (c == '~')
-      escaped += "\\(ti";
-    else
-      escaped += c;
+    const auto special = std::ranges::find(kEscapes, c, &std::pair<char, const char*>::first);
+    escaped += special == std::end(kEscapes) ? std::string(1, c) : special->second;
   }
   return escaped.starts_with('.') ? "\\&" + escaped : escaped;
 }

@@ -4,7 +4,6 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -15,7 +14,6 @@
 #include "base/statistics.h"
 #include "editor/views/waypoint_actions.h"
 #include "editor/widgets/dialog.h"
-#include "project/json.h"
 
 namespace sigs::editor {
 
@@ -37,12 +35,6 @@ nlohmann::json input_of(const ImGuiIO& io, int released_keys) {
 
 constexpr double kIdle_s = 0.25;     // between updates while nothing happens
 constexpr int kUpdatesToSettle = 3;  // ImGui needs some updates to show all that an event leads to
-
-std::vector<HelpLine> help_lines() {
-  std::vector<HelpLine> lines;
-  for (const Shortcut& shortcut : shortcuts()) lines.push_back({shortcut.group, shortcut.keys, shortcut.what});
-  return lines;
-}
 
 // Readers find the whole of the old or the new text. It need not be on the disk: nobody reads it after a crash, and
 // waiting for the disk in every update would slow down what is watched.
@@ -72,8 +64,7 @@ int ProbeWriter::composites_shown(const std::shared_ptr<const PreviewImage>& ima
   const bool is_same = !image_.owner_before(image) && !image.owner_before(image_);
   if (image && !is_same) {
     ++composites_;
-    const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
-    shown_at_s_.push_back(std::chrono::duration<double>(since_boot).count());
+    shown_at_s_.push_back(steady_now_s());
     if (shown_at_s_.size() > 201) shown_at_s_.pop_front();
   }
   image_ = image;
@@ -150,10 +141,6 @@ void App::keep_mask_then(std::function<void()> next) {
   });
 }
 
-void App::open(const std::filesystem::path& path) {
-  shell_.handle(OpenProject{path});
-}
-
 double App::wait_timeout_s() const {
   if (playback_.playing() || redraw_updates_left_ > 0) return 0;
   return shell_.needs_redraw() ? 0.1 : kIdle_s;
@@ -174,10 +161,6 @@ void App::ask_preview() {
   preview_.want(
       document_,
       {.active = active, .all_images = needs_.all_cameras, .only_active = ImGui::IsMouseDown(ImGuiMouseButton_Left)});
-}
-
-PreviewOutput App::active_of(const std::vector<PreviewOutput>& rig) const {
-  return rig[std::min(document_.active_camera(), rig.size() - 1)];
 }
 
 void App::advance(const PreviewOutput& shown) {
@@ -342,7 +325,7 @@ void App::update(double now_s, bool something_happened) {
   redraw_updates_left_ = something_happened ? kUpdatesToSettle : std::max(0, redraw_updates_left_ - 1);
   count_updates();
   const std::vector<PreviewOutput>& rig = preview_.shown(document_);
-  const PreviewOutput shown = active_of(rig);
+  const PreviewOutput shown = rig[std::min(document_.active_camera(), rig.size() - 1)];
   if (shown.scene)
     document_.set_frame_count(static_cast<int>(counted_frames(shown.scene->draft.scene).footage.times_s.size()));
   advance(shown);

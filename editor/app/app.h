@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -26,15 +25,9 @@
 
 namespace sigs::editor {
 
-// A key and what it does, for the help page: what handle_keys follows, and below that what views take themselves while
-// the mouse is over them.
-struct Shortcut {
-  const char* group;
-  const char* keys;
-  const char* what;
-};
-// In the order of the help page; lines of one group follow each other. The texts are literals.
-[[nodiscard]] std::span<const Shortcut> shortcuts();
+// What the keys do, for the help page, by groups: what handle_keys follows, and below that what views take themselves
+// while the mouse is over them.
+[[nodiscard]] std::vector<HelpLine> help_lines();
 
 // Asks for what the keys pressed in this update mean. Not while text is typed or a dialog is open; while the mouse
 // holds something only those that go and play; without a project those of the program alone.
@@ -74,7 +67,6 @@ class ProbeWriter {
   [[nodiscard]] bool is_at_rest(const nlohmann::json& input, bool has_input_left);
   // How many composited frames were shown so far, with the one of this update.
   [[nodiscard]] int composites_shown(const std::shared_ptr<const PreviewImage>& image);
-
   [[nodiscard]] std::vector<double> intervals_ms() const;
 
   std::filesystem::path file_;
@@ -82,9 +74,8 @@ class ProbeWriter {
   std::string last_;
   int update_ = 0;
   nlohmann::json last_input_;
-  int turns_to_rest_ = 0;  // updates until it is at rest
-  // Of the update before; holds no image.
-  std::weak_ptr<const PreviewImage> image_;
+  int turns_to_rest_ = 0;                    // updates until it is at rest
+  std::weak_ptr<const PreviewImage> image_;  // of the update before; holds no image
   int composites_ = 0;
   std::deque<double> shown_at_s_;  // when the last of them were shown
 };
@@ -98,7 +89,7 @@ class App {
   App(Window& window, Settings settings, ProbeWriter probe);
 
   // Opens a project; the start page is shown until it is read. Errors are shown in the window.
-  void open(const std::filesystem::path& path);
+  void open(const std::filesystem::path& path) { shell_.handle(OpenProject{path}); }
 
   // One update of the loop: draws everything, then lets the document apply the edits and the program handle the
   // requests that the views queued, then asks the preview for what is to be shown next. Nothing here waits for the
@@ -114,12 +105,8 @@ class App {
   [[nodiscard]] bool plays() const { return playback_.playing(); }
 
  private:
-  // Sends the previewer what the document and the views want.
   void ask_preview();
-  // What the active camera shows.
-  [[nodiscard]] PreviewOutput active_of(const std::vector<PreviewOutput>& rig) const;
-  // Moves the playhead while it plays.
-  void advance(const PreviewOutput& shown);
+  void advance(const PreviewOutput& shown);  // moves the playhead while it plays
   // Takes the keyboard from a text that is being typed, which becomes an edit in the next update: true. False where
   // none is, or where it was taken in the update before.
   [[nodiscard]] bool finish_typing();
@@ -128,14 +115,12 @@ class App {
   // Asks to save the own-body mask; next: once the edit that uses it is applied.
   void keep_mask_then(std::function<void()> next);
   void play(double speed);
-  //   rig  of each camera, by its index
-  void draw(const PreviewOutput& shown, const std::vector<PreviewOutput>& rig);
+  void draw(const PreviewOutput& shown, const std::vector<PreviewOutput>& rig);  // rig: of each camera, by its index
   void handle(const Request& request);
   // Requests of trackers' results. False: it was another one.
   bool handle_results(const Request& request);
   void ask_scores(const ViewContext& context);
-  // Says once of each result file what is wrong with it.
-  void report_result_problems();
+  void report_result_problems();  // says once of each result file what is wrong with it
   void show_title();
   void count_updates();
 
@@ -144,8 +129,7 @@ class App {
   Textures textures_;
   Document document_;
   Edits edits_;
-  // What the views that were drawn in the last update need from the preview.
-  ViewNeeds needs_;
+  ViewNeeds needs_;  // of the views that were drawn in the last update
   UiProbe ui_probe_;
   ProbeWriter probe_writer_;
   RigPreview preview_;
@@ -156,21 +140,18 @@ class App {
   LightSession light_;
   ResultFiles results_;
   Scoring scoring_;
-  std::shared_ptr<const Scored> scored_;  // of this update; null: no results are loaded
-  // By the result file's id.
-  std::map<int, std::string> reported_problems_;
+  std::shared_ptr<const Scored> scored_;          // of this update; null: no results are loaded
+  std::map<int, std::string> reported_problems_;  // by the result file's id
   AppShell shell_;
   std::string title_;
   Playback playback_;
   Layout layout_;
   double now_s_ = 0;
-  // Since when updates_ are counted, for the rate that the probe reports.
-  double counted_since_s_ = 0;
+  double counted_since_s_ = 0;  // of updates_
   int updates_ = 0;
   double updates_per_second_ = 0;
-  // Updates that follow at once: ImGui needs some to show all that an event leads to.
-  int redraw_updates_left_ = 0;
-  bool has_left_text_ = false;  // finish_typing() took the keyboard in the update before
+  int redraw_updates_left_ = 0;  // that follow at once (kUpdatesToSettle)
+  bool has_left_text_ = false;   // finish_typing() took the keyboard in the update before
   bool done_ = false;
 };
 

@@ -51,6 +51,39 @@ std::vector<BrowserPlace> places_for(const Project& project, const Settings& set
   return places;
 }
 
+// Where a project goes that cannot lie beside its video.
+fs::path writable_folder(const Settings& settings) {
+  std::vector<fs::path> folders;
+  if (!settings.recent.empty()) folders.push_back(settings.recent.front().parent_path());
+  folders.push_back(settings.last_folder);
+  if (const char* const home = std::getenv("HOME")) folders.emplace_back(home);
+  for (const fs::path& folder : folders) {
+    std::error_code code;
+    if (fs::is_directory(folder, code) && ::access(folder.c_str(), W_OK) == 0) return folder;
+  }
+  std::error_code code;
+  return fs::current_path(code);
+}
+
+std::vector<Guess> guesses_of(const fs::path& project_file) {
+  std::vector<Guess> guesses;
+  for (FirstProjectGuess& guess : guesses_beside(project_file))
+    guesses.push_back({{std::move(guess.field), std::move(guess.text)}, std::move(guess.value)});
+  return guesses;
+}
+
+// Where the intruder is largest of all frames in which it is in view; none where it is in view at `first` already, or
+// nowhere.
+std::optional<int> best_frame(const Survey& survey, int first) {
+  const VisibilityEstimate* best = nullptr;
+  for (const VisibilityEstimate& estimate : survey.estimates) {
+    if (estimate.visibility_state != VisibilityState::in_view) continue;
+    if (estimate.frame == first) return std::nullopt;
+    if (best == nullptr || estimate.size_px > best->size_px) best = &estimate;
+  }
+  return best != nullptr ? std::optional(best->frame) : std::nullopt;
+}
+
 }  // namespace
 
 AppShell::AppShell(Document& document, Settings& settings, Setup setup)
@@ -123,11 +156,6 @@ bool AppShell::handle(const Request& request) {
   return true;
 }
 
-void AppShell::handle_own_requests() {
-  for (const Request& request : session_.take_requests()) handle(request);
-  for (const Request& request : new_project_.take_requests()) handle(request);
-}
-
 void AppShell::handle_dropped(const fs::path& path, Edits& edits) {
   if (new_project_.is_open())
     new_project_.take_dropped(path);
@@ -151,7 +179,8 @@ void AppShell::update(double now_s) {
   for (const auto& step : std::exchange(answered_, {})) step();
   session_.update(now_s);
   new_project_.update();
-  handle_own_requests();
+  for (const Request& request : session_.take_requests()) handle(request);
+  for (const Request& request : new_project_.take_requests()) handle(request);
   ask_for_files();
   if (std::exchange(project_file_, document_.project().file) != document_.project().file) export_view_.forget_folder();
   const bool exporting = export_.is_running();
@@ -208,43 +237,6 @@ void AppShell::draw_over_all(const ViewContext& context) {
                width);
 }
 
-namespace {
-
-// Where a project goes that cannot lie beside its video.
-fs::path writable_folder(const Settings& settings) {
-  std::vector<fs::path> folders;
-  if (!settings.recent.empty()) folders.push_back(settings.recent.front().parent_path());
-  folders.push_back(settings.last_folder);
-  if (const char* const home = std::getenv("HOME")) folders.emplace_back(home);
-  for (const fs::path& folder : folders) {
-    std::error_code code;
-    if (fs::is_directory(folder, code) && ::access(folder.c_str(), W_OK) == 0) return folder;
-  }
-  std::error_code code;
-  return fs::current_path(code);
-}
-
-std::vector<Guess> guesses_of(const fs::path& project_file) {
-  std::vector<Guess> guesses;
-  for (FirstProjectGuess& guess : guesses_beside(project_file))
-    guesses.push_back({{std::move(guess.field), std::move(guess.text)}, std::move(guess.value)});
-  return guesses;
-}
-
-// Where the intruder is largest of all frames in which it is in view; none where it is in view at `first` already, or
-// nowhere.
-std::optional<int> best_frame(const Survey& survey, int first) {
-  const VisibilityEstimate* best = nullptr;
-  for (const VisibilityEstimate& estimate : survey.estimates) {
-    if (estimate.visibility_state != VisibilityState::in_view) continue;
-    if (estimate.frame == first) return std::nullopt;
-    if (best == nullptr || estimate.size_px > best->size_px) best = &estimate;
-  }
-  return best != nullptr ? std::optional(best->frame) : std::nullopt;
-}
-
-}  // namespace
-
 NewProjectFlow::NewProjectFlow(Document& document, Settings& settings, ProjectSession& session, ModelGallery& gallery,
                                std::function<void()> wake)
     : document_(document), settings_(settings), session_(session), dialog_(gallery, wake), job_(std::move(wake)) {}
@@ -254,18 +246,6 @@ void NewProjectFlow::open(const fs::path& video) {
   job_.forget();
   made_ = nullptr;
   dialog_.open(video, writable_folder(settings_));
-}
-
-void NewProjectFlow::draw(const ViewContext& context) {
-  choice_ = dialog_.draw(context, job_.state());
-}
-
-void NewProjectFlow::look(const ViewContext& context) {
-  survey_ = context.shown.surveys.empty() ? nullptr : context.shown.surveys.front();
-}
-
-void NewProjectFlow::begin_making(const FirstProjectOptions& options) {
-  if (job_.start(options)) dialog_.tell_end();
 }
 
 void NewProjectFlow::take_made() {
@@ -317,7 +297,10 @@ void NewProjectFlow::update() {
   const NewProjectChoice choice = std::exchange(choice_, {});
   if (choice.empty) session_.handle(NewProject{});
   if (choice.cancel) job_.cancel();
-  if (choice.create) session_.replace_then([this, options = *choice.create] { begin_making(options); });
+  if (choice.create)
+    session_.replace_then([this, options = *choice.create] {
+      if (job_.start(options)) dialog_.tell_end();
+    });
   take_made();
   if (std::exchange(guesses_of_, document_.first_number()) != document_.first_number())
     guesses_.begin(guesses_of(document_.project().file), document_);

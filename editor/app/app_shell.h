@@ -34,20 +34,21 @@ class NewProjectFlow {
   NewProjectFlow(Document& document, Settings& settings, ProjectSession& session, ModelGallery& gallery,
                  std::function<void()> wake);
 
-  // Shows the dialog. video: to begin with; "": none.
-  void open(const std::filesystem::path& video);
+  void open(const std::filesystem::path& video);  // Shows the dialog. video: to begin with; "": none.
   [[nodiscard]] bool is_open() const { return dialog_.is_open(); }
   // A file that was dropped onto the window while the dialog is open.
   void take_dropped(const std::filesystem::path& file) { dialog_.take_dropped(file); }
   // Once per update while it is open.
-  void draw(const ViewContext& context);
+  void draw(const ViewContext& context) { choice_ = dialog_.draw(context, job_.state()); }
 
   // Once per update, after that of the session: carries out what was wanted while drawing, opens a project that is
   // made, and shows it once its footage is open.
   void update();
 
   // Once per update: what is known of the intruder by what is shown.
-  void look(const ViewContext& context);
+  void look(const ViewContext& context) {
+    survey_ = context.shown.surveys.empty() ? nullptr : context.shown.surveys.front();
+  }
 
   // Messages since the last call.
   [[nodiscard]] std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
@@ -55,13 +56,9 @@ class NewProjectFlow {
   [[nodiscard]] const std::vector<Problem>& guesses() const { return guesses_.left(); }
 
  private:
-  void begin_making(const FirstProjectOptions& options);
-  // Opens the project that the job has made, once.
-  void take_made();
-  // From the project that is made to the one that is shown.
-  void follow_made();
-  // The project is open: tells what was guessed.
-  void begin_project();
+  void take_made();      // opens the project that the job has made, once
+  void follow_made();    // from the project that is made to the one that is shown
+  void begin_project();  // the project is open: tells what was guessed
   // Its footage is open: goes to the middle, and from there to the intruder unless it is in view. True: there is
   // nothing left to do.
   [[nodiscard]] bool goes_to_intruder();
@@ -73,14 +70,13 @@ class NewProjectFlow {
   FirstProjectJob job_;
   Guesses guesses_;
   std::vector<Request> requests_;
-  std::uint64_t guesses_of_ = 0;              // first number of the document whose guesses were read
-  NewProjectChoice choice_;                   // wanted while drawing, done in update()
-  std::shared_ptr<const FirstProject> made_;  // made, and given to the session
-  // The same, until its intruder is shown. Null: nothing is awaited.
-  std::shared_ptr<const FirstProject> awaited_;
-  std::uint64_t document_number_ = 0;     // of the document that holds it; 0: it is not open yet
-  std::optional<int> first_shown_;        // the frame that was gone to first; none: not yet
-  std::shared_ptr<const Survey> survey_;  // of the intruder; null: not there yet
+  std::uint64_t guesses_of_ = 0;                 // first number of the document whose guesses were read
+  NewProjectChoice choice_;                      // wanted while drawing, done in update()
+  std::shared_ptr<const FirstProject> made_;     // made, and given to the session
+  std::shared_ptr<const FirstProject> awaited_;  // the same, until its intruder is shown
+  std::uint64_t document_number_ = 0;            // of the document that holds it; 0: it is not open yet
+  std::optional<int> first_shown_;               // the frame that was gone to first; none: not yet
+  std::shared_ptr<const Survey> survey_;         // of the intruder; null: not there yet
 };
 
 // Draws everything that concerns files and the program itself: menu bar, start page, dialogs, messages, export. The
@@ -91,11 +87,9 @@ class AppShell {
     std::filesystem::path samples;          // folder of the sample projects; it need not be there
     std::filesystem::path models;           // folder of the sample models; likewise
     std::filesystem::path recovery_folder;  // where unsaved work is kept for the case of a crash
-    // Of the program, for the About dialog.
-    std::string version;
-    std::vector<HelpLine> help;  // lines of the help page
-    // May be called from any thread: something is to be drawn.
-    std::function<void()> wake;
+    std::string version;                    // of the program, for the About dialog
+    std::vector<HelpLine> help;             // lines of the help page
+    std::function<void()> wake;             // may be called from any thread: something is to be drawn
     ProjectSession::UnsavedMask mask;
   };
   // Document and settings must outlive it. All calls come from the window's thread.
@@ -134,9 +128,7 @@ class AppShell {
  private:
   // Opens the file browser for the next file that is wanted, once it is closed.
   void ask_for_files();
-  void handle_own_requests();
-  // A message, where an export has ended while its window was closed.
-  void report_export();
+  void report_export();  // a message, where an export has ended while its window was closed
   void draw_dialog(const ViewContext& context);
 
   Document& document_;
@@ -150,9 +142,8 @@ class AppShell {
   StartPage start_page_;
   Toasts toasts_;
   FileBrowser browser_;
-  std::deque<AskForFile> files_wanted_;  // waiting for the file browser, oldest first
-  // For what the browser asks at the moment.
-  std::function<void(const std::filesystem::path&)> chosen_;
+  std::deque<AskForFile> files_wanted_;                       // waiting for the file browser, oldest first
+  std::function<void(const std::filesystem::path&)> chosen_;  // for what the browser asks at the moment
   ExportView export_view_;
   RelinkDialog relink_;
   SettingsDialog settings_dialog_;
@@ -161,8 +152,7 @@ class AppShell {
   bool shows_about_ = false;
   // What was answered while drawing; done in update(), when the document may change.
   std::vector<std::function<void()>> answered_;
-  // Of the document in the last update: by it another project is noticed.
-  std::filesystem::path project_file_;
+  std::filesystem::path project_file_;  // of the document in the last update
   bool was_exporting_ = false;
   double now_s_ = 0;
 };

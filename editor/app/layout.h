@@ -33,17 +33,19 @@ class Layout {
   }
   void toggle_all_cameras() { cameras_.show_all(!cameras_.shows_all()); }
   void show_horizon() {
-    wants_footage_ = true;
-    cameras_.show_all(false);
+    show_footage();
     viewport_.show_horizon();
   }
   void show_light_like() {
-    wants_footage_ = true;
-    cameras_.show_all(false);
+    show_footage();
     viewport_.ask_for_lit_box();
   }
 
  private:
+  void show_footage() {
+    wants_footage_ = true;
+    cameras_.show_all(false);
+  }
   // What is above the timeline. The world view makes room while the own body is worked on.
   void draw_images(const ViewContext& context, OwnBodySession& own_body, Settings& settings);
   void draw_tabs(const ViewContext& context, OwnBodySession& own_body);

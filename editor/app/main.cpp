@@ -22,10 +22,6 @@ double turn_s(double update_took_s, bool plays) {
   return std::clamp((plays ? 3 : 1.2) * update_took_s, kTurn_s, kSlowTurn_s);
 }
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 int run(const std::string& project, const std::string& probe) {
   using namespace sigs::editor;
   Settings settings = read_settings(settings_file());
@@ -40,11 +36,11 @@ int run(const std::string& project, const std::string& probe) {
   double took_s = 0;
   while (!app.done()) {
     const bool something_happened = (*window)->wait(app.wait_timeout_s());
-    if (const double early_s = last_update_s + turn_s(took_s, app.plays()) - now_s(); early_s > 0)
+    if (const double early_s = last_update_s + turn_s(took_s, app.plays()) - steady_now_s(); early_s > 0)
       std::this_thread::sleep_for(std::chrono::duration<double>(early_s));
-    last_update_s = now_s();
+    last_update_s = steady_now_s();
     app.update(last_update_s, something_happened);
-    took_s = now_s() - last_update_s;
+    took_s = steady_now_s() - last_update_s;
   }
   return 0;
 }

@@ -23,6 +23,12 @@ std::string shown_name(const Project& project) {
   return shortened(project.file.empty() ? project.name : project.file.filename().string(), kMaxName);
 }
 
+bool is_of_files(const Request& request) {
+  return std::holds_alternative<OpenProject>(request) || std::holds_alternative<SaveProjectAs>(request) ||
+         std::holds_alternative<SaveProject>(request) || std::holds_alternative<NewProject>(request) ||
+         std::holds_alternative<CloseProject>(request) || std::holds_alternative<Quit>(request);
+}
+
 // Where a project that was never saved belongs: beside its footage; without any beside the project saved or opened
 // last.
 fs::path first_folder(const Project& project, const Settings& settings) {
@@ -44,10 +50,6 @@ ProjectSession::ProjectSession(Document& document, Settings& settings, Environme
       environment_(std::move(environment)),
       recovery_(environment_.recovery_folder),
       abandoned_(abandoned_projects(environment_.recovery_folder)) {}
-
-void ProjectSession::show_message(std::string text, bool is_error) {
-  requests_.push_back(ShowMessage{std::move(text), is_error});
-}
 
 // What was asked for while a question is open begins anew after its answer: by then nothing may be left to be asked.
 bool ProjectSession::waits(Step step) {
@@ -78,16 +80,6 @@ void ProjectSession::answer(int number) {
   run_next_waiting();
 }
 
-std::vector<Request> ProjectSession::take_requests() {
-  return std::exchange(requests_, {});
-}
-
-bool ProjectSession::is_of_files(const Request& request) const {
-  return std::holds_alternative<OpenProject>(request) || std::holds_alternative<SaveProjectAs>(request) ||
-         std::holds_alternative<SaveProject>(request) || std::holds_alternative<NewProject>(request) ||
-         std::holds_alternative<CloseProject>(request) || std::holds_alternative<Quit>(request);
-}
-
 bool ProjectSession::handle(const Request& request) {
   if (!is_of_files(request)) return false;
   if (waits([this, request] { handle(request); })) return true;
@@ -95,7 +87,9 @@ bool ProjectSession::handle(const Request& request) {
   const auto* to_save = std::get_if<SaveProjectAs>(&request);
   if (to_open != nullptr) {
     if (to_open->path.empty())
-      ask_which_to_open();
+      requests_.push_back(AskForFile{.title = "Open a project",
+                                     .extensions = {".json"},
+                                     .chosen = [this](const fs::path& path) { handle(OpenProject{path}); }});
     else
       leave_then([this, path = to_open->path] { open(path); });
   } else if (to_save != nullptr) {
@@ -110,12 +104,6 @@ bool ProjectSession::handle(const Request& request) {
     quit();
   }
   return true;
-}
-
-void ProjectSession::ask_which_to_open() {
-  requests_.push_back(AskForFile{.title = "Open a project",
-                                 .extensions = {".json"},
-                                 .chosen = [this](const fs::path& path) { handle(OpenProject{path}); }});
 }
 
 MaskToKeep ProjectSession::mask_to_keep() const {

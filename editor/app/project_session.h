@@ -26,23 +26,18 @@ class ProjectSession {
   // What has to be asked of the own-body mask that is being painted, which belongs to no project yet. Empty functions:
   // there is none.
   struct UnsavedMask {
-    // 0: it may go; else the number of the state that would be lost.
-    std::function<std::uint64_t()> unsaved;
+    std::function<std::uint64_t()> unsaved;  // 0: it may go; else the number of the state that would be lost
     // Asks for its name and saves it. next: called once it is written.
     std::function<void(std::function<void()> next)> save_then;
-    // What recovery keeps of it for the case of a crash.
-    std::function<MaskToKeep()> to_keep;
+    std::function<MaskToKeep()> to_keep;  // what recovery keeps of it for the case of a crash
   };
   // What the session needs from the program around it.
   struct Environment {
     std::filesystem::path recovery_folder;
-    // Called from another thread when a file was read.
-    std::function<void()> wake;
-    // Whether an export would be lost by quitting; empty: none.
-    std::function<bool()> is_exporting;
+    std::function<void()> wake;          // called from another thread when a file was read
+    std::function<bool()> is_exporting;  // whether an export would be lost by quitting; empty: none
     UnsavedMask mask;
-    // Whether a file is being chosen: no other project comes meanwhile.
-    std::function<bool()> is_asking_for_file;
+    std::function<bool()> is_asking_for_file;  // no other project comes meanwhile
   };
   // Document and settings must outlive it. At first no project is open. Looks for abandoned projects on disk.
   ProjectSession(Document& document, Settings& settings, Environment environment);
@@ -64,8 +59,7 @@ class ProjectSession {
 
   // Opens an abandoned project in place of the present one, once that may go.
   void recover(const AbandonedProject& abandoned);
-  // Asks whether its files may be removed for good.
-  void discard(const AbandonedProject& abandoned);
+  void discard(const AbandonedProject& abandoned);  // asks whether its files may be removed for good
   // As of the start, or of the last project that was closed, and of what was done with them since.
   [[nodiscard]] const std::vector<AbandonedProject>& abandoned() const { return abandoned_; }
 
@@ -82,7 +76,7 @@ class ProjectSession {
   void answer(int number);
 
   // What to tell and which files to ask for, since the last call: ShowMessage, ClearMessages and AskForFile.
-  [[nodiscard]] std::vector<Request> take_requests();
+  [[nodiscard]] std::vector<Request> take_requests() { return std::exchange(requests_, {}); }
 
   [[nodiscard]] bool has_project() const { return has_project_; }
   // The project file that is being read; "": none.
@@ -99,24 +93,22 @@ class ProjectSession {
   // What is done after an answer, or after something was saved. May be empty.
   using Step = std::function<void()>;
 
-  void show_message(std::string text, bool is_error = false);
+  void show_message(std::string text, bool is_error = false) {
+    requests_.push_back(ShowMessage{std::move(text), is_error});
+  }
   // Asks, with a step for each answer; while another question is open, after that.
   void ask(Question question, std::vector<Step> steps);
   // Whether the step has to wait for the question that is open, and is queued for that; false: none is open.
   [[nodiscard]] bool waits(Step step);
-  // Runs what waited, until one of it asks again.
-  void run_next_waiting();
-  [[nodiscard]] bool is_of_files(const Request& request) const;
+  void run_next_waiting();  // runs what waited, until one of it asks again
   // The same function, but without effect once another document is open.
   [[nodiscard]] std::function<void(const std::filesystem::path&)> for_this_document(
       std::function<void(const std::filesystem::path&)> chosen) const;
-  void ask_which_to_open();
   // Asks for the mask and the document's changes in turn, where they are not saved. next: once nothing unsaved is lost
   // by it.
   void leave_then(Step next);
   void leave_document_then(Step next);
-  // As UnsavedMask::unsaved; 0 without a project.
-  [[nodiscard]] std::uint64_t unsaved_mask() const;
+  [[nodiscard]] std::uint64_t unsaved_mask() const;  // as UnsavedMask::unsaved; 0 without a project
   void quit();
   // Begins to read a file on a thread of its own, so that the window does not wait for a slow disk. The last file asked
   // for counts. The thread may outlive the session where a disk does not answer, so `wake` has to stay callable until
@@ -133,8 +125,7 @@ class ProjectSession {
   void take_loaded();
   void show_recovered(const AbandonedProject& abandoned);
   [[nodiscard]] MaskToKeep mask_to_keep() const;
-  // The project is on disk; an unsaved mask stays kept for recovery.
-  void keep_mask_after_saving();
+  void keep_mask_after_saving();  // the project is on disk; an unsaved mask stays kept for recovery
 
   Document& document_;
   Settings& settings_;
@@ -145,9 +136,8 @@ class ProjectSession {
   std::vector<AbandonedProject> abandoned_;
   std::optional<RecoveredMask> recovered_mask_;
   std::optional<Question> question_;
-  std::vector<Step> steps_;  // one for each answer of question_
-  // What came while a question was open, oldest first.
-  std::deque<Step> waiting_;
+  std::vector<Step> steps_;   // one for each answer of question_
+  std::deque<Step> waiting_;  // what came while a question was open, oldest first
   std::vector<Request> requests_;
   // The unsaved states of the document and of the mask that the person agreed to give up; 0: none.
   std::uint64_t discardable_state_ = 0;

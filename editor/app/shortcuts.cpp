@@ -11,7 +11,8 @@ namespace sigs::editor {
 
 namespace {
 
-constexpr std::array<Shortcut, 38> kShortcuts{{
+// Group, keys, and what they do; in the order of the help page.
+constexpr std::array<std::array<const char*, 3>, 38> kShortcuts{{
     {"Playing", "Space, K", "play, stop"},
     {"Playing", "L", "play on; again: faster"},
     {"Playing", "J", "play backwards; again: faster"},
@@ -120,8 +121,10 @@ void handle_edit_keys(const ViewContext& context, bool shift) {
 
 }  // namespace
 
-std::span<const Shortcut> shortcuts() {
-  return kShortcuts;
+std::vector<HelpLine> help_lines() {
+  std::vector<HelpLine> lines;
+  for (const auto& [group, keys, what] : kShortcuts) lines.push_back({group, keys, what});
+  return lines;
 }
 
 void handle_keys(const ViewContext& context, bool has_project) {

@@ -57,8 +57,7 @@ class KeyQueue {
 
 // A mouse button that went down or up.
 struct ButtonEvent {
-  // From 0: left, right, middle, ... as GLFW counts.
-  int button = 0;
+  int button = 0;  // From 0: left, right, middle, ... as GLFW counts.
   bool down = false;
   // Where the mouse was, in screen coordinates of the window.
   double x = 0;
@@ -104,8 +103,7 @@ class Window {
   // Waits for an event or a wake(), at most timeout_s seconds; not at all while input of earlier events is left.
   // Returns whether one came. Events are only received here.
   bool wait(double timeout_s);
-  // Ends a wait(); may be called from any thread.
-  static void wake();
+  static void wake();  // ends a wait(); may be called from any thread
 
   // All ImGui calls of an update lie between these two. The font's size follows the settings and the screen's scale;
   // end() draws the regions of the window that look different from the update before.
@@ -127,8 +125,7 @@ class Window {
 
   // Number of keys (without modifiers) whose release ImGui has received so far.
   [[nodiscard]] int released_keys() const;
-  // Whether keys or mouse buttons wait for a later update.
-  [[nodiscard]] bool has_input_left() const;
+  [[nodiscard]] bool has_input_left() const;  // whether keys or mouse buttons wait for a later update
 
  private:
   struct State;

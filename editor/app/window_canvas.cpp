@@ -94,12 +94,11 @@ bool join_overlapping(std::vector<ImVec4>& regions) {
 }
 
 void make_few(std::vector<ImVec4>& regions) {
-  while (join_overlapping(regions)) {
-  }
-  while (regions.size() > kMaxRegions) {
-    join_cheapest(regions);
+  for (;;) {
     while (join_overlapping(regions)) {
     }
+    if (regions.size() <= kMaxRegions) return;
+    join_cheapest(regions);
   }
 }
 

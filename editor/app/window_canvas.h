@@ -36,8 +36,7 @@ class ChangedRegions {
   };
   // The draw commands of one ImGui window.
   struct Panel {
-    // Address of ImGui's draw list; only compared.
-    const void* list = nullptr;
+    const void* list = nullptr;  // address of ImGui's draw list; only compared
     std::vector<Piece> pieces;
   };
   // What ImGui draws, as far as it is compared.
@@ -81,10 +80,8 @@ class Canvas {
   void forget() { changed_.forget(); }
 
  private:
-  // Makes the framebuffer anew in this size.
-  void make(int width_px, int height_px);
-  // Both are upside down.
-  void draw_region(ImDrawData& data, const ImVec4& region) const;
+  void make(int width_px, int height_px);                          // makes the framebuffer anew in this size
+  void draw_region(ImDrawData& data, const ImVec4& region) const;  // both are upside down
 
   ChangedRegions changed_;
   // OpenGL's names of the framebuffer and its texture; 0: not made yet.

@@ -96,16 +96,6 @@ void for_each_input(ProjectOrConst& project, const Call& call) {
   call(project.camera.track.file);
 }
 
-}  // namespace
-
-ContentId id_of(const FileStamp& stamp) {
-  Digest digest;
-  add(digest, stamp);
-  return digest.id();
-}
-
-namespace {
-
 // Of the first camera of a rig: by it waypoints have their times. Its own camera's mount and clock are in the text.
 void add_reference(Digest& digest, const RigView& view) {
   digest.add(std::uint64_t(view.camera == 0 ? 1 : 0));
@@ -119,6 +109,12 @@ void add_reference(Digest& digest, const RigView& view) {
 }
 
 }  // namespace
+
+ContentId id_of(const FileStamp& stamp) {
+  Digest digest;
+  add(digest, stamp);
+  return digest.id();
+}
 
 ContentId content_id_of(const Project& project) {
   Project kept = project;

@@ -69,8 +69,6 @@ Revision revision_of_camera(const Revision& whole, std::size_t camera) {
   return {whole.number + (std::uint64_t(camera) << 40), std::make_shared<const Project>(std::move(seen))};
 }
 
-Document::Document() : Document(Project()) {}
-
 Document::Document(Project project, std::uint64_t first_number, std::optional<FileStamp> as_read)
     : state_{first_number, std::make_shared<const Project>(std::move(project))},
       revision_(revision_of_camera(state_, 0)),
@@ -115,24 +113,12 @@ int Document::range_last() const {
   return std::clamp(out_.value_or(last_frame()), range_first(), last_frame());
 }
 
-std::string Document::undo_name() const {
-  return past_.empty() ? std::string() : past_.back().name;
-}
-
-std::string Document::redo_name() const {
-  return future_.empty() ? std::string() : future_.back().name;
-}
-
-void Document::apply(const std::vector<Edit>& edits) {
-  for (const Edit& edit : edits) apply(edit);
-}
-
 void Document::apply(const Edit& edit) {
   if (const auto* change_project = std::get_if<ChangeProject>(&edit)) change(*change_project);
   if (std::holds_alternative<EndGesture>(edit)) end_gesture();
   if (const auto* cancel = std::get_if<CancelGesture>(&edit)) cancel_gesture(cancel->gesture);
-  if (std::holds_alternative<Undo>(edit)) step_back();
-  if (std::holds_alternative<Redo>(edit)) step_forward();
+  if (std::holds_alternative<Undo>(edit)) take_step(past_, future_);
+  if (std::holds_alternative<Redo>(edit)) take_step(future_, past_);
   if (const auto* go = std::get_if<GoToFrame>(&edit)) playhead_ = go->frame;
   if (const auto* select = std::get_if<Select>(&edit)) selection_ = select->selection;
   if (const auto* look = std::get_if<ActivateCamera>(&edit)) {
@@ -197,20 +183,12 @@ void Document::forget_oldest() {
   while (past_.size() > std::min(kMaxSteps, room)) past_.erase(past_.begin());
 }
 
-void Document::step_back() {
+void Document::take_step(std::vector<Step>& from, std::vector<Step>& to) {
   end_gesture();
-  if (past_.empty()) return;
-  Step step = std::move(past_.back());
-  past_.pop_back();
-  future_.push_back(exchanged(std::move(step)));
-}
-
-void Document::step_forward() {
-  end_gesture();
-  if (future_.empty()) return;
-  Step step = std::move(future_.back());
-  future_.pop_back();
-  past_.push_back(exchanged(std::move(step)));
+  if (from.empty()) return;
+  Step step = std::move(from.back());
+  from.pop_back();
+  to.push_back(exchanged(std::move(step)));
 }
 
 // A state from before the document was saved under another name is moved there when it comes back, and not when that
@@ -242,10 +220,6 @@ void Document::keep_selection_valid() {
 
 void Document::keep_playhead_valid() {
   playhead_ = std::clamp(playhead_, first_frame(), last_frame());
-}
-
-Result<void> Document::save() {
-  return save_as(project().file);
 }
 
 Result<void> Document::save_as(const std::filesystem::path& path) {

@@ -21,8 +21,7 @@ namespace sigs::editor {
 struct Question {
   std::string title;
   std::string text;
-  // The first is the usual one; the last changes nothing, and Escape means it.
-  std::vector<std::string> answers;
+  std::vector<std::string> answers;  // the first is the usual one; the last changes nothing, and Escape means it
 };
 
 // A state of the project, kept for undo. The project never changes; other threads may keep it. Undo comes back to the
@@ -61,8 +60,7 @@ struct Revision {
 // edit, undo or redo changes that.
 class Document {
  public:
-  // An empty project; file "" until it is saved.
-  Document();
+  Document() : Document(Project()) {}  // an empty project; file "" until it is saved
   // Opens a project as it was read; it counts as saved. Revisions are numbered from first_number on, so that documents
   // opened one after the other have no number in common. The playhead is at the project's first frame.
   //   as_read  the stamp of the project's file from before it was read; none: the file is looked at here
@@ -111,8 +109,8 @@ class Document {
   [[nodiscard]] bool can_undo() const { return !past_.empty(); }
   [[nodiscard]] bool can_redo() const { return !future_.empty(); }
   // Names of the steps, for the menu; "" where there is none.
-  [[nodiscard]] std::string undo_name() const;
-  [[nodiscard]] std::string redo_name() const;
+  [[nodiscard]] std::string undo_name() const { return past_.empty() ? "" : past_.back().name; }
+  [[nodiscard]] std::string redo_name() const { return future_.empty() ? "" : future_.back().name; }
 
   // Whether the present state is another one than that which was read or saved; undo may lead back to it.
   [[nodiscard]] bool has_unsaved_changes() const { return state_.number != saved_number_; }
@@ -128,12 +126,14 @@ class Document {
   // leaves a number in the project that is not finite, is refused as a whole. Waypoints that are places on the Earth
   // have place and position_m in step afterwards (project/places.h).
   void apply(const Edit& edit);
-  void apply(const std::vector<Edit>& edits);
+  void apply(const std::vector<Edit>& edits) {
+    for (const Edit& edit : edits) apply(edit);
+  }
 
   // Writes the project to its own file, or to another path; it belongs there from then on, with all that can be undone
   // and redone, and its relative paths are rewritten to mean the same files. A file that is there is replaced at once
   // by the complete one. Errors: cannot_create (without a file name too), write_failed; then nothing has changed.
-  [[nodiscard]] Result<void> save();
+  [[nodiscard]] Result<void> save() { return save_as(project().file); }
   [[nodiscard]] Result<void> save_as(const std::filesystem::path& path);
 
   // For a project that was recovered after a crash and differs from its file.
@@ -148,16 +148,13 @@ class Document {
     Selection selection;
   };
 
-  // One for each kind of edit.
   void change(const ChangeProject& change);
   void end_gesture();
   void cancel_gesture(const std::string& gesture);
-  // Drops steps beyond the limit of the history.
-  void forget_oldest();
-  void step_back();
-  void step_forward();
-  // Sets the present state, and what the active camera sees of it.
-  void show(Revision state);
+  void forget_oldest();  // drops steps beyond the limit of the history
+  // Undo or redo: the last step of the one becomes a step of the other.
+  void take_step(std::vector<Step>& from, std::vector<Step>& to);
+  void show(Revision state);  // sets the present state, and what the active camera sees of it
   [[nodiscard]] const FootageSettings& counted_footage() const;
   // Makes the state of a step the present one, as a state of the document's file, and returns the step that leads back.
   Step exchanged(Step step);
@@ -170,14 +167,12 @@ class Document {
   std::size_t active_camera_ = 0;
   std::uint64_t first_number_;
   std::uint64_t last_number_;
-  // Number of the state that lies in the file; 0: what is in memory was never written.
-  std::uint64_t saved_number_;
+  std::uint64_t saved_number_;  // number of the state that lies in the file; 0: what is in memory was never written
   FileStamp file_stamp_;
   std::vector<Step> past_;
   std::vector<Step> future_;
-  std::string gesture_;  // of the last step, while it lasts; "": none
-  // What could be redone before it, so that CancelGesture can bring it back.
-  std::vector<Step> future_of_gesture_;
+  std::string gesture_;                  // of the last step, while it lasts; "": none
+  std::vector<Step> future_of_gesture_;  // what could be redone before it, so that CancelGesture can bring it back
   Selection selection_;
   int playhead_ = 0;
   int frame_count_ = 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <glm/glm.hpp>
@@ -100,8 +99,7 @@ struct AskForFile {
   std::vector<std::string> extensions;  // with their dots: ".json"; empty: all files
   bool for_saving = false;              // the file need not be there; one that is there is asked about
   bool of_folder = false;               // a folder is wanted; extensions do not count
-  // As FileDialogRequest::start.
-  std::filesystem::path start;
+  std::filesystem::path start;          // as FileDialogRequest::start
   std::function<void(const std::filesystem::path&)> chosen;
 };
 // Plays from the playhead on.

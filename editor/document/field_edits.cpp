@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <type_traits>
-#include <utility>
 
 #include "base/text.h"
 
@@ -106,11 +105,8 @@ struct Put {
     *place = glm::clamp(value, field.minimum, field.maximum);
     return true;
   }
-  bool operator()(std::string* place, const std::string& value) const {
-    *place = value;
-    return true;
-  }
-  bool operator()(std::vector<std::string>* place, const std::vector<std::string>& value) const {
+  template <class Text>
+  bool operator()(Text* place, const Text& value) const {
     *place = value;
     return true;
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kUnitsInKeys{"_px_per_m", "_mps", "_deg", "_percent", "_px", "_m", "_s"};
 
 // Where the key alone would not be understood.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 89> kNames{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 74> kNames{{
     {"camera.track.file", "Log file"},
     {"camera.track.offset_s", "Time offset"},
     {"camera.track.position", "Its position"},
@@ -33,12 +33,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 89> kNames{{
     {"footage.crop.width_px", "Crop, width"},
     {"footage.crop.height_px", "Crop, height"},
     {"footage.occluder_mask", "Occluder"},
-    {"footage.occluder_frame", "Occluder frame"},
     {"footage.occluder_distance_m", "Its distance"},
     {"footage.cloud_distance_m", "Clouds from"},
     {"footage.cloud_depth_m", "Their depth"},
     {"appearance.psf_sigma_px", "Blur"},
-    {"appearance.sharpening", "Sharpening"},
     {"appearance.sharpening_px", "Sharpening radius"},
     {"appearance.chroma_blur_px", "Blur of colours"},
     {"appearance.black", "Flare"},
@@ -49,11 +47,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 89> kNames{{
     {"appearance.grain.correlation_length_px", "Grain size"},
     {"appearance.grain.temporal_correlation", "Grain temporal correlation"},
     {"appearance.grain.seed", "Grain seed"},
-    {"appearance.haze.visibility_m", "Visibility"},
     {"appearance.haze.airlight_color", "Airlight colour"},
     {"appearance.thermal.sky", "Sky's code"},
     {"appearance.thermal.hot", "Warm is"},
-    {"appearance.thermal.halo", "Halo"},
     {"appearance.thermal.halo_px", "Halo radius"},
     {"heat.skin", "Heat of skin"},
     {"lights.position_cd", "Position lights"},
@@ -69,7 +65,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 89> kNames{{
     {"appearance.glare", "Glare of lights"},
     {"appearance.glare_px", "Glare radius"},
     {"appearance.codec.match", "Codec"},
-    {"appearance.codec.quantiser", "Quantiser"},
     {"geo.height_m", "Height of z = 0"},
     {"geo.heading_deg", "Heading of X"},
     {"compositing.blur_px_per_m", "Blur with distance"},
@@ -80,16 +75,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 89> kNames{{
     {"contrail.opacity", "Contrail opacity"},
     {"contrail.brightness", "Contrail brightness"},
     {"export.video.crf", "Quality (crf)"},
-    {"export.video.codec", "Codec"},
-    {"export.video.container", "Container"},
     {"light.color", "Colour"},
     {"own_body.every", "Every nth"},
     {"own_body.settled_percent", "Settled below"},
-    {"own_body.stable.vibration_px", "Vibration"},
-    {"own_body.paper.min_area_percent", "Min area"},
-    {"own_body.stable.min_area_percent", "Min area"},
-    {"own_body.stable.min_moving_percent", "Min moving"},
-    {"footage.calibration", "Calibration"},
     {"footage.own_body_mask", "Own-body mask"},
     {"footage.max_substituted_percent", "Damaged frames up to"},
     {"name", "Project"},
@@ -101,9 +89,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 89> kNames{{
     {"export.video.max_bit_depth", "Bit depth up to"},
     {"export.label_min_pixels", "Min pixels"},
     {"export.label_min_visible_fraction", "Min visible part"},
-    {"compositing.supersampling", "Supersampling"},
-    {"appearance.codec.predicted_frames", "Predicted frames"},
-    {"camera.attitude_deg", "Attitude"},
 }};
 
 // "intruders[3].model.file" is named as "model.file" is.

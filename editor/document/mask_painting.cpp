@@ -182,18 +182,18 @@ void MaskPainting::swap_with(Step& step) {
   std::swap(step.other_whole_state, whole_state_);
 }
 
+void MaskPainting::move_last(std::vector<Step>& from, std::vector<Step>& to) {
+  swap_with(from.back());
+  to.push_back(std::move(from.back()));
+  from.pop_back();
+}
+
 void MaskPainting::undo() {
-  if (!can_undo()) return;
-  swap_with(past_.back());
-  future_.push_back(std::move(past_.back()));
-  past_.pop_back();
+  if (can_undo()) move_last(past_, future_);
 }
 
 void MaskPainting::redo() {
-  if (!can_redo()) return;
-  swap_with(future_.back());
-  past_.push_back(std::move(future_.back()));
-  future_.pop_back();
+  if (can_redo()) move_last(future_, past_);
 }
 
 // The newest stays, however large.

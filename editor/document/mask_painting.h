@@ -65,8 +65,7 @@ class MaskPainting {
   void take_back_stroke();
   [[nodiscard]] bool is_stroking() const { return stroke_.has_value(); }
 
-  // Another mask of the same size, as a step of its own.
-  void replace(const cv::Mat& mask, std::string name);
+  void replace(const cv::Mat& mask, std::string name);  // another mask of the same size, as a step of its own
 
   [[nodiscard]] bool can_undo() const { return !past_.empty() && !stroke_; }
   [[nodiscard]] bool can_redo() const { return !future_.empty() && !stroke_; }
@@ -108,6 +107,7 @@ class MaskPainting {
 
   void remember(std::string name, const cv::Rect& place, const cv::Mat& before, bool is_whole);
   void swap_with(Step& step);
+  void move_last(std::vector<Step>& from, std::vector<Step>& to);
   void move(const glm::dvec2& to);
   void forget_oldest();
 

@@ -2,10 +2,11 @@
 #include "editor/document/project_paths.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numbers>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -116,23 +117,17 @@ DroppedKind kind_by_content(std::string_view bytes) {
 }
 
 DroppedKind kind_by_extension(const std::string& extension) {
-  struct Known {
-    std::string_view extension;
-    DroppedKind kind;
-  };
-  static constexpr std::array kKnown{Known{".mp4", DroppedKind::video},       Known{".mov", DroppedKind::video},
-                                     Known{".mkv", DroppedKind::video},       Known{".avi", DroppedKind::video},
-                                     Known{".webm", DroppedKind::video},      Known{".m4v", DroppedKind::video},
-                                     Known{".mts", DroppedKind::video},       Known{".m2ts", DroppedKind::video},
-                                     Known{".ts", DroppedKind::video},        Known{".mpg", DroppedKind::video},
-                                     Known{".mpeg", DroppedKind::video},      Known{".wmv", DroppedKind::video},
-                                     Known{".y4m", DroppedKind::video},       Known{".obj", DroppedKind::model},
-                                     Known{".xml", DroppedKind::calibration}, Known{".yaml", DroppedKind::calibration},
-                                     Known{".yml", DroppedKind::calibration}, Known{".png", DroppedKind::mask},
-                                     Known{".pgm", DroppedKind::mask},        Known{".json", DroppedKind::project},
-                                     Known{".txt", DroppedKind::results},     Known{".csv", DroppedKind::results}};
-  const auto found = std::ranges::find(kKnown, extension, &Known::extension);
-  return found == kKnown.end() ? DroppedKind::nothing : found->kind;
+  static const std::map<DroppedKind, std::set<std::string_view>> kExtensions{
+      {DroppedKind::video,
+       {".mp4", ".mov", ".mkv", ".avi", ".webm", ".m4v", ".mts", ".m2ts", ".ts", ".mpg", ".mpeg", ".wmv", ".y4m"}},
+      {DroppedKind::model, {".obj"}},
+      {DroppedKind::calibration, {".xml", ".yaml", ".yml"}},
+      {DroppedKind::mask, {".png", ".pgm"}},
+      {DroppedKind::project, {".json"}},
+      {DroppedKind::results, {".txt", ".csv"}}};
+  for (const auto& [kind, extensions] : kExtensions)
+    if (extensions.contains(extension)) return kind;
+  return DroppedKind::nothing;
 }
 
 void put_model(Project& project, const fs::path& path, const Selection& selection) {
@@ -261,22 +256,14 @@ DroppedFile classified_drop(const fs::path& path) {
 
 std::optional<ChangeProject> change_by(const DroppedFile& dropped, const Selection& selection) {
   const fs::path& path = dropped.path;
-  switch (dropped.kind) {
-    case DroppedKind::video:
-      return ChangeProject{"set footage", [path](Project& p) { p.footage.video = path_in_project(p, path); }, {}};
-    case DroppedKind::calibration:
-      return ChangeProject{
-          "set calibration", [path](Project& p) { p.footage.calibration = path_in_project(p, path); }, {}};
-    case DroppedKind::mask:
-      return ChangeProject{
-          "set own-body mask", [path](Project& p) { p.footage.own_body_mask = path_in_project(p, path); }, {}};
-    case DroppedKind::model:
-      return ChangeProject{"drop model", [path, selection](Project& p) { put_model(p, path, selection); }, {}};
-    case DroppedKind::project:
-    case DroppedKind::results:
-    case DroppedKind::nothing:
-      break;
-  }
+  if (dropped.kind == DroppedKind::model)
+    return ChangeProject{"drop model", [path, selection](Project& p) { put_model(p, path, selection); }, {}};
+  const auto set = [&path](const char* name, std::string FootageSettings::*place) {
+    return ChangeProject{name, [path, place](Project& p) { p.footage.*place = path_in_project(p, path); }, {}};
+  };
+  if (dropped.kind == DroppedKind::video) return set("set footage", &FootageSettings::video);
+  if (dropped.kind == DroppedKind::calibration) return set("set calibration", &FootageSettings::calibration);
+  if (dropped.kind == DroppedKind::mask) return set("set own-body mask", &FootageSettings::own_body_mask);
   return std::nullopt;
 }
 

@@ -18,13 +18,11 @@ namespace sigs::editor {
 // Unsaved work that an editor left behind when it crashed, as its recovery file describes it.
 struct AbandonedProject {
   std::filesystem::path recovery_file;
-  // Where the project belongs, absolute; "": it was never saved.
-  std::filesystem::path project_file;
+  std::filesystem::path project_file;  // where the project belongs, absolute; "": it was never saved
   std::string name;
-  // When the recovery file was written, in seconds since 1970 (UTC).
-  std::int64_t written_unix_s = 0;
-  bool has_mask = false;  // an own-body mask that was not saved lies beside it
-  std::string problem;    // "": it can be read, as far as is known; else why not
+  std::int64_t written_unix_s = 0;  // when the recovery file was written, in seconds since 1970 (UTC)
+  bool has_mask = false;            // an own-body mask that was not saved lies beside it
+  std::string problem;              // "": it can be read, as far as is known; else why not
 };
 
 // The own-body mask that is being painted, as recovery sees it.
@@ -72,8 +70,7 @@ class Recovery {
   // Touches nothing on disk; the folder is made when there is something to keep. Tests give another folder than
   // recovery_folder().
   explicit Recovery(std::filesystem::path folder);
-  // Leaves the file, for the case that this is no orderly end; forget() comes first.
-  ~Recovery();
+  ~Recovery();  // leaves the file, for the case that this is no orderly end; forget() comes first
   Recovery(const Recovery&) = delete;
   Recovery& operator=(const Recovery&) = delete;
 
@@ -87,8 +84,7 @@ class Recovery {
   // What keep() would do, at once: before something that may end the program. Errors: cannot_create, write_failed.
   [[nodiscard]] Result<void> write(const Document& document, const MaskToKeep& mask = {});
 
-  // The work was saved, or given up: removes the project and its mask. The lock stays held.
-  void forget();
+  void forget();  // what is kept goes, as it was saved or given up; the lock stays held
 
   // Makes an abandoned project this editor's own: its file becomes ours until the document is saved or given up. What
   // was kept here before must have been forgotten. Errors: those of reading the file and of write(); cannot_read where
@@ -96,8 +92,7 @@ class Recovery {
   [[nodiscard]] Result<RecoveredProject> take_over(const AbandonedProject& abandoned);
 
  private:
-  // Makes the folder and takes the lock, once.
-  [[nodiscard]] Result<void> hold_lock();
+  [[nodiscard]] Result<void> hold_lock();  // makes the folder and takes the lock, once
   // Whether all of it lies on disk as it is.
   [[nodiscard]] bool is_kept(const Document& document, const MaskToKeep& mask) const;
   [[nodiscard]] Result<void> write_mask_of(const MaskToKeep& mask);
@@ -112,8 +107,7 @@ class Recovery {
   // The mask that lies beside it, ours or one that was taken over; "": none. kept_mask_ is its state.
   std::filesystem::path mask_file_;
   std::uint64_t kept_mask_ = 0;
-  // When keep() first found something that is not on disk; none: all is.
-  std::optional<double> waiting_since_s_;
+  std::optional<double> waiting_since_s_;  // when keep() first found something that is not on disk; none: all is
   bool error_reported_ = false;
 };
 

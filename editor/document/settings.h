@@ -20,15 +20,13 @@ struct Settings {
   // Sizes of panels, in pixels where the text is 15 px high.
   double inspector_width = 330;
   double timeline_height = 210;
-  // Share of the width that the world view has beside the footage, 0..1.
-  double world_share = 0.38;
+  double world_share = 0.38;  // share of the width that the world view has beside the footage, 0..1
   bool show_world = true;
   bool show_inspector = true;
-  // The inspector shows every setting, not only those that most projects need.
-  bool all_settings = false;
-  bool loop = true;                           // playing starts again at the range's end
-  double autosave_s = 20;                     // seconds from an edit until the recovery file is written
-  std::filesystem::path last_folder;          // where the file browser was last; "": nowhere yet
+  bool all_settings = false;          // the inspector shows every setting, not only those that most projects need
+  bool loop = true;                   // playing starts again at the range's end
+  double autosave_s = 20;             // seconds from an edit until the recovery file is written
+  std::filesystem::path last_folder;  // where the file browser was last; "": nowhere yet
   std::vector<std::filesystem::path> recent;  // project files, absolute, newest first, at most 12
 
   [[nodiscard]] bool operator==(const Settings&) const = default;

@@ -104,12 +104,6 @@ std::optional<double> metres_along(const glm::dvec3& axis, const Pull& pull, con
   return along_px * depth_m * depth_m / denominator;
 }
 
-std::optional<glm::dvec3> along_axis(int axis, const Pull& pull, const OrbitCamera& camera, const ScreenRect& rect) {
-  const std::optional<double> by_m = metres_along(kAxes[axis], pull, camera, rect);
-  if (!by_m) return std::nullopt;
-  return pull.start_m + kAxes[axis] * *by_m;
-}
-
 std::optional<glm::dvec3> in_plane(const PlaneAxes& plane, const Pull& pull, const OrbitCamera& camera,
                                    const ScreenRect& rect) {
   if (std::abs(sight_to(camera, pull.start_m)[plane.normal]) < kNoAnswerSine) return std::nullopt;
@@ -120,11 +114,6 @@ std::optional<glm::dvec3> in_plane(const PlaneAxes& plane, const Pull& pull, con
   glm::dvec3 result = ray.origin_m + ray.direction * along_m;
   result[plane.normal] = pull.start_m[plane.normal];
   return result;
-}
-
-glm::dvec3 in_screen(const Pull& pull, const OrbitCamera& camera, const ScreenRect& rect) {
-  const double px_per_m = camera.pixels_per_metre(pull.start_m, rect);
-  return pull.start_m + (camera.right() * pull.by_px.x - camera.up() * pull.by_px.y) / px_per_m;
 }
 
 template <std::size_t N>
@@ -148,17 +137,20 @@ std::array<bool, 3> moved_by(GizmoPart part, const OrbitCamera& camera) {
 }
 
 std::optional<glm::dvec3> pulled(GizmoPart part, const Pull& pull, const OrbitCamera& camera, const ScreenRect& rect) {
-  if (const auto axis = index_in(kAxisParts, part)) return along_axis(*axis, pull, camera, rect);
+  if (const auto axis = index_in(kAxisParts, part)) {
+    const std::optional<double> by_m = metres_along(kAxes[*axis], pull, camera, rect);
+    return by_m ? std::optional(pull.start_m + kAxes[*axis] * *by_m) : std::nullopt;
+  }
   if (const auto plane = index_in(kPlaneParts, part)) return in_plane(kPlanes[*plane], pull, camera, rect);
-  if (part == GizmoPart::screen) return in_screen(pull, camera, rect);
-  return std::nullopt;
+  if (part != GizmoPart::screen) return std::nullopt;
+  const double px_per_m = camera.pixels_per_metre(pull.start_m, rect);
+  return pull.start_m + (camera.right() * pull.by_px.x - camera.up() * pull.by_px.y) / px_per_m;
 }
 
 constexpr double kMinSlope = 0.19;  // sine of 11 degrees
-constexpr double kLongest_m = 1e8;
 
 double kept(double along_m) {
-  return std::isfinite(along_m) ? std::clamp(along_m, -kLongest_m, kLongest_m) : 0;
+  return std::isfinite(along_m) ? std::clamp(along_m, -kMaxCoordinateM, kMaxCoordinateM) : 0;
 }
 
 // Of the axis through the start: where it passes nearest to the ray.
@@ -224,7 +216,7 @@ glm::dvec2 dragged_in_plane_m(const PlaneDrag& drag, const glm::dvec2& mouse, co
                               const ScreenRect& rect) {
   const auto start = camera.screen_of(drag.start_m, rect);
   const glm::dvec2 by_px = mouse - drag.start_mouse;
-  if (!start || !std::isfinite(by_px.x) || !std::isfinite(by_px.y) || by_px == glm::dvec2(0)) return {0, 0};
+  if (!start || !is_finite(by_px) || by_px == glm::dvec2(0)) return {0, 0};
   const Ray ray = camera.ray_at(*start + by_px, rect);
   const auto& [a, b] = drag.axes;
   const glm::dvec3 normal = glm::cross(a, b);

@@ -45,24 +45,19 @@ double kept_in_sight(double origin, double length, double low, double high, bool
   return std::clamp(whole ? std::round(origin) : origin, minimum, maximum);
 }
 
-struct Span {
-  int begin = 0;
-  int end = 0;  // the one after the last
-};
-
-// Whole blocks within the span, and what is left over at the image's end.
-Span in_blocks(const Span& span, int image_end, int block) {
-  const int begin = (span.begin + block - 1) / block * block;
-  return {begin, span.end == image_end ? image_end : span.end / block * block};
+// Whole blocks within the range, and what is left over at the image's end.
+cv::Range in_blocks(const cv::Range& range, int image_end, int block) {
+  const int start = (range.start + block - 1) / block * block;
+  return {start, range.end == image_end ? image_end : range.end / block * block};
 }
 
-Span inner(const Span& span, int image_end, int block) {
-  return {span.begin == 0 ? 0 : span.begin + block, span.end == image_end ? image_end : span.end - block};
+cv::Range inner(const cv::Range& range, int image_end, int block) {
+  return {range.start == 0 ? 0 : range.start + block, range.end == image_end ? image_end : range.end - block};
 }
 
-cv::Rect rect_of(const Span& x, const Span& y) {
-  if (x.end <= x.begin || y.end <= y.begin) return {};
-  return {x.begin, y.begin, x.end - x.begin, y.end - y.begin};
+cv::Rect rect_of(const cv::Range& x, const cv::Range& y) {
+  if (x.end <= x.start || y.end <= y.start) return {};
+  return {x.start, y.start, x.size(), y.size()};
 }
 
 constexpr double kTiePx = 1;
@@ -152,8 +147,8 @@ cv::Mat PatchedImage::whole() const {
 DrawnPatch drawn_patch(const PatchedImage& image, int divisor) {
   ENSURE(divisor >= 1);
   const cv::Rect rect = image.patch_rect();
-  const Span x = in_blocks({rect.x, rect.x + rect.width}, image.size().width, divisor);
-  const Span y = in_blocks({rect.y, rect.y + rect.height}, image.size().height, divisor);
+  const cv::Range x = in_blocks({rect.x, rect.x + rect.width}, image.size().width, divisor);
+  const cv::Range y = in_blocks({rect.y, rect.y + rect.height}, image.size().height, divisor);
   return {rect_of(x, y), rect_of(inner(x, image.size().width, divisor), inner(y, image.size().height, divisor))};
 }
 

@@ -65,8 +65,7 @@ inline constexpr double kMaxZoom = 64;
 // one footage frame share the large one, so that each more costs its part alone: in time, in memory and on the graphics
 // card. Pixel (x, y) is column x of row y, from 0.
 struct PatchedImage {
-  // CV_8UC3 (BGR) or CV_8UC1; never changed. Empty: there is no image.
-  cv::Mat ground;
+  cv::Mat ground;  // CV_8UC3 (BGR) or CV_8UC1; never changed. Empty: there is no image.
   // Lies over the ground, as a whole within it, with its first pixel at patch_at; of the ground's type. Empty: the
   // ground is the image. What of it is within kPatchMargin_px of an edge of it equals the ground, but for edges that
   // are the ground's too.

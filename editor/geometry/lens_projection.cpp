@@ -176,17 +176,6 @@ std::vector<PixelLine> path_through_lens(const std::function<glm::dvec3(double t
   return Tracer(in_camera, lens, image_size).traced(times_s);
 }
 
-std::vector<PixelLine> points_through_lens(std::span<const glm::dvec3> points_m, const CameraPose& world_from_camera,
-                                           const Lens& lens, const glm::dvec2& image_size) {
-  std::vector<double> times;
-  for (std::size_t i = 0; i < points_m.size(); ++i) times.push_back(static_cast<double>(i));
-  const auto position_m = [&](double t) {
-    const std::size_t leg = std::min(static_cast<std::size_t>(t), points_m.size() - 2);
-    return glm::mix(points_m[leg], points_m[leg + 1], t - static_cast<double>(leg));
-  };
-  return path_through_lens(position_m, times, world_from_camera, lens, image_size);
-}
-
 std::vector<PixelLine> horizon_through_lens(const CameraPose& world_from_camera, const Lens& lens,
                                             const glm::dvec2& image_size) {
   const glm::dvec3 ahead = world_from_camera.rotation * glm::dvec3{1, 0, 0};

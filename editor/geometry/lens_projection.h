@@ -44,11 +44,6 @@ using PixelLine = std::vector<glm::dvec2>;
                                                        const CameraPose& world_from_camera, const Lens& lens,
                                                        const glm::dvec2& image_size);
 
-// The same for straight lines from point to point.
-[[nodiscard]] std::vector<PixelLine> points_through_lens(std::span<const glm::dvec3> points_m,
-                                                         const CameraPose& world_from_camera, const Lens& lens,
-                                                         const glm::dvec2& image_size);
-
 // The image of all level directions (world z = 0): the horizon of a flat earth, as polylines in image pixels.
 [[nodiscard]] std::vector<PixelLine> horizon_through_lens(const CameraPose& world_from_camera, const Lens& lens,
                                                           const glm::dvec2& image_size);

@@ -20,14 +20,10 @@ glm::dvec2 middle(const ScreenRect& rect) {
   return (rect.low + rect.high) / 2.0;
 }
 
-double half_tangent(const OrbitCamera& camera) {
-  return std::tan(camera.field_rad / 2);
-}
-
 // Pixels from the middle of the screen to where a slope of 1 leads.
 double focal_px(const OrbitCamera& camera, const ScreenRect& rect) {
   const glm::dvec2 size = rect.size();
-  return std::max(1.0, std::min(size.x, size.y)) / 2 / half_tangent(camera);
+  return std::max(1.0, std::min(size.x, size.y)) / 2 / std::tan(camera.field_rad / 2);
 }
 
 // To the right, up and ahead of the eye, metres.

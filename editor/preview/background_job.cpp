@@ -15,6 +15,22 @@ constexpr double kWindow_s = 8;
 constexpr double kMinStep_s = 0.1;  // between notes that are kept: their number stays small
 constexpr double kMinSpan_s = 0.2;  // a rate over less is noise
 
+// The export of a rig as one.
+Result<ExportReport> exported_cameras(const ExportRequest& request, const ExportControl& control) {
+  const double begun_s = steady_now_s();
+  Result<RigReport> rig = export_rig(request, control);
+  if (!rig) return fail(rig.error());
+  ExportReport all{.written = std::move(rig->written)};
+  for (const ExportReport& camera : rig->cameras) {
+    all.frames += camera.frames;
+    all.damaged_frames += camera.damaged_frames;
+    all.copied_frames += camera.copied_frames;
+    all.warnings.insert(all.warnings.end(), camera.warnings.begin(), camera.warnings.end());
+  }
+  all.times.wall_s = steady_now_s() - begun_s;
+  return all;
+}
+
 }  // namespace
 
 void RateMeter::note(double now_s, int done) {
@@ -41,26 +57,6 @@ std::optional<double> RateMeter::left_s(int total) const {
 double steady_now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-namespace {
-
-// The export of a rig as one.
-Result<ExportReport> exported_cameras(const ExportRequest& request, const ExportControl& control) {
-  const double begun_s = steady_now_s();
-  Result<RigReport> rig = export_rig(request, control);
-  if (!rig) return fail(rig.error());
-  ExportReport all{.written = std::move(rig->written)};
-  for (const ExportReport& camera : rig->cameras) {
-    all.frames += camera.frames;
-    all.damaged_frames += camera.damaged_frames;
-    all.copied_frames += camera.copied_frames;
-    all.warnings.insert(all.warnings.end(), camera.warnings.begin(), camera.warnings.end());
-  }
-  all.times.wall_s = steady_now_s() - begun_s;
-  return all;
-}
-
-}  // namespace
 
 ExportJob::ExportJob(std::function<void()> wake)
     : BackgroundJob(std::move(wake), [](const ExportRequest& request, const JobControl& control) {

@@ -40,8 +40,7 @@ class RateMeter {
 
  private:
   struct Note {
-    // Of the caller's clock.
-    double time_s = 0;
+    double time_s = 0;  // of the caller's clock
     int done = 0;
   };
   std::deque<Note> notes_;
@@ -62,8 +61,7 @@ enum class JobPhase { none, running, done, cancelled, failed };
 template <class Request, class Value>
 struct JobState {
   JobPhase phase = JobPhase::none;
-  // The job is running and has been asked to stop; it ends as soon as its work notices.
-  bool is_stopping = false;
+  bool is_stopping = false;  // the job is running and has been asked to stop; it ends as soon as its work notices
   // Frames that are done, of `total`. total == 0: not known yet.
   int done = 0;
   int total = 0;
@@ -74,8 +72,7 @@ struct JobState {
   std::vector<Warning> warnings;  // of this run, in the order in which they came
   // Why the last run did not end well. Set where phase is failed, and with the kind interrupted where it is cancelled.
   Error error;
-  // What the last run was asked for, whether it is still running or has ended in any way.
-  Request request;
+  Request request;  // what the last run was asked for, whether it is still running or has ended in any way
   // Result of the last run that came to its end, and what that run was asked for. Both stay while another run is under
   // way and when it fails. Null: no run has come to its end, or forget() was called.
   std::shared_ptr<const Value> value;
@@ -87,12 +84,9 @@ struct JobState {
 // What a job's work reports while it runs, and how it learns that it is to stop. The functions may be called from any
 // thread, as long as work has not returned.
 struct JobControl {
-  // Frames done so far and in all.
-  std::function<void(int done, int total)> progress;
-  // Sets JobState::step. It does not wake the window by itself.
-  std::function<void(const std::string&)> tell = {};
-  // Adds to JobState::warnings. It does not wake the window by itself.
-  std::function<void(const Warning&)> warn;
+  std::function<void(int done, int total)> progress;  // frames done so far and in all
+  std::function<void(const std::string&)> tell = {};  // sets JobState::step, without waking the window
+  std::function<void(const Warning&)> warn;           // adds to JobState::warnings, without waking the window
   // True: end soon, with an error of kind interrupted. A BackgroundJob always sets it; alive until work returns.
   const std::atomic<bool>* cancel = nullptr;
 };
@@ -178,8 +172,7 @@ class BackgroundJob {
   }
 
  private:
-  // Shortest time between two calls of wake() for progress alone.
-  static constexpr double kWakeInterval_s = 0.1;
+  static constexpr double kWakeInterval_s = 0.1;  // shortest time between two calls of wake() for progress alone
 
   // The thread's body. wake() is called a last time after the state says how it ended.
   void run(const Request& request) {
@@ -242,9 +235,8 @@ class BackgroundJob {
   State state_;
   RateMeter rate_;
   double last_wake_s_ = 0;
-  bool forget_ = false;  // the run that is under way was forgotten: its outcome is dropped
-  // JobControl::cancel of the run that is under way.
-  std::atomic<bool> cancel_{false};
+  bool forget_ = false;              // the run that is under way was forgotten: its outcome is dropped
+  std::atomic<bool> cancel_{false};  // JobControl::cancel of the run that is under way
   std::thread thread_;
 };
 

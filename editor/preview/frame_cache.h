@@ -49,20 +49,16 @@ class CacheOrder {
 
  private:
   struct Frames {
-    // Contents are counted as they come; one that has gone altogether is counted anew.
-    std::uint64_t age = 0;
+    std::uint64_t age = 0;  // contents are counted as they come; one that has gone altogether is counted anew
     std::map<int, std::size_t> bytes_by_number;
   };
 
-  // Removes frames until the limit holds, and names them.
-  [[nodiscard]] std::vector<FrameKey> shrink();
-  // Whether a goes before b.
-  [[nodiscard]] bool is_worth_less(FrameKey a, FrameKey b) const;
+  [[nodiscard]] std::vector<FrameKey> shrink();  // removes frames until the limit holds, and names them
+  [[nodiscard]] bool is_worth_less(FrameKey a, FrameKey b) const;  // whether a goes before b
   [[nodiscard]] std::optional<FrameKey> first_to_go() const;
   // Of the frames that would go before `key`. The sum stops as soon as it is `enough`.
   [[nodiscard]] std::size_t bytes_worth_less(FrameKey key, std::size_t enough) const;
-  // 0: it is not there.
-  [[nodiscard]] std::size_t bytes_of(FrameKey key) const;
+  [[nodiscard]] std::size_t bytes_of(FrameKey key) const;  // 0: it is not there
   [[nodiscard]] std::uint64_t age_of(const ContentId& content) const;
   void remove(FrameKey key);
 

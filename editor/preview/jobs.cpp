@@ -13,6 +13,31 @@
 
 namespace sigs::editor {
 
+namespace {
+
+// Of another project files of the same names may be others.
+FootageSettings with_absolute_paths(const Project& project) {
+  FootageSettings footage = project.footage;
+  for (std::string* const path : {&footage.video, &footage.timestamps, &footage.calibration, &footage.own_body_mask})
+    if (!path->empty()) *path = std::filesystem::absolute(resolved(project, *path)).lexically_normal().string();
+  return footage;
+}
+
+Result<SeenHorizons> horizons_in(const std::shared_ptr<const OpenedScene>& scene, const JobControl& control) {
+  Result<FrameSource> footage = open_footage(*scene->project, control.cancel);
+  if (!footage) return fail(footage.error());
+  return seen_horizons(*footage, scene->draft.scene, control.cancel);
+}
+
+// "a pinhole of 69.5 degrees along the diagonal, by what the file states (...)"; "" where it is of no use.
+std::string stated_lens(const std::filesystem::path& video, const VideoInfo& info, const LoggedLens& lens) {
+  if (!lens.diagonal_fov_rad && !lens.horizontal_fov_rad) return "";
+  const Result<FirstCamera> camera = first_camera({.video = video}, info, lens);
+  return camera ? camera->note.text.substr(0, camera->note.text.find(';')) : "";
+}
+
+}  // namespace
+
 Result<Appearance> estimated_appearance(const AppearanceRequest& request, const JobControl& control) {
   const FootageSettings& settings = request.project.footage;
   return appearance_of_footage(request.project, {.first = settings.first_frame, .last = settings.last_frame},
@@ -45,21 +70,7 @@ Result<EstimatedMotion> estimated_motion(const EgoMotionRequest& request, const 
                          .warnings = motion.warnings};
 }
 
-HorizonWatch::HorizonWatch(std::function<void()> wake) : job_(std::move(wake), found) {}
-
-// Of another project files of the same names may be others.
-FootageSettings HorizonWatch::with_absolute_paths(const Project& project) {
-  FootageSettings footage = project.footage;
-  for (std::string* const path : {&footage.video, &footage.timestamps, &footage.calibration, &footage.own_body_mask})
-    if (!path->empty()) *path = std::filesystem::absolute(resolved(project, *path)).lexically_normal().string();
-  return footage;
-}
-
-Result<SeenHorizons> HorizonWatch::found(const Request& request, const JobControl& control) {
-  Result<FrameSource> footage = open_footage(*request.scene->project, control.cancel);
-  if (!footage) return fail(footage.error());
-  return seen_horizons(*footage, request.scene->draft.scene, control.cancel);
-}
+HorizonWatch::HorizonWatch(std::function<void()> wake) : job_(std::move(wake), horizons_in) {}
 
 void HorizonWatch::follow(const std::shared_ptr<const OpenedScene>& shown) {
   const bool can_be_looked_at = shown && shown->footage && shown->footage->video && shown->draft.problems.empty();
@@ -77,7 +88,7 @@ void HorizonWatch::follow(const std::shared_ptr<const OpenedScene>& shown) {
   }
   job_.forget();
   asked_ = wanted;
-  (void)job_.start({shown});
+  (void)job_.start(shown);
 }
 
 FirstProjectJob::FirstProjectJob(std::function<void()> wake, const Make& make)
@@ -88,17 +99,6 @@ FirstProjectJob::FirstProjectJob(std::function<void()> wake, const Make& make)
         };
         return make(options, {.progress = tell, .cancel = control.cancel});
       }) {}
-
-namespace {
-
-// "a pinhole of 69.5 degrees along the diagonal, by what the file states (...)"; "" where it is of no use.
-std::string stated_lens(const std::filesystem::path& video, const VideoInfo& info, const LoggedLens& lens) {
-  if (!lens.diagonal_fov_rad && !lens.horizontal_fov_rad) return "";
-  const Result<FirstCamera> camera = first_camera({.video = video}, info, lens);
-  return camera ? camera->note.text.substr(0, camera->note.text.find(';')) : "";
-}
-
-}  // namespace
 
 Result<VideoFacts> video_facts(const std::filesystem::path& video, const JobControl& control) {
   const Result<FrameSource> footage = FrameSource::open(video, control.cancel);

@@ -77,20 +77,13 @@ class HorizonWatch {
  public:
   explicit HorizonWatch(std::function<void()> wake);
 
-  // Once per update.
-  void follow(const std::shared_ptr<const OpenedScene>& shown);
+  void follow(const std::shared_ptr<const OpenedScene>& shown);  // once per update
 
   // What was found in the footage of the scene that was followed last; null: nothing yet.
   [[nodiscard]] const std::shared_ptr<const SeenHorizons>& seen() const { return seen_; }
 
  private:
-  struct Request {
-    std::shared_ptr<const OpenedScene> scene;
-  };
-  [[nodiscard]] static Result<SeenHorizons> found(const Request& request, const JobControl& control);
-  [[nodiscard]] static FootageSettings with_absolute_paths(const Project& project);
-
-  BackgroundJob<Request, SeenHorizons> job_;
+  BackgroundJob<std::shared_ptr<const OpenedScene>, SeenHorizons> job_;
   FootageSettings asked_;  // for which it was begun, with absolute paths
   std::shared_ptr<const SeenHorizons> seen_;
 };

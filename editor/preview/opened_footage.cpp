@@ -100,6 +100,36 @@ void copy_part(const Frame& from, const cv::Rect& pixels, Frame& to) {
   }
 }
 
+constexpr std::chrono::milliseconds kAfterFailure(100);  // memory may be had again; what is wanted is asked for anew
+
+OpenedFootage opened_or_problem(const FootageId& footage) {
+  Result<OpenedFootage> opened = guarded([&]() -> Result<OpenedFootage> { return opened_footage(*footage.project); },
+                                         footage.project->footage.video);
+  if (opened) return std::move(*opened);
+  return {nullptr, std::make_shared<const Footage>(Footage{.problem = opened.error().text()})};
+}
+
+void open_in_background(const std::shared_ptr<PreviewState>& preview_state, const FootageId& footage) {
+  const auto open = [preview_state, footage] {
+    const Result<void> done = guarded([&]() -> Result<void> {
+      preview_state->put_opened(footage, opened_or_problem(footage));
+      return {};
+    });
+    static_cast<void>(done);  // where not even that can be said, the footage stays "being opened"
+  };
+  run_in_background(open);
+}
+
+DecodedFrame decoded_frame(FrameSource& source, int number) {
+  Result<Frame> frame = guarded([&] { return source.read(number); });
+  const std::string where = fmt::format("{}: frame {}", source.info().path.string(), number);
+  if (frame && frame->damaged)
+    return {std::move(*frame), where + " is damaged; another frame of the footage replaces it"};
+  if (frame) return {std::move(*frame), ""};
+  const FootageShape shape{.size_px = source.info().size_px, .times_s = source.info().times_s};
+  return {grey_frame(shape, number), frame.error().text()};
+}
+
 }  // namespace
 
 cv::Mat bgr_of_part(const Frame& frame, const cv::Rect& part) {
@@ -143,43 +173,6 @@ PatchedImage FootageCopies::patched(const std::shared_ptr<const DecodedFrame>& f
   copy_ = std::move(composed.image);
   return image;
 }
-
-namespace {
-
-constexpr std::chrono::milliseconds kAfterFailure(100);  // memory may be had again; what is wanted is asked for anew
-
-OpenedFootage opened_or_problem(const FootageId& footage) {
-  Result<OpenedFootage> opened = guarded([&]() -> Result<OpenedFootage> { return opened_footage(*footage.project); },
-                                         footage.project->footage.video);
-  if (opened) return std::move(*opened);
-  return {nullptr, std::make_shared<const Footage>(Footage{.problem = opened.error().text()})};
-}
-
-void open_in_background(const std::shared_ptr<PreviewState>& preview_state, const FootageId& footage) {
-  const auto open = [preview_state, footage] {
-    const Result<void> done = guarded([&]() -> Result<void> {
-      preview_state->put_opened(footage, opened_or_problem(footage));
-      return {};
-    });
-    static_cast<void>(done);  // where not even that can be said, the footage stays "being opened"
-  };
-  run_in_background(open);
-}
-
-DecodedFrame grey_with_problem(const VideoInfo& video, int frame, std::string problem) {
-  return {grey_frame({.size_px = video.size_px, .times_s = video.times_s}, frame), std::move(problem)};
-}
-
-DecodedFrame decoded_frame(FrameSource& source, int number) {
-  Result<Frame> frame = guarded([&] { return source.read(number); });
-  const std::string where = fmt::format("{}: frame {}", source.info().path.string(), number);
-  if (frame && frame->damaged)
-    return {std::move(*frame), where + " is damaged; another frame of the footage replaces it"};
-  if (frame) return {std::move(*frame), ""};
-  return grey_with_problem(source.info(), number, frame.error().text());
-}
-
-}  // namespace
 
 void run_decoder(const std::shared_ptr<PreviewState>& preview_state) {
   std::unique_ptr<FrameSource> source;

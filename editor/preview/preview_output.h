@@ -97,8 +97,7 @@ struct Footage {
 // immutable and shared with the window.
 struct OpenedScene {
   std::uint64_t revision = 0;  // Revision::number
-  // combined_id() of the project's settings and its files: images with this id show this scene.
-  ContentId content;
+  ContentId content;  // combined_id() of the project's settings and its files: images with this id show this scene
   std::shared_ptr<const Project> project;
   std::shared_ptr<const Footage> footage;
   DraftScene draft;  // the scene, with placeholders for what cannot be read, and its problems
@@ -114,12 +113,10 @@ struct PreviewImage {
   // CV_8UC3 of the footage's size: what `sigs frame` writes, in one piece where it was made with stages or by another
   // method than the project's own.
   PatchedImage bgr;
-  // Opacity of the intruders: CV_8UC1 or empty, as ComposedFrame::mask.
-  cv::Mat mask;
+  cv::Mat mask;  // opacity of the intruders: CV_8UC1 or empty, as ComposedFrame::mask
   FrameTruth truth;
   std::vector<Stage> stages;  // intermediate images; empty unless they were asked for
-  // Why bgr is the untouched footage, another frame or grey; "" where it is the frame itself.
-  std::string problem;
+  std::string problem;  // why bgr is the untouched footage, another frame or grey; "" where it is the frame itself
   FrameTimes times;
 };
 
@@ -148,9 +145,8 @@ struct Survey {
 // A small image of an intruder's model by itself, as turntable_image() draws it.
 struct ModelImage {
   std::filesystem::path file;
-  double turn_rad = 0;  // about the model's vertical axis, positive to the right, as yaw
-  // CV_8UC4, straight alpha; empty where it could not be drawn.
-  cv::Mat rgba;
+  double turn_rad = 0;         // about the model's vertical axis, positive to the right, as yaw
+  cv::Mat rgba;                // CV_8UC4, straight alpha; empty where it could not be drawn
   glm::dvec3 size_m{0, 0, 0};  // extents along body X, Y, Z
   std::string problem;         // why it is a cross or empty; "" where it is the model
 };
@@ -186,12 +182,11 @@ struct PreviewRequest {
 // Bytes of images that are kept to be shown (again), by where they are kept. Files that were read, working memory and
 // the steps of undo do not count.
 struct MemoryUse {
-  std::size_t images = 0;   // composited frames in the cache
-  std::size_t decoded = 0;  // frames of the footage in the cache
-  std::size_t shown = 0;    // what the view shows or asks for at this moment, where no cache holds it
-  // On the graphics card with the images they are made of, as the window says.
-  std::size_t textures = 0;
-  std::size_t limit = 0;  // PreviewLimits::cache_bytes: for all of them together
+  std::size_t images = 0;    // composited frames in the cache
+  std::size_t decoded = 0;   // frames of the footage in the cache
+  std::size_t shown = 0;     // what the view shows or asks for at this moment, where no cache holds it
+  std::size_t textures = 0;  // on the graphics card with the images they are made of, as the window says
+  std::size_t limit = 0;     // PreviewLimits::cache_bytes: for all of them together
 
   [[nodiscard]] std::size_t sum() const { return images + decoded + shown + textures; }
 };
@@ -208,16 +203,13 @@ struct PreviewOutput {
   // The wanted frame with its stages, and by the method of compare_with; null as above.
   std::shared_ptr<const PreviewImage> staged;
   std::shared_ptr<const PreviewImage> compared;
-  // One for each of the project's intruders, null: not yet.
-  std::vector<std::shared_ptr<const Survey>> surveys;
+  std::vector<std::shared_ptr<const Survey>> surveys;  // one for each of the project's intruders, null: not yet
   std::shared_ptr<const ModelImage> model;
   // By frame of the footage: whether it is composited and in the cache, for the wanted content.
   std::vector<bool> cached;
-  // The wanted footage is still being opened; the scene is the one before, or null.
-  bool opening = false;
+  bool opening = false;   // the wanted footage is still being opened; the scene is the one before, or null
   double compose_ms = 0;  // time that composing the newest wanted image took
-  // Something that is wanted is still being made, or frames are being made ahead.
-  bool busy = false;
+  bool busy = false;      // something that is wanted is still being made, or frames are being made ahead
   MemoryUse memory;
 };
 

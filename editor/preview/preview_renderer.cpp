@@ -174,8 +174,6 @@ class PreviewRenderer {
   // The preview state has to outlive it.
   explicit PreviewRenderer(PreviewState& preview_state) : preview_state_(preview_state) {}
 
-  // The thread's body, at kPreviewNiceness; returns when the preview state is stopped. Where it has nothing to do, it
-  // still looks at the project's files once a second.
   void run() {
     lower_thread_priority(kPreviewNiceness);
     while (const std::optional<PreviewSnapshot> snapshot = preview_state_.snapshot()) {
@@ -207,9 +205,8 @@ class PreviewRenderer {
     return false;
   }
 
-  // The wanted frame. While that is being decoded, the last frame that was wanted before it.
-  // While the wanted frame is still being decoded, the one that was wanted before it is better than nothing: a fast
-  // scrub shows images on its way.
+  // The wanted frame. While that is still being decoded, the one that was wanted before it is better than nothing: a
+  // fast scrub shows images on its way.
   bool render_requested(const PreviewSnapshot& snapshot) {
     const int frame = clamped(snapshot.wanted->frame);
     if (preview_state_.has_image({content_, frame})) return false;

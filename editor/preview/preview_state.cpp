@@ -157,18 +157,9 @@ PreviewOutput PreviewState::shown() const {
   return shown;
 }
 
-void PreviewState::set_texture_bytes(std::size_t bytes) {
+void PreviewState::set_bytes(std::size_t& place, std::size_t bytes) {
   const std::lock_guard lock(mutex_);
-  if (texture_bytes_ == bytes) return;
-  texture_bytes_ = bytes;
-  share_memory();
-}
-
-void PreviewState::set_cache_bytes(std::size_t bytes) {
-  const std::lock_guard lock(mutex_);
-  if (limits_.cache_bytes == bytes) return;
-  limits_.cache_bytes = bytes;
-  share_memory();
+  if (std::exchange(place, bytes) != bytes) share_memory();
 }
 
 void PreviewState::set_prefetch_paused(bool paused) {
@@ -353,16 +344,6 @@ void PreviewState::put_compared(FrameKey key, std::shared_ptr<const PreviewImage
   put(true, [&] {
     if (wanted_ && wanted_->compare_with) compared_ = {key, std::move(image)};
   });
-}
-
-bool PreviewState::has_untouched(FrameKey key) const {
-  const std::lock_guard lock(mutex_);
-  return untouched_.is(key);
-}
-
-bool PreviewState::has_staged(FrameKey key) const {
-  const std::lock_guard lock(mutex_);
-  return staged_.is(key);
 }
 
 bool PreviewState::has_compared(FrameKey key, MethodChoice method, bool staged) const {

@@ -42,13 +42,11 @@ struct PreviewSnapshot {
 
 // What the decoding thread is to do next; exactly one of the three.
 struct DecodeTask {
-  // Open this footage on a thread of its own and report it by put_opened().
-  std::optional<FootageId> open;
+  std::optional<FootageId> open;  // open this footage on a thread of its own and report it by put_opened()
   // Where adopt is set: read from this source from now on, in place of the one before. Null: the footage has no video.
   std::unique_ptr<FrameSource> source;
   bool adopt = false;
-  // Decode this frame, by the id of its footage, and report it by put_decoded().
-  std::optional<FrameKey> decode;
+  std::optional<FrameKey> decode;  // decode this frame, by the id of its footage, and report it by put_decoded()
 };
 
 // The state that the window, the decoding and the rendering thread share: requests one way, results the other. All
@@ -66,9 +64,9 @@ class PreviewState {
   void want(const PreviewRequest& wanted);
   // Copies pointers, not images. An image that is in memory for the wanted frame is there at once, also after undo.
   [[nodiscard]] PreviewOutput shown() const;
-  void set_texture_bytes(std::size_t bytes);
+  void set_texture_bytes(std::size_t bytes) { set_bytes(texture_bytes_, bytes); }
   // PreviewLimits::cache_bytes from now on.
-  void set_cache_bytes(std::size_t bytes);
+  void set_cache_bytes(std::size_t bytes) { set_bytes(limits_.cache_bytes, bytes); }
   void set_prefetch_paused(bool paused);
   // From then on snapshot() and next_decoding() return none, those that wait included, and wake is not called any more.
   void stop();
@@ -111,8 +109,14 @@ class PreviewState {
   void put_untouched(FrameKey key, std::shared_ptr<const cv::Mat> bgr);
   void put_staged(FrameKey key, std::shared_ptr<const PreviewImage> image);
   void put_compared(FrameKey key, std::shared_ptr<const PreviewImage> image);
-  [[nodiscard]] bool has_untouched(FrameKey key) const;
-  [[nodiscard]] bool has_staged(FrameKey key) const;
+  [[nodiscard]] bool has_untouched(FrameKey key) const {
+    const std::lock_guard lock(mutex_);
+    return untouched_.is(key);
+  }
+  [[nodiscard]] bool has_staged(FrameKey key) const {
+    const std::lock_guard lock(mutex_);
+    return staged_.is(key);
+  }
   // staged: with its stages; a frame that could not be composed has none.
   [[nodiscard]] bool has_compared(FrameKey key, MethodChoice method, bool staged) const;
   // One for each of the project's intruders; null: not made yet.
@@ -129,6 +133,7 @@ class PreviewState {
     [[nodiscard]] bool is(FrameKey other) const { return value && key == other; }
   };
 
+  void set_bytes(std::size_t& place, std::size_t bytes);
   // Makes a change under the lock, shares out the memory anew, then wakes the window without the lock: at once, or
   // within a quarter of a second.
   template <class Change>
@@ -140,8 +145,7 @@ class PreviewState {
   [[nodiscard]] bool should_wake(bool at_once);
   // Under which the wanted image is kept; none: nothing is wanted.
   [[nodiscard]] std::optional<FrameKey> wanted_key() const;
-  // Into the frames of the scene that is open; unchanged without one.
-  [[nodiscard]] int clamped(int frame) const;
+  [[nodiscard]] int clamped(int frame) const;  // into the frames of the scene that is open; unchanged without one
   [[nodiscard]] std::shared_ptr<const PreviewImage> found(FrameKey key) const;
   [[nodiscard]] bool is_decoded(FrameKey key) const;
   [[nodiscard]] bool may_prefetch() const;
@@ -164,8 +168,7 @@ class PreviewState {
 
   std::optional<PreviewRequest> wanted_;
   Clock::time_point revised_{};  // when another revision was wanted than before
-  // The files of the wanted revision as they were looked at last (set_input_files).
-  ContentId input_files_;
+  ContentId input_files_;        // the files of the wanted revision as they were looked at last (set_input_files)
 
   // The footage that the wanted revision names, the last that was given out to be opened, and the one that is open.
   FootageId footage_wanted_;
@@ -175,10 +178,8 @@ class PreviewState {
   // Opened, and not yet taken by the decoding thread; the inner pointer is null where there is no video.
   std::optional<std::unique_ptr<FrameSource>> arrived_;
   FrameCache<DecodedFrame> decoded_;
-  // Kept beside the cache, whose limit may be too small for even one frame.
-  Slot<DecodedFrame> last_decoded_;
-  // Of one frame, the last that came: by it the room for the next one is judged.
-  std::size_t decoded_bytes_ = 0;
+  Slot<DecodedFrame> last_decoded_;  // kept beside the cache, whose limit may be too small for even one frame
+  std::size_t decoded_bytes_ = 0;    // of one frame, the last that came: by it the room for the next one is judged
 
   std::shared_ptr<const OpenedScene> scene_;
   FrameCache<PreviewImage> images_;
@@ -197,8 +198,7 @@ class PreviewState {
   // A thread is at work, or was since the rendering thread last waited: PreviewOutput::busy.
   bool rendering_ = false;
   bool decoding_ = false;
-  // There is something to show that the window has not been told of.
-  bool has_news_ = false;
+  bool has_news_ = false;  // there is something to show that the window has not been told of
   Clock::time_point last_wake_{};
 };
 

@@ -26,8 +26,7 @@ class RigPreview {
     bool all_images = false;   // those of the other cameras are wanted too
     bool only_active = false;  // the others wait: the project is being dragged
   };
-  // Once per update of the window.
-  void want(const Document& document, const Request& request);
+  void want(const Document& document, const Request& request);  // once per update of the window
 
   // Once per update of the window: what there is to show of each camera, by its index; one at least. Nothing of another
   // document. Frames in memory are told of the active camera alone.

@@ -21,21 +21,11 @@ std::string why_not(const OpenedScene& scene) {
   return {};
 }
 
-// Composing may run out of OpenGL or memory.
-Result<void> streamed(const TruthBuilder::StreamFrames& show, const Project& project,
-                      const TruthBuilder::OnFrame& on_frame) {
-  return guarded([&] { return show(project, 1, on_frame); }, "composing");
-}
-
 constexpr double kMinSide_px = 0;  // of the first box that a tracker is started with
 
 bool is_same(const FootageTruth& a, const FootageTruth& b) {
   return a.video == b.video && a.size_px == b.size_px && a.first_frame == b.first_frame &&
          a.last_frame == b.last_frame && a.frame_rate_num == b.frame_rate_num && a.frame_rate_den == b.frame_rate_den;
-}
-
-Result<Results> read_safely(const std::filesystem::path& path, const FootageTruth& footage, std::optional<int> start) {
-  return guarded([&] { return read_results(path, footage, {.start_frame = start}); }, path.string());
 }
 
 const TargetTruth* target_in(const ClipTruth& clip, int id) {
@@ -72,8 +62,6 @@ TruthBuilder::TruthBuilder(std::function<void()> wake, StreamFrames show, std::c
       idle_time_(idle_time),
       worker_({.work = [this](const Scene& scene) { build(scene); }, .niceness = kBackgroundNiceness}) {}
 
-TruthBuilder::~TruthBuilder() = default;
-
 void TruthBuilder::want(std::shared_ptr<const OpenedScene> scene) {
   const std::lock_guard lock(mutex_);
   if (!scene) state_ = {};
@@ -108,13 +96,15 @@ void TruthBuilder::compose_all(const Scene& scene) {
   const int total = clip.footage.last_frame - clip.footage.first_frame + 1;
   bool given_up = false;
   looked_at_ = scene;
-  const Result<void> made = streamed(stream_, *scene->project, [&](const StreamFrame& frame) -> Result<void> {
+  const auto on_frame = [&](const StreamFrame& frame) -> Result<void> {
     given_up = !is_still_wanted(scene);
     if (given_up) return fail("", "given up", ErrorKind::interrupted);
     const Result<void> added = add_frame(clip, frame.truth);
     if (added && clip.frames() % kFramesAWord == 0) put({.scene = looked_at_, .done = clip.frames(), .total = total});
     return added;
-  });
+  };
+  // Composing may run out of OpenGL or memory.
+  const Result<void> made = guarded([&] { return stream_(*scene->project, 1, on_frame); }, "composing");
   const Scene belongs_to = std::exchange(looked_at_, nullptr);
   if (given_up) {
     // Or it would not be begun anew should it be wanted again.
@@ -154,22 +144,18 @@ void TruthBuilder::build(const Scene& scene) {
 
 namespace fs = std::filesystem;
 
-int ResultFiles::free_color() const {
-  int color = 0;
-  const auto is_taken = [&](const ResultFile& file) { return file.color == color; };
-  while (std::ranges::any_of(files_, is_taken)) ++color;
-  return color;
-}
-
 void ResultFiles::add(const fs::path& path) {
   std::error_code code;
   const fs::path absolute = fs::absolute(path, code);
   const fs::path place = (code ? path : absolute).lexically_normal();
   const auto same = std::ranges::find(files_, place, &ResultFile::path);
-  if (same != files_.end())
+  if (same != files_.end()) {
     same->is_shown = true;
-  else
-    files_.push_back({.id = ++last_id_, .path = place, .color = free_color()});
+    return;
+  }
+  int color = 0;
+  while (std::ranges::find(files_, color, &ResultFile::color) != files_.end()) ++color;
+  files_.push_back({.id = ++last_id_, .path = place, .color = color});
 }
 
 void ResultFiles::remove(int id) {
@@ -227,7 +213,8 @@ void Scoring::read(Tracker& tracker, const ResultFile& file, const FootageTruth&
   const bool is_old = stamp != tracker.stamp && stamp == before;
   if (is_known && !is_old && is_same(footage, tracker.footage) && start == tracker.start_frame) return;
   tracker = {.stamp = stamp, .last_stamp = stamp, .footage = footage, .start_frame = start};
-  Result<Results> read = read_safely(file.path, footage, start);
+  Result<Results> read =
+      guarded([&] { return read_results(file.path, footage, {.start_frame = start}); }, file.path.string());
   if (read)
     tracker.results = std::make_shared<const Results>(std::move(*read));
   else

@@ -29,10 +29,8 @@ namespace sigs::editor {
 
 // The measured truth of a scene, as far as it is known. Equal to TruthState() where none is wanted or begun.
 struct TruthState {
-  // The scene that it belongs to; null: nothing is begun yet.
-  std::shared_ptr<const OpenedScene> scene;
-  // The truth of all frames; null: not yet, or `problem` says why not at all.
-  std::shared_ptr<const ClipTruth> clip;
+  std::shared_ptr<const OpenedScene> scene;  // the scene that it belongs to; null: nothing is begun yet
+  std::shared_ptr<const ClipTruth> clip;     // the truth of all frames; null: not yet, or `problem` says why not at all
   // Frames that are composed, of `total`.
   int done = 0;
   int total = 0;
@@ -55,7 +53,7 @@ class TruthBuilder {
   explicit TruthBuilder(std::function<void()> wake, StreamFrames show = stream_frames,
                         std::chrono::milliseconds idle_time = std::chrono::milliseconds(500));
   // Gives up what is under way, and waits until that has noticed, at its next frame.
-  ~TruthBuilder();
+  ~TruthBuilder() = default;
   TruthBuilder(const TruthBuilder&) = delete;
   TruthBuilder& operator=(const TruthBuilder&) = delete;
 
@@ -78,14 +76,12 @@ class TruthBuilder {
   // Whether the wanted content is still that of `begun`; remembers the scene that is wanted in looked_at_.
   [[nodiscard]] bool is_still_wanted(const Scene& begun);
   void compose_all(const Scene& scene);
-  // Shows a state, unless nothing is wanted any more.
-  void put(TruthState state);
+  void put(TruthState state);  // shows a state, unless nothing is wanted any more
 
   std::function<void()> wake_;
   StreamFrames stream_;
   std::chrono::milliseconds idle_time_;
-  // Guards state_.
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  // guards state_
   TruthState state_;
 
   // Used by the worker's thread alone, as is looked_at_. Newest first, at most 16.
@@ -98,12 +94,10 @@ class TruthBuilder {
 
 // A file with the results of a tracker in this footage, while it is loaded. Not part of the project.
 struct ResultFile {
-  // Its own as long as the program runs; 0: none.
-  int id = 0;
+  int id = 0;  // its own as long as the program runs; 0: none
   std::filesystem::path path;
-  int color = 0;  // number of its colour (result_color): the smallest that no other file has
-  // Whether its boxes and its curve are drawn. It is scored in any case.
-  bool is_shown = true;
+  int color = 0;         // number of its colour (result_color): the smallest that no other file has
+  bool is_shown = true;  // whether its boxes and its curve are drawn; it is scored in any case
 
   [[nodiscard]] bool operator==(const ResultFile&) const = default;
 };
@@ -113,16 +107,12 @@ class ResultFiles {
  public:
   // A path is made absolute first. A file that is loaded already is shown again, and stays one.
   void add(const std::filesystem::path& path);
-  // Ids that are not there are passed over. The file on disk stays.
-  void remove(int id);
+  void remove(int id);  // passes over ids that are not there; the file on disk stays
   void set_shown(int id, bool shown);
   void clear() { files_.clear(); }
   [[nodiscard]] const std::vector<ResultFile>& files() const { return files_; }
 
  private:
-  // The smallest number that no file has.
-  [[nodiscard]] int free_color() const;
-
   std::vector<ResultFile> files_;
   int last_id_ = 0;
 };
@@ -148,8 +138,7 @@ struct Scored {
   // Index in the project of the intruder that they are measured against, and its name; "" where it has no path.
   int intruder = 0;
   std::string target;
-  // Frame of the footage that index 0 of the scores' frames is.
-  int first_frame = 0;
+  int first_frame = 0;  // frame of the footage that index 0 of the scores' frames is
   TruthKind truth = TruthKind::none;
   // Frames of the measured truth that are composed, of truth_total, while it is made.
   int truth_done = 0;
@@ -178,8 +167,7 @@ class Scoring {
  public:
   // wake  called from another thread when scored() is another one
   explicit Scoring(std::function<void()> wake, TruthBuilder::StreamFrames show = stream_frames);
-  // Waits for the step that is under way.
-  ~Scoring();
+  ~Scoring();  // waits for the step that is under way
   Scoring(const Scoring&) = delete;
   Scoring& operator=(const Scoring&) = delete;
 
@@ -205,10 +193,8 @@ class Scoring {
     std::shared_ptr<const TrackScore> score;
   };
 
-  // The worker's work: has the truth measured, then makes one step.
-  void update(const ScoringRequest& wanted);
-  // Reads and scores what has changed, and puts the result.
-  void step(const ScoringRequest& wanted);
+  void update(const ScoringRequest& wanted);  // the worker's work: has the truth measured, then makes one step
+  void step(const ScoringRequest& wanted);    // reads and scores what has changed, and puts the result
   // The measured truth where it belongs to the wanted scene, else the outlines. Null: neither is there.
   [[nodiscard]] std::shared_ptr<const ClipTruth> clip_of(const ScoringRequest& wanted, const TruthState& truth);
   // Reads the file where it, the footage or the start frame is another one than at the last time.
@@ -220,8 +206,7 @@ class Scoring {
   void put(std::shared_ptr<const Scored> scored);
 
   std::function<void()> wake_;
-  // Guards scored_.
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_;  // guards scored_
   std::shared_ptr<const Scored> scored_;
 
   // By the file's id. Used by the worker's thread alone, as are the outlines: these are kept until the scene or its

@@ -64,21 +64,17 @@ Attitude deviations_of_angles(const Attitude& at, const glm::dvec3& sd_rad) {
   return {.roll_rad = limited(roll_rad), .pitch_rad = limited(pitch_rad), .yaw_rad = limited(yaw_rad)};
 }
 
-}  // namespace
-
-CountedFrames counted_frames(const Scene& scene) {
-  if (scene.timeline) return {scene.timeline->footage, scene.timeline->first_frame, scene.timeline->last_frame};
-  return {scene.footage, scene.first_frame, scene.last_frame};
-}
-
-namespace {
-
 int nearest_frame(const FootageShape& footage, double frame) {
   const double last = std::max<double>(0, static_cast<double>(footage.times_s.size()) - 1);
   return static_cast<int>(std::lround(std::clamp(frame, 0.0, last)));
 }
 
 }  // namespace
+
+CountedFrames counted_frames(const Scene& scene) {
+  if (scene.timeline) return {scene.timeline->footage, scene.timeline->first_frame, scene.timeline->last_frame};
+  return {scene.footage, scene.first_frame, scene.last_frame};
+}
 
 CountedFrames filmed_frames(const Scene& scene) {
   CountedFrames filmed = counted_frames(scene);

@@ -121,8 +121,7 @@ class LatestRequestWorker {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_ = false;
-  // work is to be called though it may have seen this request.
-  bool is_due_ = false;
+  bool is_due_ = false;  // work is to be called though it may have seen this request
   Request latest_{};
   std::thread thread_;  // last: it uses all of the above
 };

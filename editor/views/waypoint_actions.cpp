@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/pose.h"
-#include "editor/document/waypoint_edits.h"
+#include "editor/document/project_edits.h"
 #include "project/places.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/document/waypoint_edits.h"
+#include "editor/document/project_edits.h"
 #include "editor/views/waypoint_actions.h"
 #include "project/places.h"
 #include "scene/flight.h"

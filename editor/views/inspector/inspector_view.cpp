@@ -9,7 +9,7 @@
 
 #include "base/pose.h"
 #include "base/text.h"
-#include "editor/document/rig_edits.h"
+#include "editor/document/project_edits.h"
 #include "editor/views/results/results_view.h"
 #include "editor/views/viewport/cameras_view.h"
 #include "scene/opened_project.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/ensure.h"
-#include "editor/document/waypoint_edits.h"
+#include "editor/document/project_edits.h"
 #include "editor/views/waypoint_actions.h"
 
 namespace sigs::editor {

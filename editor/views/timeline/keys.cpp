@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "editor/document/waypoint_edits.h"
+#include "editor/document/project_edits.h"
 #include "editor/views/timeline/lanes.h"
 #include "editor/views/waypoint_actions.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "editor/document/field_edits.h"
-#include "editor/document/rig_edits.h"
+#include "editor/document/project_edits.h"
 #include "editor/views/viewport/overlays.h"
 #include "editor/widgets/zoomable_image.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "editor/document/waypoint_edits.h"
+#include "editor/document/project_edits.h"
 #include "editor/views/waypoint_actions.h"
 #include "project/places.h"
 #include "scene/scene_at.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "editor/document/document.h"
-#include "editor/document/waypoint_edits.h"
+#include "editor/document/project_edits.h"
 #include "project/places.h"
 
 using namespace sigs;

@@ -5,8 +5,8 @@
 
 #include "editor/document/document.h"
 #include "editor/document/field_edits.h"
+#include "editor/document/project_edits.h"
 #include "editor/document/project_paths.h"
-#include "editor/document/rig_edits.h"
 #include "project/json.h"
 #include "project/validate.h"
 #include "support/test_data.h"

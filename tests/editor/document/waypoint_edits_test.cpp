@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "editor/document/waypoint_edits.h"
+#include "editor/document/project_edits.h"
 
 #include <doctest/doctest.h>
 

@@ -171,11 +171,22 @@ TEST_CASE("a path that passes behind the camera is broken there") {
     for (const glm::dvec2& p : line) CHECK((std::abs(p.x) < 1e5 && std::abs(p.y) < 1e5));
 }
 
+// Straight lines from point to point, a second each.
+std::vector<PixelLine> points_through_lens(const std::vector<glm::dvec3>& points_m, const Lens& lens) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < points_m.size(); ++i) times.push_back(static_cast<double>(i));
+  const auto position_m = [&](double t) {
+    const std::size_t leg = std::min(static_cast<std::size_t>(t), points_m.size() - 2);
+    return glm::mix(points_m[leg], points_m[leg + 1], t - static_cast<double>(leg));
+  };
+  return path_through_lens(position_m, times, kPose, lens, kSize);
+}
+
 TEST_CASE("straight lines of points stay straight through a pinhole and are within half a pixel through any lens") {
   const std::vector<glm::dvec3> points{kPose * glm::dvec3{300, -100, -60}, kPose * glm::dvec3{400, 150, 30},
                                        kPose * glm::dvec3{90, 10, 30}};
   for (const Camera& camera : example_lenses()) {
-    const auto lines = points_through_lens(points, kPose, camera.lens, kSize);
+    const auto lines = points_through_lens(points, camera.lens);
     REQUIRE(lines.size() == 1);
     for (std::size_t leg = 0; leg < 2; ++leg)
       for (double share = 0; share <= 1; share += 0.01)
@@ -185,11 +196,11 @@ TEST_CASE("straight lines of points stay straight through a pinhole and are with
 
 TEST_CASE("no points, one point and points that are not finite give no line") {
   const Camera camera = example_lenses()[0];
-  CHECK(points_through_lens({}, kPose, camera.lens, kSize).empty());
+  CHECK(points_through_lens({}, camera.lens).empty());
   const std::vector<glm::dvec3> one{{2000, 0, -150}};
-  CHECK(points_through_lens(one, kPose, camera.lens, kSize).empty());
+  CHECK(points_through_lens(one, camera.lens).empty());
   const std::vector<glm::dvec3> none(3, glm::dvec3{std::nan(""), 0, 0});
-  CHECK(points_through_lens(none, kPose, camera.lens, kSize).empty());
+  CHECK(points_through_lens(none, camera.lens).empty());
 }
 
 TEST_CASE("the horizon through a lens looks level: rays behind it have no slope") {

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "editor/document/waypoint_edits.h"
+#include "editor/document/project_edits.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/ensure.h"
+#include "base/paths.h"
+#include "editor/document/project_paths.h"
 
 namespace sigs::editor {
 
@@ -30,6 +35,15 @@ WaypointSettings new_waypoint(const TrajectoryPlan& plan, double frame, const gl
   if (among_places) waypoint.place.emplace();
   put_at(waypoint, position_m, earth);
   return waypoint;
+}
+
+std::string new_name(const Project& whole, const std::filesystem::path& video) {
+  std::string name = video.stem().string();
+  if (name.empty() || !file_name_error(name).empty()) name = fmt::format("camera {}", whole.cameras.size() + 1);
+  const std::string stem = name;
+  const auto is_taken = [&] { return std::ranges::find(whole.cameras, name, &RigCamera::name) != whole.cameras.end(); };
+  for (int number = 2; is_taken(); ++number) name = fmt::format("{} {}", stem, number);
+  return name;
 }
 
 }  // namespace
@@ -92,6 +106,37 @@ void move_waypoint_in_time(TrajectoryPlan& plan, int waypoint, double frame, con
   const double lowest = index > 0 ? *plan.waypoints[index - 1].frame + kMinGap_frames : -1e9;
   const double highest = index + 1 < plan.waypoints.size() ? *plan.waypoints[index + 1].frame - kMinGap_frames : 1e9;
   if (lowest <= highest) plan.waypoints[index].frame = std::clamp(frame, lowest, highest);
+}
+
+void add_camera(Project& whole, const std::filesystem::path& video) {
+  if (whole.cameras.empty()) {
+    whole.cameras.emplace_back().name = "camera 1";
+    whole.cameras.front().footage = std::exchange(whole.footage, {});
+  }
+  RigCamera added;
+  added.name = new_name(whole, video);
+  added.footage.video = path_in_project(whole, video);
+  whole.cameras.push_back(std::move(added));
+}
+
+void remove_camera(Project& whole, std::size_t camera) {
+  if (camera == 0 || camera >= whole.cameras.size()) return;
+  whole.cameras.erase(whole.cameras.begin() + static_cast<std::ptrdiff_t>(camera));
+  if (whole.cameras.size() > 1 || whole.cameras.front().mount != MountSettings()) return;
+  RigCamera& left = whole.cameras.front();
+  whole.footage = std::move(left.footage);
+  if (left.readout_s) whole.camera.readout_s = left.readout_s;
+  if (left.exposure_s) whole.camera.exposure_s = left.exposure_s;
+  if (left.appearance) whole.appearance = *left.appearance;
+  whole.cameras.clear();
+}
+
+std::string why_not_called(const Project& whole, std::size_t camera, const std::string& name) {
+  if (name.empty()) return "A camera needs a name.";
+  if (const std::string wrong = file_name_error(name); !wrong.empty()) return "The name " + wrong + ".";
+  for (std::size_t i = 0; i < whole.cameras.size(); ++i)
+    if (i != camera && whole.cameras[i].name == name) return "Another camera is called so.";
+  return "";
 }
 
 }  // namespace sigs::editor
