@@ -14,51 +14,32 @@ namespace sigs {
 
 namespace {
 
-// The numbers of a tally, in a fixed order, for the batches of shards.
-constexpr std::size_t kTallyNumbers = 22;
-
-std::array<double, kTallyNumbers> numbers_of_tally(const RiskTally& tally) {
-  const EventSums& a = tally.nmac;
-  const EventSums& b = tally.well_clear;
-  return {double(tally.encounters),
-          tally.weight,
-          tally.weight_squares,
-          a.without,
-          a.with,
-          a.without_squares,
-          a.with_squares,
-          a.both_squares,
-          b.without,
-          b.with,
-          b.without_squares,
-          b.with_squares,
-          b.both_squares,
-          tally.induced,
-          tally.declared,
-          tally.manoeuvred,
-          tally.clear,
-          tally.unnecessary,
-          tally.out_of_view,
-          tally.undeclared,
-          tally.waiting,
-          tally.insufficient};
+// The sums of a tally, in a fixed order.
+auto sums_of(RiskTally& tally) {
+  EventSums& a = tally.nmac;
+  EventSums& b = tally.well_clear;
+  return std::array{
+      &tally.weight,      &tally.weight_squares, &a.without,         &a.with,           &a.without_squares,
+      &a.with_squares,    &a.both_squares,       &b.without,         &b.with,           &b.without_squares,
+      &b.with_squares,    &b.both_squares,       &tally.induced,     &tally.declared,   &tally.manoeuvred,
+      &tally.clear,       &tally.unnecessary,    &tally.out_of_view, &tally.undeclared, &tally.waiting,
+      &tally.insufficient};
 }
 
-RiskTally tally_of_numbers(const std::array<double, kTallyNumbers>& n) {
-  return {.encounters = static_cast<std::int64_t>(n[0]),
-          .weight = n[1],
-          .weight_squares = n[2],
-          .nmac = {n[3], n[4], n[5], n[6], n[7]},
-          .well_clear = {n[8], n[9], n[10], n[11], n[12]},
-          .induced = n[13],
-          .out_of_view = n[18],
-          .undeclared = n[19],
-          .waiting = n[20],
-          .insufficient = n[21],
-          .declared = n[14],
-          .manoeuvred = n[15],
-          .clear = n[16],
-          .unnecessary = n[17]};
+// The numbers of a tally for the batches of shards: how many encounters, then the sums.
+constexpr std::size_t kTallyNumbers = 22;
+
+std::array<double, kTallyNumbers> numbers_of_tally(RiskTally tally) {
+  std::array<double, kTallyNumbers> numbers{double(tally.encounters)};
+  std::ranges::transform(sums_of(tally), numbers.begin() + 1, [](const double* sum) { return *sum; });
+  return numbers;
+}
+
+RiskTally tally_of_numbers(const std::array<double, kTallyNumbers>& numbers) {
+  RiskTally tally{.encounters = static_cast<std::int64_t>(numbers[0])};
+  auto number = numbers.begin();
+  for (double* const sum : sums_of(tally)) *sum = *++number;
+  return tally;
 }
 
 Json ratio_json(const RiskRatio& ratio) {
