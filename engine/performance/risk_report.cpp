@@ -14,31 +14,19 @@ namespace sigs {
 
 namespace {
 
-// The sums of a tally, in a fixed order.
-auto sums_of(RiskTally& tally) {
-  EventSums& a = tally.nmac;
-  EventSums& b = tally.well_clear;
-  return std::array{
-      &tally.weight,      &tally.weight_squares, &a.without,         &a.with,           &a.without_squares,
-      &a.with_squares,    &a.both_squares,       &b.without,         &b.with,           &b.without_squares,
-      &b.with_squares,    &b.both_squares,       &tally.induced,     &tally.declared,   &tally.manoeuvred,
-      &tally.clear,       &tally.unnecessary,    &tally.out_of_view, &tally.undeclared, &tally.waiting,
-      &tally.insufficient};
-}
-
 // The numbers of a tally for the batches of shards: how many encounters, then the sums.
-constexpr std::size_t kTallyNumbers = 22;
+constexpr std::size_t kTallyNumbers = 1 + kTallySums;
 
 std::array<double, kTallyNumbers> numbers_of_tally(RiskTally tally) {
   std::array<double, kTallyNumbers> numbers{double(tally.encounters)};
-  std::ranges::transform(sums_of(tally), numbers.begin() + 1, [](const double* sum) { return *sum; });
+  std::ranges::transform(tally.sums(), numbers.begin() + 1, [](const double* sum) { return *sum; });
   return numbers;
 }
 
 RiskTally tally_of_numbers(const std::array<double, kTallyNumbers>& numbers) {
   RiskTally tally{.encounters = static_cast<std::int64_t>(numbers[0])};
   auto number = numbers.begin();
-  for (double* const sum : sums_of(tally)) *sum = *++number;
+  for (double* const sum : tally.sums()) *sum = *++number;
   return tally;
 }
 
@@ -229,26 +217,20 @@ Result<Json> merged_risk_json(const std::vector<RiskShard>& shards, const std::v
 }
 
 std::vector<TableColumn> risk_table(const Json& json) {
-  std::vector<TableColumn> columns;
-  for (const auto& [title, unit] :
-       {std::pair("class", ""), std::pair("encounters", ""), std::pair("risk ratio NMAC", "95 %"),
-        std::pair("risk ratio well clear", "95 %"), std::pair("P(NMAC) without", ""), std::pair("induced", "of these"),
-        std::pair("declared", ""), std::pair("unnecessary", "manoeuvres")})
-    columns.push_back({.title = title, .unit = unit, .cells = {}, .is_best = {}});
-  for (const Json& one : json.at("classes")) {
-    const std::vector<std::string> cells{one.at("class").get<std::string>(),
-                                         std::to_string(one.at("encounters").get<std::int64_t>()),
-                                         ratio_text(one.at("risk_ratio_nmac"), 3),
-                                         ratio_text(one.at("risk_ratio_well_clear"), 3),
-                                         number_of(one.at("p_nmac_without").at("value"), 5),
-                                         number_of(one.at("induced_nmac_ratio"), 4),
-                                         number_of(one.at("declared").at("value"), 3),
-                                         number_of(one.at("unnecessary_manoeuvres").at("value"), 3)};
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      columns[i].cells.push_back(cells[i]);
-      columns[i].is_best.push_back(false);
-    }
-  }
+  std::vector<TableColumn> columns{text_column("class", ""),
+                                   text_column("encounters", ""),
+                                   text_column("risk ratio NMAC", "95 %"),
+                                   text_column("risk ratio well clear", "95 %"),
+                                   text_column("P(NMAC) without", ""),
+                                   text_column("induced", "of these"),
+                                   text_column("declared", ""),
+                                   text_column("unnecessary", "manoeuvres")};
+  for (const Json& one : json.at("classes"))
+    add_row(columns,
+            {one.at("class").get<std::string>(), std::to_string(one.at("encounters").get<std::int64_t>()),
+             ratio_text(one.at("risk_ratio_nmac"), 3), ratio_text(one.at("risk_ratio_well_clear"), 3),
+             number_of(one.at("p_nmac_without").at("value"), 5), number_of(one.at("induced_nmac_ratio"), 4),
+             number_of(one.at("declared").at("value"), 3), number_of(one.at("unnecessary_manoeuvres").at("value"), 3)});
   return columns;
 }
 
