@@ -13,7 +13,7 @@
 #include "cli/process.h"
 #include "ego_motion/project_motion.h"
 #include "export/export_project.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "project/validate.h"
 #include "scene/opened_project.h"
 #include "scene/plausibility.h"

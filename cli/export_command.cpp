@@ -20,7 +20,7 @@
 #include "export/export_project.h"
 #include "labels/labels.h"
 #include "project/fields.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "project/validate.h"
 
 namespace sigs::cli {

@@ -19,7 +19,7 @@
 #include "base/text.h"
 #include "project/fields.h"
 #include "project/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 
 namespace sigs::cli {
 

@@ -14,7 +14,7 @@
 #include "cli/options.h"
 #include "cli/process.h"
 #include "project/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "project/validate.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"

@@ -20,7 +20,8 @@
 #include "cli/process.h"
 #include "ego_motion/clock_sync.h"
 #include "ego_motion/project_motion.h"
-#include "project/rig.h"
+#include "project/json.h"
+#include "project/project.h"
 #include "telemetry/read_track.h"
 
 namespace sigs::cli {

@@ -8,7 +8,7 @@
 #include "editor/document/project_paths.h"
 #include "project/json.h"
 #include "project/places.h"
-#include "project/rig.h"
+#include "project/project.h"
 
 namespace sigs::editor {
 

@@ -53,8 +53,8 @@ struct Revision {
 // footage, from 0. For the window's thread; other threads work with the revision() that they were given.
 //
 // A project with several cameras is looked at through one of them, the active one: project() and revision() are what it
-// sees, and a change is made on that and goes back to the whole (put_back() of project/rig.h). Frames are those of the
-// first camera, which waypoints count.
+// sees, and a change is made on that and goes back to the whole (put_back() of project/project.h). Frames are those of
+// the first camera, which waypoints count.
 //
 // A document belongs to one file, the one that it was opened from or saved to last, which project().file names: no
 // edit, undo or redo changes that.

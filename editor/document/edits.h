@@ -29,8 +29,8 @@ struct Selection {
   [[nodiscard]] bool operator==(const Selection&) const = default;
 };
 
-// What of a project with several cameras a change is made on: the project as one of them sees it (project/rig.h), or
-// the whole.
+// What of a project with several cameras a change is made on: the project as one of them sees it (project/project.h),
+// or the whole.
 enum class ChangeOf { active_camera, whole };
 
 // One change of the project.

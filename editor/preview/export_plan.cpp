@@ -11,7 +11,7 @@
 #include "labels/labels.h"
 #include "project/fields.h"
 #include "project/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "scene/opened_project.h"
 
 namespace sigs::editor {

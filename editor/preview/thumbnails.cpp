@@ -14,7 +14,7 @@
 #include "first_project/first_model.h"
 #include "frame/compose_frame.h"
 #include "project/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "scene/opened_project.h"
 #include "scene/scene.h"
 #include "scene/visibility.h"

@@ -10,7 +10,7 @@
 #include "editor/preview/export_plan.h"
 #include "editor/widgets/dialog.h"
 #include "project/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 
 namespace sigs::editor {
 

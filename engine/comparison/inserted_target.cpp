@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "frame/compose_frame.h"
-#include "scene/scene_files.h"
 #include "video/frame.h"
 
 namespace sigs {

@@ -17,7 +17,6 @@
 #include "scene/opened_project.h"
 #include "scene/scene_files.h"
 #include "video/color_space.h"
-#include "video/frame.h"
 
 namespace sigs {
 

@@ -27,6 +27,19 @@ namespace sigs {
 
 namespace {
 
+// From the numbers sampled for an image: those of its further bodies are called other1.sky_percent, ...
+BeforeWhat before_what(const std::map<std::string, double>& sampled, std::size_t body) {
+  constexpr double kNearlyAll_percent = 100 * kNearlyAll;
+  const std::string prefix = body == 0 ? "" : fmt::format("other{}.", body);
+  const auto percent_of = [&](const char* what) {
+    const auto there = sampled.find(prefix + what);
+    return there == sampled.end() ? -1 : there->second;
+  };
+  if (percent_of("sky_percent") < 0) return BeforeWhat::unknown;
+  if (percent_of("sky_percent") >= kNearlyAll_percent) return BeforeWhat::sky;
+  return percent_of("land_percent") >= kNearlyAll_percent ? BeforeWhat::land : BeforeWhat::both;
+}
+
 template <class Limits>
 void count_in(std::vector<long long>& bins, const Limits& limits, double value) {
   ++bins.at(static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), value) - limits.begin()));
@@ -109,18 +122,6 @@ Result<void> count_video(const std::filesystem::path& folder, const IndexedVideo
 }
 
 }  // namespace
-
-BeforeWhat before_what(const std::map<std::string, double>& sampled, std::size_t body) {
-  constexpr double kNearlyAll_percent = 100 * kNearlyAll;
-  const std::string prefix = body == 0 ? "" : fmt::format("other{}.", body);
-  const auto percent_of = [&](const char* what) {
-    const auto there = sampled.find(prefix + what);
-    return there == sampled.end() ? -1 : there->second;
-  };
-  if (percent_of("sky_percent") < 0) return BeforeWhat::unknown;
-  if (percent_of("sky_percent") >= kNearlyAll_percent) return BeforeWhat::sky;
-  return percent_of("land_percent") >= kNearlyAll_percent ? BeforeWhat::land : BeforeWhat::both;
-}
 
 int cell_of(double x_px, double y_px, cv::Size image_px) {
   const auto third = [](double at_px, int length_px) {

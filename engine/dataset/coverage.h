@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <opencv2/core.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -23,9 +22,6 @@ namespace sigs {
 // What a body is before, as the frame shows it (VideoVisibility::behind); looked at for images alone.
 enum class BeforeWhat { sky, land, both, unknown };
 inline constexpr std::array kBeforeNames{"sky", "land", "both", "unknown"};
-
-// From the numbers sampled for an image: those of its further bodies are called other1.sky_percent, ...
-[[nodiscard]] BeforeWhat before_what(const std::map<std::string, double>& sampled, std::size_t body);
 
 // One body in one frame.
 struct Sight {

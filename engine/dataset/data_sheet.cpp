@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/data_sheet.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <string_view>
 

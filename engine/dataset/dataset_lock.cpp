@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <cstring>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -21,7 +20,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/file_lock.h"
 #include "base/paths.h"
 #include "dataset/index.h"
 #include "dataset/video_name.h"

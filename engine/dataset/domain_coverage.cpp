@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dataset/domain_coverage.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

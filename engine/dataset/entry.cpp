@@ -6,17 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <set>
-#include <utility>
-#include <vector>
 
 #include "base/ensure.h"
 #include "base/input_file.h"
-#include "base/json.h"
 #include "base/staged_outputs.h"
 #include "base/threads.h"
 #include "mesh/model_files.h"

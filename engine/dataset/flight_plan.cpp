@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "base/ensure.h"
-#include "base/pose.h"
 #include "base/text.h"
-#include "dataset/encounter.h"
 
 namespace sigs {
 
@@ -61,6 +58,56 @@ Possible<void> check_values(FlightKind kind, const Values& values) {
 glm::dvec3 world_ray(const Values& values, const char* x_percent, const char* y_percent, const FlightContext& context) {
   const glm::dquat world_from_camera = rotation_of(mount_attitude(context.camera));
   return world_from_camera * ray_of_place(context.lens, {values.at(x_percent), values.at(y_percent)});
+}
+
+// The path of an intruder given by two places in the image: two points relative to the camera, in world axes.
+struct RelativePath {
+  glm::dvec3 from_m{0, 0, 0};
+  glm::dvec3 to_m{0, 0, 0};
+};
+
+// Paths between two unit rays, in world axes. Points are rounded to 2^-10 m, since the last digits of a lens model
+// differ between machines.
+//   crossing: straight from ray to ray, perpendicular to the direction half-way between them, and distance_m away where
+//             it crosses that direction
+//   radial: from a distance on one ray to a distance on the other
+RelativePath crossing(const glm::dvec3& from_ray, const glm::dvec3& to_ray, double distance_m) {
+  const glm::dvec3 ahead = glm::normalize(from_ray + to_ray);
+  return {rounded(from_ray * (distance_m / glm::dot(from_ray, ahead))),
+          rounded(to_ray * (distance_m / glm::dot(to_ray, ahead)))};
+}
+
+RelativePath radial(const glm::dvec3& from_ray, const glm::dvec3& to_ray, double from_distance_m,
+                    double to_distance_m) {
+  return {rounded(from_ray * from_distance_m), rounded(to_ray * to_distance_m)};
+}
+
+// From the path's first point to its last one in length_s > 0.
+RelativeMotion motion_over_time(const RelativePath& path, double length_s) {
+  ENSURE(length_s > 0);
+  return {.start_m = path.from_m, .velocity_mps = (path.to_m - path.from_m) / length_s};
+}
+
+// Motion along the line of the path at which the intruder flies speed_mps over ground while the camera flies
+// camera_speed_mps along world X. Its position agrees with that of motion_over_time() at `fixed_share` of the time: 0
+// at the start, 0.5 half-way, 1 at the end. Where the intruder is too slow to move along that line: the reason.
+Possible<RelativeMotion> motion_at_speed(const RelativePath& path, double length_s, double speed_mps,
+                                         double camera_speed_mps, double fixed_share) {
+  const double path_length_m = glm::length(path.to_m - path.from_m);
+  if (path_length_m == 0) return tl::unexpected(std::string("speed_mps: the intruder keeps its place in the image"));
+  const glm::dvec3 along = (path.to_m - path.from_m) / path_length_m;
+  // |camera velocity + relative speed * along| = speed_mps, the forward one of two solutions.
+  const double camera_along_mps = camera_speed_mps * along.x;
+  const double root =
+      camera_along_mps * camera_along_mps + (speed_mps - camera_speed_mps) * (speed_mps + camera_speed_mps);
+  const double relative_mps = root >= 0 ? std::sqrt(root) - camera_along_mps : 0;
+  if (!(relative_mps > 0))
+    return tl::unexpected(fmt::format(
+        "speed_mps: at {} m/s the intruder cannot fly along that line before a camera that flies {} m/s itself",
+        short_number_text(speed_mps), short_number_text(camera_speed_mps)));
+  const glm::dvec3 velocity_mps = along * relative_mps;
+  const glm::dvec3 fixed_m = path.from_m + fixed_share * (path.to_m - path.from_m);
+  return RelativeMotion{.start_m = fixed_m - fixed_share * length_s * velocity_mps, .velocity_mps = velocity_mps};
 }
 
 bool is_crossing(FlightKind kind) {
@@ -317,41 +364,6 @@ glm::dvec3 ray_of_place(const Camera& camera, const glm::dvec2& place_percent) {
     (ray ? low : high) = middle;
   }
   return best;
-}
-
-RelativePath crossing(const glm::dvec3& from_ray, const glm::dvec3& to_ray, double distance_m) {
-  const glm::dvec3 ahead = glm::normalize(from_ray + to_ray);
-  return {rounded(from_ray * (distance_m / glm::dot(from_ray, ahead))),
-          rounded(to_ray * (distance_m / glm::dot(to_ray, ahead)))};
-}
-
-RelativePath radial(const glm::dvec3& from_ray, const glm::dvec3& to_ray, double from_distance_m,
-                    double to_distance_m) {
-  return {rounded(from_ray * from_distance_m), rounded(to_ray * to_distance_m)};
-}
-
-RelativeMotion motion_over_time(const RelativePath& path, double length_s) {
-  ENSURE(length_s > 0);
-  return {.start_m = path.from_m, .velocity_mps = (path.to_m - path.from_m) / length_s};
-}
-
-tl::expected<RelativeMotion, std::string> motion_at_speed(const RelativePath& path, double length_s, double speed_mps,
-                                                          double camera_speed_mps, double fixed_share) {
-  const double path_length_m = glm::length(path.to_m - path.from_m);
-  if (path_length_m == 0) return tl::unexpected(std::string("speed_mps: the intruder keeps its place in the image"));
-  const glm::dvec3 along = (path.to_m - path.from_m) / path_length_m;
-  // |camera velocity + relative speed * along| = speed_mps, the forward one of two solutions.
-  const double camera_along_mps = camera_speed_mps * along.x;
-  const double root =
-      camera_along_mps * camera_along_mps + (speed_mps - camera_speed_mps) * (speed_mps + camera_speed_mps);
-  const double relative_mps = root >= 0 ? std::sqrt(root) - camera_along_mps : 0;
-  if (!(relative_mps > 0))
-    return tl::unexpected(fmt::format(
-        "speed_mps: at {} m/s the intruder cannot fly along that line before a camera that flies {} m/s itself",
-        short_number_text(speed_mps), short_number_text(camera_speed_mps)));
-  const glm::dvec3 velocity_mps = along * relative_mps;
-  const glm::dvec3 fixed_m = path.from_m + fixed_share * (path.to_m - path.from_m);
-  return RelativeMotion{.start_m = fixed_m - fixed_share * length_s * velocity_mps, .velocity_mps = velocity_mps};
 }
 
 }  // namespace sigs

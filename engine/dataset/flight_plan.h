@@ -75,36 +75,11 @@ struct FlightEnds {
                                                                       const std::map<std::string, double>& values,
                                                                       const FlightContext& context);
 
-// The path of an intruder given by two places in the image: two points relative to the camera, in world axes.
-struct RelativePath {
-  glm::dvec3 from_m{0, 0, 0};
-  glm::dvec3 to_m{0, 0, 0};
-};
-
 // Unit ray, in the camera frame, of a place in the image in percent of its width and height: (0, 0) is the upper left
 // corner of the image (not the centre of a pixel), (50, 50) its middle. Places outside the image are allowed. Where the
 // lens has no ray there, or one more than 75 degrees from the optical axis: the ray of the nearest place on the line to
 // the optical axis that has one.
 [[nodiscard]] glm::dvec3 ray_of_place(const Camera& camera, const glm::dvec2& place_percent);
-
-// Paths between two unit rays, in world axes.
-//   crossing: straight from ray to ray, perpendicular to the direction half-way between them, and distance_m away where
-//             it crosses that direction
-//   radial: from a distance on one ray to a distance on the other
-// Points are rounded to 2^-10 m, since the last digits of a lens model differ between machines.
-[[nodiscard]] RelativePath crossing(const glm::dvec3& from_ray, const glm::dvec3& to_ray, double distance_m);
-[[nodiscard]] RelativePath radial(const glm::dvec3& from_ray, const glm::dvec3& to_ray, double from_distance_m,
-                                  double to_distance_m);
-
-// From the path's first point to its last one in length_s > 0.
-[[nodiscard]] RelativeMotion motion_over_time(const RelativePath& path, double length_s);
-
-// Motion along the line of the path at which the intruder flies speed_mps over ground while the camera flies
-// camera_speed_mps along world X. Its position agrees with that of motion_over_time() at `fixed_share` of the time: 0
-// at the start, 0.5 half-way, 1 at the end. Where the intruder is too slow to move along that line: the reason.
-[[nodiscard]] tl::expected<RelativeMotion, std::string> motion_at_speed(const RelativePath& path, double length_s,
-                                                                        double speed_mps, double camera_speed_mps,
-                                                                        double fixed_share);
 
 // Plans a flight of kind encounter_model or recorded: a flight that was drawn or recorded is turned about the vertical
 // and moved as a whole, so that its closest approach to the camera is as asked (encounter_model/model_flight.h):

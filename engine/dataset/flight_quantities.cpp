@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
+
+#include "base/text.h"
 
 namespace sigs {
 
@@ -14,10 +17,6 @@ constexpr double kMaxTime_s = 1e6;
 constexpr double kMaxRecordedTime_s = 1e7;
 constexpr double kMaxPlace_percent = 1000;
 
-constexpr std::array<FlightKind, 8> kKinds{
-    FlightKind::left_right, FlightKind::right_left,      FlightKind::approaching, FlightKind::moving_away,
-    FlightKind::encounter,  FlightKind::encounter_model, FlightKind::recorded,    FlightKind::image_position};
-
 constexpr FlightQuantity place(std::string_view name, double standard, std::string_view help) {
   return {name, -kMaxPlace_percent, kMaxPlace_percent, standard, false, help};
 }
@@ -26,10 +25,6 @@ constexpr FlightQuantity kSpeed{
     "speed_mps",   0,
     kMaxSpeed_mps, std::nullopt,
     false,         "the intruder's own speed over ground; none: what takes it from place to place in the video's time"};
-constexpr std::string_view kFromX = "where it is in the first frame, from the image's left edge (0) to the right (100)";
-constexpr std::string_view kToX = "the same in the last frame";
-constexpr std::string_view kFromY = "the same from the upper edge (0) to the lower (100), in the first frame";
-constexpr std::string_view kToY = "and in the last frame";
 
 constexpr FlightQuantity distance(std::string_view name, double standard, std::string_view help) {
   return {name, 0.02, kMaxDistance_m, standard, false, help};
@@ -38,38 +33,35 @@ constexpr FlightQuantity distance(std::string_view name, double standard, std::s
 constexpr FlightQuantity kNose{
     "nose_deg",   -180,  180,
     std::nullopt, false, "of a helicopter, drone or balloon: its nose to the right of where it flies; none: along it"};
-constexpr std::string_view kClosestHelp = "distance where it crosses the middle of its way";
 
-constexpr std::array kLeftRight{distance("distance_m", 150, kClosestHelp),
-                                kSpeed,
-                                place("from_x_percent", 5, kFromX),
-                                place("to_x_percent", 95, kToX),
-                                place("from_y_percent", 40, kFromY),
-                                place("to_y_percent", 40, kToY),
-                                kNose};
-constexpr std::array kRightLeft{distance("distance_m", 150, kClosestHelp),
-                                kSpeed,
-                                place("from_x_percent", 95, kFromX),
-                                place("to_x_percent", 5, kToX),
-                                place("from_y_percent", 40, kFromY),
-                                place("to_y_percent", 40, kToY),
-                                kNose};
-constexpr std::array kApproaching{distance("from_distance_m", 400, "distance in the first frame"),
-                                  distance("to_distance_m", 60, "distance in the last frame"),
-                                  kSpeed,
-                                  place("from_x_percent", 50, kFromX),
-                                  place("to_x_percent", 50, kToX),
-                                  place("from_y_percent", 40, kFromY),
-                                  place("to_y_percent", 40, kToY),
-                                  kNose};
-constexpr std::array kMovingAway{distance("from_distance_m", 60, "distance in the first frame"),
-                                 distance("to_distance_m", 400, "distance in the last frame"),
-                                 kSpeed,
-                                 place("from_x_percent", 50, kFromX),
-                                 place("to_x_percent", 50, kToX),
-                                 place("from_y_percent", 40, kFromY),
-                                 place("to_y_percent", 40, kToY),
-                                 kNose};
+// The distances, the places between which it flies, and what else flights of the paper's Table 1 have.
+template <class... Distances>
+constexpr auto between_places(double from_x, double to_x, const Distances&... distances) {
+  return std::array{
+      distances...,
+      kSpeed,
+      place("from_x_percent", from_x,
+            "where it is in the first frame, from the image's left edge (0) to the right (100)"),
+      place("to_x_percent", to_x, "the same in the last frame"),
+      place("from_y_percent", 40, "the same from the upper edge (0) to the lower (100), in the first frame"),
+      place("to_y_percent", 40, "and in the last frame"),
+      kNose};
+}
+
+constexpr auto across(double from_x, double to_x) {
+  return between_places(from_x, to_x, distance("distance_m", 150, "distance where it crosses the middle of its way"));
+}
+
+constexpr auto along_the_view(double from_m, double to_m) {
+  return between_places(50, 50, distance("from_distance_m", from_m, "distance in the first frame"),
+                        distance("to_distance_m", to_m, "distance in the last frame"));
+}
+
+constexpr std::array kLeftRight = across(5, 95);
+constexpr std::array kRightLeft = across(95, 5);
+constexpr std::array kApproaching = along_the_view(400, 60);
+constexpr std::array kMovingAway = along_the_view(60, 400);
+
 constexpr std::array kEncounter{
     FlightQuantity{"miss_distance_m", 0, kMaxDistance_m, std::nullopt, true,
                    "distance at the closest point of approach"},
@@ -137,43 +129,40 @@ constexpr std::array kImagePosition{
     FlightQuantity{"climb_deg", -90, 90, 0.0, false, "with course_deg: how steeply it climbs"},
     kNose};
 
+struct KindOfFlight {
+  std::string_view name;
+  std::span<const FlightQuantity> quantities;
+};
+
+constexpr std::array<KindOfFlight, 8> kKinds{{{"left_right", kLeftRight},
+                                              {"right_left", kRightLeft},
+                                              {"approaching", kApproaching},
+                                              {"moving_away", kMovingAway},
+                                              {"encounter", kEncounter},
+                                              {"encounter_model", kEncounterModel},
+                                              {"recorded", kRecorded},
+                                              {"image_position", kImagePosition}}};  // by FlightKind
+
 }  // namespace
 
 std::string_view name_of(FlightKind kind) {
-  constexpr std::array<std::string_view, 8> kNames{"left_right", "right_left",      "approaching", "moving_away",
-                                                   "encounter",  "encounter_model", "recorded",    "image_position"};
-  return kNames.at(static_cast<std::size_t>(kind));
+  return kKinds.at(static_cast<std::size_t>(kind)).name;
 }
 
 std::optional<FlightKind> flight_kind_of(std::string_view name) {
-  const auto found = std::find_if(kKinds.begin(), kKinds.end(), [&](FlightKind kind) { return name_of(kind) == name; });
-  return found == kKinds.end() ? std::nullopt : std::optional(*found);
+  const auto found =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const KindOfFlight& kind) { return kind.name == name; });
+  return found == kKinds.end() ? std::nullopt : std::optional(static_cast<FlightKind>(found - kKinds.begin()));
 }
 
-std::span<const FlightKind> all_flight_kinds() {
-  return kKinds;
+std::string flight_kind_names() {
+  std::vector<std::string_view> names;
+  for (const KindOfFlight& kind : kKinds) names.push_back(kind.name);
+  return listed(names);
 }
 
 std::span<const FlightQuantity> quantities_of(FlightKind kind) {
-  switch (kind) {
-    case FlightKind::left_right:
-      return kLeftRight;
-    case FlightKind::right_left:
-      return kRightLeft;
-    case FlightKind::approaching:
-      return kApproaching;
-    case FlightKind::moving_away:
-      return kMovingAway;
-    case FlightKind::encounter:
-      return kEncounter;
-    case FlightKind::encounter_model:
-      return kEncounterModel;
-    case FlightKind::recorded:
-      return kRecorded;
-    case FlightKind::image_position:
-      return kImagePosition;
-  }
-  return {};
+  return kKinds.at(static_cast<std::size_t>(kind)).quantities;
 }
 
 }  // namespace sigs

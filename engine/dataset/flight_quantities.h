@@ -25,7 +25,7 @@ enum class FlightKind {
 // Names as recipes write them: "left_right".
 [[nodiscard]] std::string_view name_of(FlightKind kind);
 [[nodiscard]] std::optional<FlightKind> flight_kind_of(std::string_view name);
-[[nodiscard]] std::span<const FlightKind> all_flight_kinds();
+[[nodiscard]] std::string flight_kind_names();  // all of them: "left_right, right_left, ..."
 
 // One of the numbers that describe a flight. Reading, planning and docs/dataset-recipe.md all use this list.
 struct FlightQuantity {

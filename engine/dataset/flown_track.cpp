@@ -2,7 +2,6 @@
 #include "dataset/flown_track.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/interpolation.h"

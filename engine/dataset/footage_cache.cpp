@@ -3,17 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <memory>
 
 #include "base/threads.h"
 #include "export/export_project.h"
 #include "horizon/horizon.h"
 #include "scene/model.h"
-#include "scene/opened_project.h"
-#include "scene/scene_files.h"
 #include "scene/scene_parts.h"
-#include "scene/visibility.h"
 #include "telemetry/read_track.h"
 #include "video/frame_source.h"
 

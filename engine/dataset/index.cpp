@@ -5,16 +5,13 @@
 
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include "base/json.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "dataset/dataset_lock.h"
-#include "dataset/entry.h"
 #include "dataset/merge_labels.h"
 
 namespace sigs {

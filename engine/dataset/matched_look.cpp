@@ -2,7 +2,6 @@
 #include "dataset/matched_look.h"
 
 #include <filesystem>
-#include <utility>
 
 #include "appearance/appearance.h"
 #include "base/text.h"

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/result.h"

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <utility>
 
 #include "base/text.h"
@@ -14,7 +12,7 @@
 #include "dataset/sample.h"
 #include "dataset/video_name.h"
 #include "dataset/video_sample.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "project/validate.h"
 #include "scene/scene_files.h"
 #include "scene/scene_parts.h"

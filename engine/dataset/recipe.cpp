@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <string>
 
 #include "base/paths.h"
 #include "base/staged_outputs.h"
@@ -16,7 +14,6 @@
 #include "dataset/video_name.h"
 #include "project/fields.h"
 #include "project/json.h"
-#include "project/project.h"
 #include "project/validate.h"
 
 namespace sigs {

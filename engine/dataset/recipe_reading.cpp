@@ -4,15 +4,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
-#include "base/json.h"
 #include "base/text.h"
 #include "encounter_model/model_flight.h"
 #include "project/fields.h"
@@ -217,12 +211,6 @@ tl::expected<Quantity, std::string> quantity_of(const Json& json) {
 
 namespace {
 
-std::string kinds() {
-  std::vector<std::string> names;
-  for (const FlightKind kind : all_flight_kinds()) names.emplace_back(name_of(kind));
-  return listed(names);
-}
-
 // Any two of the three, or one of the first two alone.
 void check_timing(const FlightPlan& flight, RecipeNode& node) {
   const bool speed = flight.quantities.contains("closing_speed_mps");
@@ -307,7 +295,7 @@ FlightPlan read_flight(RecipeNode node) {
   const std::string kind_name = node.needed_text("kind");
   const std::optional<FlightKind> kind = flight_kind_of(kind_name);
   if (!kind) {
-    node.log().wrong(node.key_of("kind"), fmt::format("is \"{}\"; there are {}", kind_name, kinds()));
+    node.log().wrong(node.key_of("kind"), fmt::format("is \"{}\"; there are {}", kind_name, flight_kind_names()));
     return flight;
   }
   flight.kind = *kind;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <mutex>
 #include <set>
@@ -18,7 +17,6 @@
 #include "base/threads.h"
 #include "dataset/entry.h"
 #include "dataset/footage_cache.h"
-#include "dataset/index.h"
 #include "dataset/matched_look.h"
 #include "dataset/merge_labels.h"
 #include "dataset/video_folder.h"
@@ -26,7 +24,6 @@
 #include "project/validate.h"
 #include "scene/opened_project.h"
 #include "scene/scene_parts.h"
-#include "video/frame_source.h"
 
 namespace sigs {
 

@@ -14,7 +14,7 @@
 #include "export/export_project.h"
 #include "project/fields.h"
 #include "project/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 
 namespace sigs {
 
@@ -77,7 +77,7 @@ Result<VideoEntry> export_into(const fs::path& staged, const VideoFolder& folder
 
 // The entry comes last: a folder that has one is whole.
 Result<void> finish(const fs::path& staged, const VideoFolder& folder, const VideoEntry& entry) {
-  Result<void> step = write_text(staged / project_name(*folder.video), project_text(folder), false);
+  Result<void> step = write_text(staged / project_name(*folder.video), text_of(with_relative_paths(folder)), false);
   if (step) step = flush_all(staged);
   if (step) step = write_text(staged / kEntryName, entry_text(*folder.video, entry), false);
   if (step) step = flush(staged / kEntryName);
@@ -89,7 +89,7 @@ std::string not_ours(const fs::path& place, const PlannedVideo& video) {
   const Result<VideoEntry> entry = read_entry(place / kEntryName);
   if (!entry)
     return "is there and no video that sigs dataset made; move it away or choose another folder for the dataset";
-  const std::optional<std::string> unlisted_file = unlisted_file_in(place, *entry, uncounted(video));
+  const std::optional<std::string> unlisted_file = unlisted_file_in(place, *entry, {kEntryName, project_name(video)});
   if (unlisted_file)
     return fmt::format("is made anew, but holds {}, which sigs dataset did not write; move that away", *unlisted_file);
   return "";
@@ -125,14 +125,6 @@ Result<void> commit_video(const fs::path& staged, const VideoFolder& folder) {
 
 }  // namespace
 
-std::vector<std::string> uncounted(const PlannedVideo& video) {
-  return {kEntryName, project_name(video)};
-}
-
-std::string project_text(const VideoFolder& folder) {
-  return text_of(with_relative_paths(folder));
-}
-
 Project project_of_video(const Project& in_file, const std::map<std::string, std::string>& tags) {
   const auto tag = tags.find("camera");
   if (tag == tags.end()) return in_file;
@@ -143,7 +135,7 @@ Project project_of_video(const Project& in_file, const std::map<std::string, std
 
 Result<void> update_metadata(const VideoFolder& folder, const VideoEntry& entry) {
   const std::pair<fs::path, std::string> metadata[] = {
-      {folder.path() / project_name(*folder.video), project_text(folder)},
+      {folder.path() / project_name(*folder.video), text_of(with_relative_paths(folder))},
       {folder.path() / kEntryName, entry_text(*folder.video, entry)}};
   for (const auto& [file, text] : metadata) {
     if (const Result<std::string> there = read_text(file); there && *there == text) continue;
@@ -152,21 +144,17 @@ Result<void> update_metadata(const VideoFolder& folder, const VideoEntry& entry)
   return {};
 }
 
-std::string not_replaceable(const VideoFolder& folder) {
-  std::error_code code;
-  return fs::exists(fs::symlink_status(folder.path(), code)) ? not_ours(folder.path(), *folder.video) : "";
-}
-
 Result<VideoEntry> make_video(const VideoFolder& folder, const VideoExport& request) {
   const fs::path staged = staging_folder_of(folder.dataset) / "new" / folder.video->name;
-  if (const std::string why = not_replaceable(folder); !why.empty())
-    return fail(folder.path().string(), why, ErrorKind::cannot_create);
+  std::error_code code;
+  if (fs::exists(fs::symlink_status(folder.path(), code)))
+    if (const std::string why = not_ours(folder.path(), *folder.video); !why.empty())
+      return fail(folder.path().string(), why, ErrorKind::cannot_create);
   if (const Result<void> step = make_empty(staged); !step) return fail(step.error());
   Result<VideoEntry> made = export_into(staged, folder, request);
   Result<void> step;
   if (made) step = finish(staged, folder, *made);
   if (made && step) step = commit_video(staged, folder);
-  std::error_code code;
   fs::remove_all(staged, code);
   return made && !step ? Result<VideoEntry>(fail(step.error())) : made;
 }

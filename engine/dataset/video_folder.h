@@ -33,13 +33,6 @@ struct VideoExport {
   const std::atomic<bool>* cancel = nullptr;
 };
 
-// Names of the files of a video's folder that its entry does not list: the entry and the project.
-[[nodiscard]] std::vector<std::string> uncounted(const PlannedVideo& video);
-
-// The text of the project file in the video's folder. Paths are relative to that folder, so that dataset and inputs can
-// be moved together; the bytes therefore depend on where the dataset is.
-[[nodiscard]] std::string project_text(const VideoFolder& folder);
-
 // What the project file in a video's folder says of that video: of one of several cameras the file has all of them, and
 // the video's tag "camera" says which.
 [[nodiscard]] Project project_of_video(const Project& in_file, const std::map<std::string, std::string>& tags);
@@ -47,11 +40,9 @@ struct VideoExport {
 // Writes project and entry where their text differs from the planned one. Errors cannot_create, write_failed.
 [[nodiscard]] Result<void> update_metadata(const VideoFolder& folder, const VideoEntry& entry);
 
-// Why the video's folder may not be replaced: it holds something that no dataset wrote. Empty: it may, or is not there.
-[[nodiscard]] std::string not_replaceable(const VideoFolder& folder);
-
 // Exports the video in the staging folder, and renames its folder to the final name when all of it is on the disk. An
-// older folder of that name is replaced. Errors as export_project(); cannot_create as not_replaceable().
+// older folder of that name is replaced. Errors as export_project();
+// cannot_create where the folder holds something that no dataset wrote.
 [[nodiscard]] Result<VideoEntry> make_video(const VideoFolder& folder, const VideoExport& request);
 
 }  // namespace sigs

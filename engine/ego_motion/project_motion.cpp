@@ -12,7 +12,7 @@
 
 #include "ego_motion/rotation_fit.h"
 #include "horizon/horizon.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"

@@ -12,7 +12,6 @@
 #include "base/text.h"
 #include "encounter/file_columns.h"
 #include "encounter/well_clear.h"
-#include "geo/geodetic.h"
 
 namespace sigs {
 

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>

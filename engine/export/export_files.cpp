@@ -4,20 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "base/ensure.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "base/threads.h"
 #include "export/frame_stream.h"
 #include "labels/formats.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "scene/opened_project.h"
-#include "video/video_writer.h"
 
 namespace sigs {
 

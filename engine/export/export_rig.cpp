@@ -16,7 +16,7 @@
 #include "base/threads.h"
 #include "export/schedule.h"
 #include "labels/label_files.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "project/validate.h"
 #include "rig/rig_truth.h"
 #include "scene/opened_project.h"

@@ -8,7 +8,6 @@
 
 #include "base/threads.h"
 #include "frame/compose_frame.h"
-#include "scene/opened_project.h"
 #include "scene/visibility.h"
 
 namespace sigs {

@@ -2,12 +2,9 @@
 #include "export/frame_stream.h"
 
 #include <algorithm>
-#include <optional>
-#include <utility>
 
 #include "base/ensure.h"
 #include "base/stopwatch.h"
-#include "base/threads.h"
 #include "export/export_files.h"
 #include "scene/opened_project.h"
 #include "scene/visibility.h"

@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "base/input_file.h"
@@ -25,7 +22,6 @@
 #include "scene/scene_parts.h"
 #include "telemetry/track_csv.h"
 #include "video/frame_source.h"
-#include "video/image_sequence.h"
 
 namespace sigs {
 

@@ -41,9 +41,15 @@ std::string metadata_text(const LabelSequence& sequence) {
                      footage.size_px.width);
 }
 
-class AotLabels : public LabelWriter {
+class AotLabels : public OneFileLabels {
  public:
-  AotLabels(TextFile file, LabelSequence sequence) : file_(std::move(file)), sequence_(std::move(sequence)) {}
+  using OneFileLabels::OneFileLabels;
+
+  Result<void> begin() override {
+    return file_.put("{\"metadata\": {\"description\": \"made with SIGS\"},\n\"samples\": {" +
+                     json_string(sequence_.name) + ": {\"metadata\": " + metadata_text(sequence_) +
+                     ",\n\"entities\": [");
+  }
 
   Result<void> write(const FrameTruth& truth) override {
     std::string text;
@@ -84,21 +90,13 @@ class AotLabels : public LabelWriter {
                        box.height, horizon_code(labelled.horizon));
   }
 
-  TextFile file_;
-  LabelSequence sequence_;
   bool is_first_ = true;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<LabelWriter>> open_aot(const std::filesystem::path& path, const LabelSequence& sequence) {
-  Result<TextFile> file = TextFile::create(path);
-  if (!file) return fail(file.error());
-  const std::string head = "{\"metadata\": {\"description\": \"made with SIGS\"},\n\"samples\": {" +
-                           json_string(sequence.name) + ": {\"metadata\": " + metadata_text(sequence) +
-                           ",\n\"entities\": [";
-  if (const Result<void> put = file->put(head); !put) return fail(put.error());
-  return std::make_unique<AotLabels>(std::move(*file), sequence);
+  return begun_file<AotLabels>(path, sequence);
 }
 
 }  // namespace sigs

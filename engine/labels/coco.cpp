@@ -104,9 +104,9 @@ Json categories_of(const LabelSequence& sequence) {
   return list;
 }
 
-class CocoLabels : public LabelWriter {
+class CocoLabels : public OneFileLabels {
  public:
-  CocoLabels(TextFile file, const LabelSequence& sequence) : file_(std::move(file)), sequence_(sequence) {
+  CocoLabels(TextFile file, const LabelSequence& sequence) : OneFileLabels(std::move(file), sequence) {
     sequence_.own_body.release();
     const cv::Size image = sequence.footage.size_px;
     for (const OwnBodyPart& part : own_body_parts(sequence.own_body))
@@ -117,7 +117,7 @@ class CocoLabels : public LabelWriter {
                            {"own_body", true}});
   }
 
-  Result<void> begin() {
+  Result<void> begin() override {
     return file_.put("{\n\"info\": " + json_line(info_of(sequence_)) + ",\n\"licenses\": [],\n\"videos\": [\n" +
                      json_line(video_of(sequence_)) + "\n],\n\"categories\": " + json_line(categories_of(sequence_)) +
                      ",\n\"tracks\": " + json_line(tracks()) + ",\n\"annotations\": [");
@@ -215,8 +215,6 @@ class CocoLabels : public LabelWriter {
     return file_.put((annotations_ == 1 ? "\n" : ",\n") + json_line(numbered));
   }
 
-  TextFile file_;
-  LabelSequence sequence_;
   std::vector<Json> own_body_;
   std::string images_;
   std::int64_t annotations_ = 0;
@@ -225,11 +223,7 @@ class CocoLabels : public LabelWriter {
 }  // namespace
 
 Result<std::unique_ptr<LabelWriter>> open_coco(const std::filesystem::path& path, const LabelSequence& sequence) {
-  Result<TextFile> file = TextFile::create(path);
-  if (!file) return fail(file.error());
-  auto writer = std::make_unique<CocoLabels>(std::move(*file), sequence);
-  if (const Result<void> begun = writer->begin(); !begun) return fail(begun.error());
-  return writer;
+  return begun_file<CocoLabels>(path, sequence);
 }
 
 }  // namespace sigs

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "base/csv.h"
 #include "base/ensure.h"
@@ -81,17 +80,17 @@ void add_encounter_fields(CsvRow& row, const IntruderTruth& truth, std::size_t v
   }
 }
 
-class CsvLabels : public LabelWriter {
+class CsvLabels : public OneFileLabels {
  public:
-  CsvLabels(TextFile file, LabelSequence sequence) : file_(std::move(file)), sequence_(std::move(sequence)) {}
+  using OneFileLabels::OneFileLabels;
+
+  Result<void> begin() override { return file_.put(csv_header(sequence_)); }
 
   Result<void> write(const FrameTruth& truth) override {
     std::string text;
     for (const IntruderTruth& intruder : truth.intruders) text += row_of(truth, intruder);
     return file_.put(text);
   }
-
-  Result<void> finish(const std::filesystem::path&) override { return file_.close(); }
 
  private:
   [[nodiscard]] std::string row_of(const FrameTruth& frame, const IntruderTruth& truth) const {
@@ -129,18 +128,12 @@ class CsvLabels : public LabelWriter {
     row.add(footage.size_px.height);
     row.add(rate_text(footage));
   }
-
-  TextFile file_;
-  LabelSequence sequence_;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<LabelWriter>> open_csv(const std::filesystem::path& path, const LabelSequence& sequence) {
-  Result<TextFile> file = TextFile::create(path);
-  if (!file) return fail(file.error());
-  if (const Result<void> head = file->put(csv_header(sequence)); !head) return fail(head.error());
-  return std::make_unique<CsvLabels>(std::move(*file), sequence);
+  return begun_file<CsvLabels>(path, sequence);
 }
 
 }  // namespace sigs

@@ -70,9 +70,9 @@ std::string box_element(const TrackBox& shape) {
       shape.frame, shape.is_outside, shape.is_occluded, box.x, box.y, box.x + box.width, box.y + box.height);
 }
 
-class CvatLabels : public LabelWriter {
+class CvatLabels : public OneFileLabels {
  public:
-  CvatLabels(TextFile file, const LabelSequence& sequence) : file_(std::move(file)), sequence_(sequence) {}
+  using OneFileLabels::OneFileLabels;
 
   // Frames arrive in order; the file has one track after the other, so all boxes are kept until the end.
   Result<void> write(const FrameTruth& truth) override {
@@ -107,17 +107,13 @@ class CvatLabels : public LabelWriter {
     return file_.put("  </track>\n");
   }
 
-  TextFile file_;
-  LabelSequence sequence_;
   std::map<int, std::vector<TrackBox>> tracks_;  // by intruder
 };
 
 }  // namespace
 
 Result<std::unique_ptr<LabelWriter>> open_cvat(const std::filesystem::path& path, const LabelSequence& sequence) {
-  Result<TextFile> file = TextFile::create(path);
-  if (!file) return fail(file.error());
-  return std::make_unique<CvatLabels>(std::move(*file), sequence);
+  return begun_file<CvatLabels>(path, sequence);
 }
 
 }  // namespace sigs

@@ -120,15 +120,11 @@ std::string intruder_json(const IntruderTruth& truth, const LabelSequence& seque
   return object.text();
 }
 
-class JsonLinesLabels : public LabelWriter {
+class JsonLinesLabels : public OneFileLabels {
  public:
-  JsonLinesLabels(TextFile file, LabelSequence sequence) : file_(std::move(file)), sequence_(std::move(sequence)) {}
-  Result<void> write(const FrameTruth& truth) override { return file_.put(json_line_of(truth, sequence_)); }
-  Result<void> finish(const std::filesystem::path& /*images*/) override { return file_.close(); }
+  using OneFileLabels::OneFileLabels;
 
- private:
-  TextFile file_;
-  LabelSequence sequence_;
+  Result<void> write(const FrameTruth& truth) override { return file_.put(json_line_of(truth, sequence_)); }
 };
 
 }  // namespace
@@ -148,9 +144,7 @@ std::string json_line_of(const FrameTruth& truth, const LabelSequence& sequence)
 }
 
 Result<std::unique_ptr<LabelWriter>> open_jsonl(const std::filesystem::path& path, const LabelSequence& sequence) {
-  Result<TextFile> file = TextFile::create(path);
-  if (!file) return fail(file.error());
-  return std::make_unique<JsonLinesLabels>(std::move(*file), sequence);
+  return begun_file<JsonLinesLabels>(path, sequence);
 }
 
 }  // namespace sigs

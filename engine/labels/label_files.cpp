@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
-#include <string>
 #include <system_error>
 #include <tuple>
 #include <utility>

@@ -4,13 +4,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
+#include "labels/labels.h"
 #include "truth/annotation.h"
 
 namespace sigs {
@@ -36,6 +39,28 @@ class TextFile {
   std::filesystem::path path_;
   std::ofstream out_;
 };
+
+// Labels that are one text file. `begin` writes what comes before the first frame, `finish` what comes after the last.
+class OneFileLabels : public LabelWriter {
+ public:
+  OneFileLabels(TextFile file, const LabelSequence& sequence) : file_(std::move(file)), sequence_(sequence) {}
+  [[nodiscard]] virtual Result<void> begin() { return {}; }
+  Result<void> finish(const std::filesystem::path& /*images*/) override { return file_.close(); }
+
+ protected:
+  TextFile file_;
+  LabelSequence sequence_;
+};
+
+template <class Labels>
+[[nodiscard]] Result<std::unique_ptr<LabelWriter>> begun_file(const std::filesystem::path& path,
+                                                              const LabelSequence& sequence) {
+  Result<TextFile> file = TextFile::create(path);
+  if (!file) return fail(file.error());
+  auto labels = std::make_unique<Labels>(std::move(*file), sequence);
+  if (const Result<void> begun = labels->begin(); !begun) return fail(begun.error());
+  return labels;
+}
 
 // Writes a small file as a whole; one that exists is replaced. Errors cannot_create, write_failed.
 [[nodiscard]] Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <set>
 
@@ -263,27 +262,16 @@ Result<void> check_clip(const ClipTruth& truth, const std::string& name) {
 }  // namespace
 
 const char* name_of(DropOutCause cause) {
-  switch (cause) {
-    case DropOutCause::left_image:
-      return "left the image";
-    case DropOutCause::clouds:
-      return "behind clouds";
-    case DropOutCause::hidden:
-      return "hidden";
-    case DropOutCause::score:
-      return "score too low";
-    case DropOutCause::box:
-      return "box off";
-    case DropOutCause::crossed_horizon:
-      return "crossed the horizon";
-    case DropOutCause::small:
-      return "small (below 8 px)";
-    case DropOutCause::low_contrast:
-      return "low contrast (below 0.1)";
-    case DropOutCause::other:
-      break;
-  }
-  return "none of these";
+  constexpr std::array<const char*, kDropOutCauses> kNames{"left the image",
+                                                           "behind clouds",
+                                                           "hidden",
+                                                           "score too low",
+                                                           "box off",
+                                                           "crossed the horizon",
+                                                           "small (below 8 px)",
+                                                           "low contrast (below 0.1)",
+                                                           "none of these"};
+  return kNames.at(static_cast<std::size_t>(cause));
 }
 
 glm::dvec2 angles_of(const glm::dvec3& in_camera) {

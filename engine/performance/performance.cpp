@@ -21,67 +21,73 @@ constexpr int kBandPlaces = 61;
 constexpr std::array kRangeEdges_m{0.0,    100.0,  200.0,  300.0,  500.0,  700.0,   1000.0,
                                    1500.0, 2000.0, 3000.0, 5000.0, 7000.0, 10000.0, kEndless};
 
-}  // namespace
-
-void RangeProfile::add(double range_m, bool success) {
-  RangeProfile one;
-  one.first_ = static_cast<int>(std::floor(std::log(std::max(range_m, 1e-3)) / kCell));
-  one.cells_ = {{success ? 1.0 : 0.0, 1, 1}};
-  add(one);
-}
-
-void RangeProfile::add(const RangeProfile& other, double weight) {
-  if (other.cells_.empty()) return;
-  if (cells_.empty()) first_ = other.first_;
-  if (other.first_ < first_) {
-    cells_.insert(cells_.begin(), static_cast<std::size_t>(first_ - other.first_), Cell{});
-    first_ = other.first_;
+// Trials by range, in steps of 1 %, for fits of many drawings: frames of one encounter.
+class RangeProfile {
+ public:
+  void add(double range_m, bool success) {
+    RangeProfile one;
+    one.first_ = static_cast<int>(std::floor(std::log(std::max(range_m, 1e-3)) / kCell));
+    one.cells_ = {{success ? 1.0 : 0.0, 1, 1}};
+    add(one);
   }
-  const auto offset = static_cast<std::size_t>(other.first_ - first_);
-  if (cells_.size() < offset + other.cells_.size()) cells_.resize(offset + other.cells_.size());
-  for (std::size_t i = 0; i < other.cells_.size(); ++i) {
-    cells_[offset + i].part += weight * other.cells_[i].part;
-    cells_[offset + i].whole += weight * other.cells_[i].whole;
-    cells_[offset + i].groups += other.cells_[i].groups;
+  void add(const RangeProfile& other, double weight = 1) {
+    if (other.cells_.empty()) return;
+    if (cells_.empty()) first_ = other.first_;
+    if (other.first_ < first_) {
+      cells_.insert(cells_.begin(), static_cast<std::size_t>(first_ - other.first_), Cell{});
+      first_ = other.first_;
+    }
+    const auto offset = static_cast<std::size_t>(other.first_ - first_);
+    if (cells_.size() < offset + other.cells_.size()) cells_.resize(offset + other.cells_.size());
+    for (std::size_t i = 0; i < other.cells_.size(); ++i) {
+      cells_[offset + i].part += weight * other.cells_[i].part;
+      cells_[offset + i].whole += weight * other.cells_[i].whole;
+      cells_[offset + i].groups += other.cells_[i].groups;
+    }
   }
-}
-
-void RangeProfile::add_prior(const RangeProfile& all, double failing, double succeeding) {
-  RangeProfile mean = all;
-  for (Cell& cell : mean.cells_) {
-    const double trials = cell.groups > 0 ? cell.whole / cell.groups : 0;
-    cell = {.part = succeeding * trials, .whole = (failing + succeeding) * trials};
+  // Half-groups of GroupWeights: at each place as many trials as a group that comes near it has there, in the mean.
+  //   all  the sum of all groups
+  void add_prior(const RangeProfile& all, double failing, double succeeding) {
+    RangeProfile mean = all;
+    for (Cell& cell : mean.cells_) {
+      const double trials = cell.groups > 0 ? cell.whole / cell.groups : 0;
+      cell = {.part = succeeding * trials, .whole = (failing + succeeding) * trials};
+    }
+    add(mean);
   }
-  add(mean);
-}
-
-void RangeProfile::close_group() {
-  if (cells_.empty()) return;
-  constexpr int kNear = 20;  // cells to either side: a fifth of the range
-  cells_.insert(cells_.begin(), kNear, Cell{});
-  cells_.resize(cells_.size() + kNear);
-  first_ -= kNear;
-  const auto count = static_cast<int>(cells_.size());
-  for (int i = 0; i < count; ++i) {
-    if (!(cells_[static_cast<std::size_t>(i)].whole > 0)) continue;
-    for (int k = std::max(0, i - kNear); k < std::min(count, i + kNear + 1); ++k)
-      cells_[static_cast<std::size_t>(k)].groups = 1;
+  // What was added is of one group.
+  void close_group() {
+    if (cells_.empty()) return;
+    constexpr int kNear = 20;  // cells to either side: a fifth of the range
+    cells_.insert(cells_.begin(), kNear, Cell{});
+    cells_.resize(cells_.size() + kNear);
+    first_ -= kNear;
+    const auto count = static_cast<int>(cells_.size());
+    for (int i = 0; i < count; ++i) {
+      if (!(cells_[static_cast<std::size_t>(i)].whole > 0)) continue;
+      for (int k = std::max(0, i - kNear); k < std::min(count, i + kNear + 1); ++k)
+        cells_[static_cast<std::size_t>(k)].groups = 1;
+    }
   }
-}
+  [[nodiscard]] FallingCurve fit() const { return falling_fit(trials()); }
+  [[nodiscard]] std::vector<Trial> trials() const {
+    std::vector<Trial> trials;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (cells_[i].whole > 0)
+        trials.push_back({std::exp((first_ + static_cast<double>(i) + 0.5) * kCell), cells_[i].part, cells_[i].whole});
+    return trials;
+  }
+  [[nodiscard]] bool empty() const { return cells_.empty(); }
 
-std::vector<Trial> RangeProfile::trials() const {
-  std::vector<Trial> trials;
-  for (std::size_t i = 0; i < cells_.size(); ++i)
-    if (cells_[i].whole > 0)
-      trials.push_back({std::exp((first_ + static_cast<double>(i) + 0.5) * kCell), cells_[i].part, cells_[i].whole});
-  return trials;
-}
-
-FallingCurve RangeProfile::fit() const {
-  return falling_fit(trials());
-}
-
-namespace {
+ private:
+  struct Cell {
+    double part = 0;
+    double whole = 0;
+    int groups = 0;  // with trials within a fifth of this range
+  };
+  int first_ = 0;  // number of the first cell
+  std::vector<Cell> cells_;
+};
 
 std::vector<RangeBin> empty_bins() {
   std::vector<RangeBin> bins;
@@ -330,15 +336,8 @@ Performance performance_of(Observations observations, const PerformancePolicy& p
 }
 
 const char* name_of(Geometry geometry) {
-  switch (geometry) {
-    case Geometry::head_on:
-      return "head-on";
-    case Geometry::crossing:
-      return "crossing";
-    case Geometry::overtaking:
-      break;
-  }
-  return "overtaking";
+  constexpr std::array kNames{"head-on", "crossing", "overtaking"};
+  return kNames.at(static_cast<std::size_t>(geometry));
 }
 
 std::vector<NeededRange> needed_ranges(const Performance& performance, const AirSpeeds& speeds,

@@ -14,29 +14,6 @@ namespace sigs {
 // The performance of a sensor by range: how likely it detects, where it declares, what that leaves in time, how often
 // it cries wolf, and under which conditions it is worse. docs/performance.md defines each figure.
 
-// Trials by range, in steps of 1 %, for fits of many drawings: frames of one encounter.
-class RangeProfile {
- public:
-  void add(double range_m, bool success);
-  void add(const RangeProfile& other, double weight = 1);
-  // Half-groups of GroupWeights: at each place as many trials as a group that comes near it has there, in the mean.
-  //   all  the sum of all groups
-  void add_prior(const RangeProfile& all, double failing, double succeeding);
-  void close_group();  // what was added is of one group
-  [[nodiscard]] FallingCurve fit() const;
-  [[nodiscard]] std::vector<Trial> trials() const;
-  [[nodiscard]] bool empty() const { return cells_.empty(); }
-
- private:
-  struct Cell {
-    double part = 0;
-    double whole = 0;
-    int groups = 0;  // with trials within a fifth of this range
-  };
-  int first_ = 0;  // number of the first cell
-  std::vector<Cell> cells_;
-};
-
 // A range and how sure it is. 0: the probability is reached nowhere. Infinite: it is reached at the farthest frame
 // seen.
 struct RangeAt {

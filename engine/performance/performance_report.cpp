@@ -203,7 +203,7 @@ std::string coverage_html(const Json& coverage) {
   if (!coverage.is_object()) return "";
   std::vector<TableColumn> columns;
   for (const char* const title : {"condition", "bin", "frames", "encounters", ""})
-    columns.push_back({.title = title, .unit = "", .cells = {}, .is_best = {}});
+    columns.push_back(text_column(title, ""));
   const auto least = coverage.at("min_encounters").get<std::int64_t>();
   for (const Json& condition : coverage.at("conditions"))
     for (const Json& bin : condition.at("bins")) {
@@ -212,13 +212,8 @@ std::string coverage_html(const Json& coverage) {
                                  : encounters == 0                ? "EMPTY"
                                  : encounters < least             ? "too few"
                                                                   : "";
-      const std::vector<std::string> cells{condition.at("name").get<std::string>(), domain_bin_text(bin),
-                                           std::to_string(bin.at("frames").get<std::int64_t>()),
-                                           std::to_string(encounters), remark};
-      for (std::size_t i = 0; i < cells.size(); ++i) {
-        columns[i].cells.push_back(cells[i]);
-        columns[i].is_best.push_back(false);
-      }
+      add_row(columns, {condition.at("name").get<std::string>(), domain_bin_text(bin),
+                        std::to_string(bin.at("frames").get<std::int64_t>()), std::to_string(encounters), remark});
     }
   const Json& pairs = coverage.at("pairs");
   return html_element("h2", "Operational design domain") + "\n" +

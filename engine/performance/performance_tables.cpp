@@ -14,20 +14,6 @@ namespace sigs {
 
 namespace {
 
-std::vector<TableColumn> columns_named(const std::vector<std::pair<std::string, std::string>>& titles) {
-  std::vector<TableColumn> columns;
-  for (const auto& [title, unit] : titles)
-    columns.push_back({.title = title, .unit = unit, .cells = {}, .is_best = {}});
-  return columns;
-}
-
-void add_cells(std::vector<TableColumn>& columns, const std::vector<std::string>& cells) {
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    columns[i].cells.push_back(cells[i]);
-    columns[i].is_best.push_back(false);
-  }
-}
-
 std::string interval_text(const Interval& interval, int decimals) {
   return fixed_text(interval.low, decimals) + " to " + fixed_text(interval.high, decimals);
 }
@@ -101,59 +87,56 @@ std::string verdict_line(const PerformanceReport& report) {
 }  // namespace
 
 std::vector<TableColumn> range_table(const Performance& performance) {
-  std::vector<TableColumn> columns = columns_named({{"range", ""},
-                                                    {"encounters", ""},
-                                                    {"frames", ""},
-                                                    {"P(detect)", "in a frame"},
-                                                    {"95 %", ""},
-                                                    {"P(declared)", "by then"},
-                                                    {"95 %", ""}});
+  std::vector<TableColumn> columns{text_column("range", ""),  text_column("encounters", ""),
+                                   text_column("frames", ""), text_column("P(detect)", "in a frame"),
+                                   text_column("95 %", ""),   text_column("P(declared)", "by then"),
+                                   text_column("95 %", "")};
   for (const RangeBin& bin : performance.detected.bins) {
     const auto declared = std::ranges::find_if(performance.declared.bins,
                                                [&](const RangeBin& other) { return other.low_m == bin.low_m; });
-    add_cells(columns, {bin_text(bin), std::to_string(bin.encounters), std::to_string(bin.frames),
-                        share_text(bin.detected, bin.frames), interval_text(bin.interval, 3),
-                        share_text(declared->detected, declared->frames), interval_text(declared->interval, 3)});
+    add_row(columns, {bin_text(bin), std::to_string(bin.encounters), std::to_string(bin.frames),
+                      share_text(bin.detected, bin.frames), interval_text(bin.interval, 3),
+                      share_text(declared->detected, declared->frames), interval_text(declared->interval, 3)});
   }
   return columns;
 }
 
 std::vector<TableColumn> condition_table(const Performance& performance) {
-  std::vector<TableColumn> columns = columns_named({{"condition", ""},
-                                                    {"", ""},
-                                                    {"encounters", ""},
-                                                    {"frames", ""},
-                                                    {"P(detect)", "in a frame"},
-                                                    {"95 %", ""},
-                                                    {"range at P = 0.5", "95 %"},
-                                                    {"", ""}});
+  std::vector<TableColumn> columns{text_column("condition", ""),
+                                   text_column("", ""),
+                                   text_column("encounters", ""),
+                                   text_column("frames", ""),
+                                   text_column("P(detect)", "in a frame"),
+                                   text_column("95 %", ""),
+                                   text_column("range at P = 0.5", "95 %"),
+                                   text_column("", "")};
   for (const Condition& condition : performance.conditions) {
     const RangeCurve& curve = condition.detected;
-    add_cells(columns, {line_text(condition.by), line_text(condition.name), std::to_string(curve.encounters),
-                        std::to_string(curve.frames), share_text(curve.successes, curve.frames),
-                        interval_text(curve.interval, 3), range_text(curve.ranges.front(), curve.farthest_m),
-                        condition.is_too_few ? "too few" : ""});
+    add_row(columns,
+            {line_text(condition.by), line_text(condition.name), std::to_string(curve.encounters),
+             std::to_string(curve.frames), share_text(curve.successes, curve.frames), interval_text(curve.interval, 3),
+             range_text(curve.ranges.front(), curve.farthest_m), condition.is_too_few ? "too few" : ""});
   }
   return columns;
 }
 
 std::vector<TableColumn> needed_table(const PerformanceReport& report) {
-  std::vector<TableColumn> columns = columns_named({{"geometry", ""},
-                                                    {"volume", ""},
-                                                    {"closing", "m/s"},
-                                                    {"needed", "m"},
-                                                    {"reached", "declared, P = 0.95"},
-                                                    {"encounters", ""},
-                                                    {"suffices", ""}});
+  std::vector<TableColumn> columns{text_column("geometry", ""),
+                                   text_column("volume", ""),
+                                   text_column("closing", "m/s"),
+                                   text_column("needed", "m"),
+                                   text_column("reached", "declared, P = 0.95"),
+                                   text_column("encounters", ""),
+                                   text_column("suffices", "")};
   for (const NeededRange& one : report.needed)
-    add_cells(columns,
-              {name_of(one.geometry), one.volume, fixed_text(one.closing_speed_mps, 1), fixed_text(one.needed_m, 0),
-               range_text(one.reached, report.performance.declared.farthest_m), std::to_string(one.encounters),
-               std::string(one.closing_speed_mps <= 0 ? "does not close"
-                           : !one.suffices            ? "not known"
-                           : *one.suffices            ? "yes"
-                                                      : "NO") +
-                   (one.is_too_few && one.encounters > 0 && one.closing_speed_mps > 0 ? " (too few)" : "")});
+    add_row(columns,
+            {name_of(one.geometry), one.volume, fixed_text(one.closing_speed_mps, 1), fixed_text(one.needed_m, 0),
+             range_text(one.reached, report.performance.declared.farthest_m), std::to_string(one.encounters),
+             std::string(one.closing_speed_mps <= 0 ? "does not close"
+                         : !one.suffices            ? "not known"
+                         : *one.suffices            ? "yes"
+                                                    : "NO") +
+                 (one.is_too_few && one.encounters > 0 && one.closing_speed_mps > 0 ? " (too few)" : "")});
   return columns;
 }
 

@@ -29,14 +29,6 @@ EventSums sums_of(double weight, bool without, bool with) {
           .both_squares = without && with ? square : 0};
 }
 
-void add_sums(EventSums& sum, const EventSums& other) {
-  sum.without += other.without;
-  sum.with += other.with;
-  sum.without_squares += other.without_squares;
-  sum.with_squares += other.with_squares;
-  sum.both_squares += other.both_squares;
-}
-
 RiskTally tally_of(const FlownOutcome& outcome) {
   const double weight = outcome.weight;
   const bool failed = outcome.nmac_with && outcome.nmac_without;
@@ -86,21 +78,20 @@ std::optional<ManoeuvreKind> manoeuvre_named(std::string_view name) {
   return static_cast<ManoeuvreKind>(found - kManoeuvreNames.begin());
 }
 
-void RiskTally::add(const RiskTally& other) {
+std::array<double*, kTallySums> RiskTally::sums() {
+  EventSums& a = nmac;
+  EventSums& b = well_clear;
+  return {&weight,         &weight_squares, &a.without,   &a.with,     &a.without_squares,
+          &a.with_squares, &a.both_squares, &b.without,   &b.with,     &b.without_squares,
+          &b.with_squares, &b.both_squares, &induced,     &declared,   &manoeuvred,
+          &clear,          &unnecessary,    &out_of_view, &undeclared, &waiting,
+          &insufficient};
+}
+
+void RiskTally::add(RiskTally other) {
   encounters += other.encounters;
-  weight += other.weight;
-  weight_squares += other.weight_squares;
-  add_sums(nmac, other.nmac);
-  add_sums(well_clear, other.well_clear);
-  induced += other.induced;
-  out_of_view += other.out_of_view;
-  undeclared += other.undeclared;
-  waiting += other.waiting;
-  insufficient += other.insufficient;
-  declared += other.declared;
-  manoeuvred += other.manoeuvred;
-  clear += other.clear;
-  unnecessary += other.unnecessary;
+  const auto others = other.sums();
+  for (std::size_t i = 0; double* const sum : sums()) *sum += *others[i++];
 }
 
 RiskRatio risk_ratio(const EventSums& sums) {

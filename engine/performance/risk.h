@@ -5,7 +5,6 @@
 #include <atomic>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -127,6 +126,8 @@ struct EventSums {
   double without_squares = 0, with_squares = 0, both_squares = 0;
 };
 
+inline constexpr std::size_t kTallySums = 21;
+
 struct RiskTally {
   std::int64_t encounters = 0;
   double weight = 0;
@@ -142,7 +143,8 @@ struct RiskTally {
   double clear = 0;        // without loss of well clear without the system
   double unnecessary = 0;  // of these, with a manoeuvre
 
-  void add(const RiskTally& other);
+  void add(RiskTally other);
+  [[nodiscard]] std::array<double*, kTallySums> sums();  // all but `encounters`, in a fixed order
 };
 
 // Classes of encounters by the courses at the closest approach (within 45 degrees of opposite; between; of equal, where

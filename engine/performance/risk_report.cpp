@@ -14,51 +14,20 @@ namespace sigs {
 
 namespace {
 
-// The numbers of a tally, in a fixed order, for the batches of shards.
-constexpr std::size_t kTallyNumbers = 22;
+// The numbers of a tally for the batches of shards: how many encounters, then the sums.
+constexpr std::size_t kTallyNumbers = 1 + kTallySums;
 
-std::array<double, kTallyNumbers> numbers_of_tally(const RiskTally& tally) {
-  const EventSums& a = tally.nmac;
-  const EventSums& b = tally.well_clear;
-  return {double(tally.encounters),
-          tally.weight,
-          tally.weight_squares,
-          a.without,
-          a.with,
-          a.without_squares,
-          a.with_squares,
-          a.both_squares,
-          b.without,
-          b.with,
-          b.without_squares,
-          b.with_squares,
-          b.both_squares,
-          tally.induced,
-          tally.declared,
-          tally.manoeuvred,
-          tally.clear,
-          tally.unnecessary,
-          tally.out_of_view,
-          tally.undeclared,
-          tally.waiting,
-          tally.insufficient};
+std::array<double, kTallyNumbers> numbers_of_tally(RiskTally tally) {
+  std::array<double, kTallyNumbers> numbers{double(tally.encounters)};
+  std::ranges::transform(tally.sums(), numbers.begin() + 1, [](const double* sum) { return *sum; });
+  return numbers;
 }
 
-RiskTally tally_of_numbers(const std::array<double, kTallyNumbers>& n) {
-  return {.encounters = static_cast<std::int64_t>(n[0]),
-          .weight = n[1],
-          .weight_squares = n[2],
-          .nmac = {n[3], n[4], n[5], n[6], n[7]},
-          .well_clear = {n[8], n[9], n[10], n[11], n[12]},
-          .induced = n[13],
-          .out_of_view = n[18],
-          .undeclared = n[19],
-          .waiting = n[20],
-          .insufficient = n[21],
-          .declared = n[14],
-          .manoeuvred = n[15],
-          .clear = n[16],
-          .unnecessary = n[17]};
+RiskTally tally_of_numbers(const std::array<double, kTallyNumbers>& numbers) {
+  RiskTally tally{.encounters = static_cast<std::int64_t>(numbers[0])};
+  auto number = numbers.begin();
+  for (double* const sum : tally.sums()) *sum = *++number;
+  return tally;
 }
 
 Json ratio_json(const RiskRatio& ratio) {
@@ -248,26 +217,20 @@ Result<Json> merged_risk_json(const std::vector<RiskShard>& shards, const std::v
 }
 
 std::vector<TableColumn> risk_table(const Json& json) {
-  std::vector<TableColumn> columns;
-  for (const auto& [title, unit] :
-       {std::pair("class", ""), std::pair("encounters", ""), std::pair("risk ratio NMAC", "95 %"),
-        std::pair("risk ratio well clear", "95 %"), std::pair("P(NMAC) without", ""), std::pair("induced", "of these"),
-        std::pair("declared", ""), std::pair("unnecessary", "manoeuvres")})
-    columns.push_back({.title = title, .unit = unit, .cells = {}, .is_best = {}});
-  for (const Json& one : json.at("classes")) {
-    const std::vector<std::string> cells{one.at("class").get<std::string>(),
-                                         std::to_string(one.at("encounters").get<std::int64_t>()),
-                                         ratio_text(one.at("risk_ratio_nmac"), 3),
-                                         ratio_text(one.at("risk_ratio_well_clear"), 3),
-                                         number_of(one.at("p_nmac_without").at("value"), 5),
-                                         number_of(one.at("induced_nmac_ratio"), 4),
-                                         number_of(one.at("declared").at("value"), 3),
-                                         number_of(one.at("unnecessary_manoeuvres").at("value"), 3)};
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      columns[i].cells.push_back(cells[i]);
-      columns[i].is_best.push_back(false);
-    }
-  }
+  std::vector<TableColumn> columns{text_column("class", ""),
+                                   text_column("encounters", ""),
+                                   text_column("risk ratio NMAC", "95 %"),
+                                   text_column("risk ratio well clear", "95 %"),
+                                   text_column("P(NMAC) without", ""),
+                                   text_column("induced", "of these"),
+                                   text_column("declared", ""),
+                                   text_column("unnecessary", "manoeuvres")};
+  for (const Json& one : json.at("classes"))
+    add_row(columns,
+            {one.at("class").get<std::string>(), std::to_string(one.at("encounters").get<std::int64_t>()),
+             ratio_text(one.at("risk_ratio_nmac"), 3), ratio_text(one.at("risk_ratio_well_clear"), 3),
+             number_of(one.at("p_nmac_without").at("value"), 5), number_of(one.at("induced_nmac_ratio"), 4),
+             number_of(one.at("declared").at("value"), 3), number_of(one.at("unnecessary_manoeuvres").at("value"), 3)});
   return columns;
 }
 

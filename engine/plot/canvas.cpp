@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
-#include <string>
 
 #include "base/text.h"
 #include "base/xml_text.h"

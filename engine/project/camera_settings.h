@@ -185,7 +185,7 @@ struct RigCamera {
   [[nodiscard]] bool operator==(const RigCamera&) const = default;
 };
 
-// The camera of a rig through which a project is seen (project/rig.h).
+// The camera of a rig through which a project is seen (project/project.h).
 struct RigView {
   std::size_t camera = 0;
   std::string name;

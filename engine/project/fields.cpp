@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
-#include <vector>
 
 #include "base/nesting.h"
 #include "base/text.h"
@@ -236,7 +234,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::optional<std::string> near_key(std::span<const std::string> keys, const std::string& key) {
+std::string suggestion(std::span<const std::string> keys, const std::string& key) {
   std::optional<std::string> nearest;
   std::size_t min_distance = 0;
   for (const std::string& known : keys) {
@@ -246,12 +244,7 @@ std::optional<std::string> near_key(std::span<const std::string> keys, const std
     nearest = known;
     min_distance = distance;
   }
-  return nearest;
-}
-
-std::string suggestion(std::span<const std::string> keys, const std::string& key) {
-  const std::optional<std::string> near = near_key(keys, key);
-  return near ? fmt::format("; did you mean {}?", *near) : "";
+  return nearest ? fmt::format("; did you mean {}?", *nearest) : "";
 }
 
 namespace {

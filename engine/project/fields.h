@@ -57,11 +57,8 @@ inline constexpr int kProjectVersion = 1;
 // (a similar one is suggested), a value of the wrong type.
 [[nodiscard]] Result<void> set_field(Project& project, const std::string& assignment);
 
-// The key that was probably meant by an unknown one: the key with the smallest edit distance (Levenshtein), which must
-// be at most half of the longer one's length. None: no key is similar.
-[[nodiscard]] std::optional<std::string> near_key(std::span<const std::string> keys, const std::string& key);
-
-// near_key() for the end of a message: "; did you mean seed?"; empty where there is none.
+// The end of a message about an unknown key, "; did you mean seed?": the key with the smallest edit distance
+// (Levenshtein), which must be at most half of the longer one's length. Empty: no key is similar.
 [[nodiscard]] std::string suggestion(std::span<const std::string> keys, const std::string& key);
 
 // Where a key stands in a project file: "intruders[0].model.scale" -> /intruders/0/model/scale.

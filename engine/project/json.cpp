@@ -7,7 +7,6 @@
 #include <array>
 #include <unordered_set>
 #include <utility>
-#include <vector>
 
 #include "base/staged_outputs.h"
 #include "project/fields.h"

@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "project/fields.h"
 #include "project/places.h"
-#include "project/rig.h"
+#include "project/project.h"
 
 namespace sigs {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "rig/rig_truth.h"
 
 namespace sigs {

@@ -10,7 +10,7 @@
 
 #include "base/csv.h"
 #include "base/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 
 namespace sigs {
 

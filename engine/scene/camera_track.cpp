@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "base/pose.h"
 #include "project/places.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "scene/scene_at.h"
 #include "spline/piecewise_cubic.h"
 #include "telemetry/log_samples.h"

@@ -10,7 +10,6 @@
 
 #include "base/ensure.h"
 #include "project/fields.h"
-#include "project/validate.h"
 #include "scene/camera_track.h"
 #include "scene/plausibility.h"
 #include "scene/scene_light.h"

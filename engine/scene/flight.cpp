@@ -8,10 +8,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "base/ensure.h"
 #include "scene/scene_at.h"

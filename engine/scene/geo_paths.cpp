@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "geo/recorded_path.h"
 #include "project/places.h"
 #include "scene/scene_at.h"
 

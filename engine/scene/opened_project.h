@@ -23,7 +23,7 @@
 namespace sigs {
 
 // The project's first problem (project/validate.h) as an error "x.json: intruders[0].model.file: no such file".
-// A project with several cameras is one too: each of them has a scene of its own (project/rig.h).
+// A project with several cameras is one too: each of them has a scene of its own (project/project.h).
 // Every way from a project to a scene validates it once: open_project and open_scene by this function, `sigs check` and
 // draft_scene by validate(), as they list all problems.
 [[nodiscard]] Result<void> check_valid(const Project& project);

@@ -8,8 +8,6 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "base/ensure.h"
 #include "scene/opened_project.h"

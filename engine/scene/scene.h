@@ -158,7 +158,7 @@ struct Scene {
   int first_frame = 0;                          // of the footage, from 0
   int last_frame = 0;                           // included
   std::optional<Timeline> timeline = {};        // of the first camera of a rig; none: that of the footage itself
-  bool is_thermal = false;                      // Spectrum::thermal: models and light are as heat.h has them
+  bool is_thermal = false;                      // Spectrum::thermal: models and light are as model.h has them
   HeatPalette palette = HeatPalette::gray;      // the colours in which a thermal camera shows heat
   bool horizon_is_known = false;                // the project, or the camera's log, states the camera's attitude
   std::optional<LocalFrame> earth = {};         // where the world lies on the Earth, if that is known

@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "base/interpolation.h"
-#include "scene/scene.h"
 #include "scene/scene_light.h"
 
 namespace sigs {

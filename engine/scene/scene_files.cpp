@@ -12,7 +12,6 @@
 #include <map>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -20,13 +19,10 @@
 
 #include "base/ensure.h"
 #include "base/file_stamp.h"
-#include "base/image.h"
 #include "base/image_file.h"
 #include "base/input_file.h"
-#include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "camera/camera.h"
 #include "mesh/model_files.h"
 #include "scene/opened_project.h"
 #include "telemetry/read_track.h"

@@ -13,7 +13,6 @@
 #include "camera/camera.h"
 #include "mesh/mesh.h"
 #include "project/project.h"
-#include "scene/heat.h"
 #include "scene/model.h"
 #include "scene/scene.h"
 #include "telemetry/track.h"

@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <string_view>
-#include <vector>
 
 #include "base/pose.h"
-#include "project/rig.h"
-#include "scene/heat.h"
+#include "project/project.h"
+#include "scene/model.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"
 
@@ -142,7 +140,7 @@ SceneLight light_of(const LightSettings& light) {
           .white_cdpm2 = light.white_cdpm2};
 }
 
-// A scene that a thermal camera sees: surfaces send out what their materials say, from every side alike (heat.h), and
+// A scene that a thermal camera sees: surfaces send out what their materials say, from every side alike (model.h), and
 // code values mix, as they stand for heat.
 void see_heat(HeatPalette palette, Scene& scene) {
   scene.is_thermal = true;

@@ -6,7 +6,6 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
-#include <tl/expected.hpp>
 #include <vector>
 
 #include "project/project.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -14,7 +14,6 @@
 #include "frame_object.h"
 #include "process_bound.h"
 #include "project/project.h"
-#include "project/rig.h"
 #include "render_thread.h"
 
 namespace sigs::python {

@@ -11,7 +11,7 @@
 #include "dataset/tiny_plan.h"
 #include "export/export_project.h"
 #include "project/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "support/files.h"
 #include "support/test_data.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/staged_outputs.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"

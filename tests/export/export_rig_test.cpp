@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "frame/synthetic_scenes.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "scene/opened_project.h"
 #include "support/files.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/heat.h"
+#include "scene/model.h"
 
 #include <doctest/doctest.h>
 

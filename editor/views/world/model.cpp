@@ -9,7 +9,7 @@
 #include <queue>
 
 #include "editor/geometry/rulers.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 

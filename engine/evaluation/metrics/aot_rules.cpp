@@ -80,6 +80,33 @@ bool is_aircraft(const AotObject& object) {
   return object.id.starts_with("Airplane") || object.id.starts_with("Helicopter");
 }
 
+// The encounters that count, by flight and object.
+std::vector<AotEncounter> aot_encounters(const AotTruth& truth) {
+  std::map<std::pair<int, std::string>, std::vector<int>> rows;
+  for (std::size_t i = 0; i < truth.objects.size(); ++i)
+    if (is_in_range(truth.objects[i]))
+      rows[{truth.objects[i].flight, truth.objects[i].id}].push_back(static_cast<int>(i));
+  const auto at = [&](int i) -> const AotObject& { return truth.objects[static_cast<std::size_t>(i)]; };
+  std::vector<AotEncounter> all;
+  for (const auto& [key, objects] : rows)
+    for (std::size_t k = 0; k < objects.size(); ++k) {
+      if (k == 0 || at(objects[k]).frame - at(objects[k - 1]).frame > kMaxStep)
+        all.push_back({.number = static_cast<int>(all.size()), .flight = key.first});
+      all.back().objects.push_back(objects[k]);
+    }
+  std::erase_if(all, [&](const AotEncounter& encounter) {
+    double nearest_m = kRange_m;
+    for (const int i : encounter.objects) nearest_m = std::min(nearest_m, *at(i).range_m);
+    return encounter.objects.size() < kRows || nearest_m > kNear_m;
+  });
+  for (AotEncounter& encounter : all) {
+    double sum = 0;
+    for (const int i : encounter.objects) sum += at(i).above_horizon;
+    encounter.above_horizon = sum / static_cast<double>(encounter.objects.size());
+  }
+  return all;
+}
+
 // Rates and matches of the reports that count.
 class Scorer {
  public:
@@ -261,32 +288,6 @@ std::vector<AotPair> aot_pairs(const AotTruth& truth, const std::vector<AotRepor
       for (const int report : found->second) pairs.push_back(pair_of(truth, object, reports, report));
   }
   return pairs;
-}
-
-std::vector<AotEncounter> aot_encounters(const AotTruth& truth) {
-  std::map<std::pair<int, std::string>, std::vector<int>> rows;
-  for (std::size_t i = 0; i < truth.objects.size(); ++i)
-    if (is_in_range(truth.objects[i]))
-      rows[{truth.objects[i].flight, truth.objects[i].id}].push_back(static_cast<int>(i));
-  const auto at = [&](int i) -> const AotObject& { return truth.objects[static_cast<std::size_t>(i)]; };
-  std::vector<AotEncounter> all;
-  for (const auto& [key, objects] : rows)
-    for (std::size_t k = 0; k < objects.size(); ++k) {
-      if (k == 0 || at(objects[k]).frame - at(objects[k - 1]).frame > kMaxStep)
-        all.push_back({.number = static_cast<int>(all.size()), .flight = key.first});
-      all.back().objects.push_back(objects[k]);
-    }
-  std::erase_if(all, [&](const AotEncounter& encounter) {
-    double nearest_m = kRange_m;
-    for (const int i : encounter.objects) nearest_m = std::min(nearest_m, *at(i).range_m);
-    return encounter.objects.size() < kRows || nearest_m > kNear_m;
-  });
-  for (AotEncounter& encounter : all) {
-    double sum = 0;
-    for (const int i : encounter.objects) sum += at(i).above_horizon;
-    encounter.above_horizon = sum / static_cast<double>(encounter.objects.size());
-  }
-  return all;
 }
 
 Result<AotScore> aot_score(const AotTruth& truth, const std::vector<AotReport>& reports, const AotPolicy& policy) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "evaluation/readers/aot_files.h"
@@ -70,9 +69,6 @@ struct AotScore {
 
 // All objects of each image with all its reports, in order of objects, then of reports.
 [[nodiscard]] std::vector<AotPair> aot_pairs(const AotTruth& truth, const std::vector<AotReport>& reports);
-
-// The encounters that count, by flight and object.
-[[nodiscard]] std::vector<AotEncounter> aot_encounters(const AotTruth& truth);
 
 // Errors, without a place: a target that cannot be met by any score; no images.
 [[nodiscard]] Result<AotScore> aot_score(const AotTruth& truth, const std::vector<AotReport>& reports,

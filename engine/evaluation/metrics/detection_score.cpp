@@ -20,6 +20,90 @@ double ratio(double part, double whole) {
   return whole > 0 ? part / whole : std::numeric_limits<double>::quiet_NaN();
 }
 
+// The frames of an encounter, counted from 0 in the clip, both included: one target is visible and in range in all of
+// them except for short gaps.
+struct EncounterSpan {
+  int first = 0;
+  int last = 0;
+};
+
+constexpr double kFrameRounding = 1e-3;  // times in files have six digits, so 3 s may be 29.99997 frames
+
+const TargetFrame& frame_at(const TargetTruth& target, int frame) {
+  return target.frames[static_cast<std::size_t>(frame)];
+}
+
+// Some of it is visible, within max_range_m.
+bool is_seen_in_range(const TargetFrame& frame, const DetectionPolicy& policy) {
+  return frame.visible && frame.distance_m <= policy.max_range_m;
+}
+
+int length_of(const EncounterSpan& encounter) {
+  return encounter.last - encounter.first + 1;
+}
+
+int window_frames(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy) {
+  const double frames = std::clamp(std::round(policy.window_s * rate_hz), 1.0, double(length_of(encounter)));
+  return static_cast<int>(frames);
+}
+
+bool is_confirmed(const TargetTruth& target, std::span<const std::set<int>> tracks, int first, int last,
+                  const DetectionPolicy& policy) {
+  std::map<int, int> frames_of_track;
+  int in_range = 0;
+  int most = 0;
+  for (int frame = first; frame <= last; ++frame) {
+    if (!is_seen_in_range(frame_at(target, frame), policy)) continue;
+    ++in_range;
+    for (const int track : tracks[static_cast<std::size_t>(frame)]) most = std::max(most, ++frames_of_track[track]);
+  }
+  return most > 0 && !exceeds(policy.min_window_share, double(most) / in_range);
+}
+
+// All encounters of a target, in order, of any duration and minimum range.
+std::vector<EncounterSpan> encounters_of(const TargetTruth& target, double rate_hz, const DetectionPolicy& policy) {
+  std::vector<EncounterSpan> found;
+  const double max_gap_frames = policy.max_gap_s * rate_hz + kFrameRounding;
+  for (int frame = 0; frame < static_cast<int>(target.frames.size()); ++frame) {
+    if (!is_seen_in_range(frame_at(target, frame), policy)) continue;
+    const bool continues = !found.empty() && frame - found.back().last - 1 <= max_gap_frames;
+    if (continues) {
+      found.back().last = frame;
+    } else {
+      found.push_back({frame, frame});
+    }
+  }
+  return found;
+}
+
+bool is_long_enough(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy) {
+  return length_of(encounter) >= policy.min_encounter_s * rate_hz - kFrameRounding;
+}
+
+// The last frame of the first window in which one track matches the target in at least min_window_share of the frames
+// in which the target is in range; boxes without a track together count as one. Windows have window_s, or the length
+// of a shorter encounter, and lie within the encounter.
+std::optional<int> confirmed_at(const EncounterSpan& encounter, const TargetTruth& target,
+                                std::span<const std::set<int>> tracks, double rate_hz, const DetectionPolicy& policy) {
+  const int window = window_frames(encounter, rate_hz, policy);
+  for (int last = encounter.first + window - 1; last <= encounter.last; ++last)
+    if (is_confirmed(target, tracks, last - window + 1, last, policy)) return last;
+  return std::nullopt;
+}
+
+// The last frame at which a confirmation is in time: the one before the target first comes nearer than detect_range_m,
+// but not before the end of the first window.
+int deadline_of(const EncounterSpan& encounter, const TargetTruth& target, double rate_hz,
+                const DetectionPolicy& policy) {
+  int last_far = encounter.first - 1;
+  while (last_far < encounter.last) {
+    const TargetFrame& next = frame_at(target, last_far + 1);
+    if (is_seen_in_range(next, policy) && next.distance_m < policy.detect_range_m) break;
+    ++last_far;
+  }
+  return std::max(last_far, encounter.first + window_frames(encounter, rate_hz, policy) - 1);
+}
+
 // One target of one clip, with what matches it in each frame.
 struct MatchedTarget {
   const DetectedClip& clip;
@@ -33,7 +117,7 @@ void for_frames_in_range(const MatchedTarget& matched_target, const EncounterSpa
                          const DetectionPolicy& policy, Visit&& visit) {
   for (int frame = encounter.first; frame <= encounter.last; ++frame) {
     const TargetFrame& truth = matched_target.target.frames[static_cast<std::size_t>(frame)];
-    if (is_in_range(truth, policy)) visit(frame, truth);
+    if (is_seen_in_range(truth, policy)) visit(frame, truth);
   }
 }
 
@@ -203,84 +287,10 @@ DetectionScore score_detections(const std::string& name, const std::vector<Detec
   return score;
 }
 
-namespace {
-
-constexpr double kFrameRounding = 1e-3;  // times in files have six digits, so 3 s may be 29.99997 frames
-
-const TargetFrame& frame_at(const TargetTruth& target, int frame) {
-  return target.frames[static_cast<std::size_t>(frame)];
-}
-
-int length_of(const EncounterSpan& encounter) {
-  return encounter.last - encounter.first + 1;
-}
-
-int window_frames(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy) {
-  const double frames = std::clamp(std::round(policy.window_s * rate_hz), 1.0, double(length_of(encounter)));
-  return static_cast<int>(frames);
-}
-
-bool is_confirmed(const TargetTruth& target, std::span<const std::set<int>> tracks, int first, int last,
-                  const DetectionPolicy& policy) {
-  std::map<int, int> frames_of_track;
-  int in_range = 0;
-  int most = 0;
-  for (int frame = first; frame <= last; ++frame) {
-    if (!is_in_range(frame_at(target, frame), policy)) continue;
-    ++in_range;
-    for (const int track : tracks[static_cast<std::size_t>(frame)]) most = std::max(most, ++frames_of_track[track]);
-  }
-  return most > 0 && !exceeds(policy.min_window_share, double(most) / in_range);
-}
-
-}  // namespace
-
 double rate_hz_of(const ClipTruth& clip) {
   const double length_s = clip.frames() > 1 ? clip.times_s.back() - clip.times_s.front() : 0;
   if (length_s > 0 && std::isfinite(length_s)) return (clip.frames() - 1) / length_s;
   return rate_hz(clip.footage);
-}
-
-bool is_in_range(const TargetFrame& frame, const DetectionPolicy& policy) {
-  return frame.visible && frame.distance_m <= policy.max_range_m;
-}
-
-std::vector<EncounterSpan> encounters_of(const TargetTruth& target, double rate_hz, const DetectionPolicy& policy) {
-  std::vector<EncounterSpan> found;
-  const double max_gap_frames = policy.max_gap_s * rate_hz + kFrameRounding;
-  for (int frame = 0; frame < static_cast<int>(target.frames.size()); ++frame) {
-    if (!is_in_range(frame_at(target, frame), policy)) continue;
-    const bool continues = !found.empty() && frame - found.back().last - 1 <= max_gap_frames;
-    if (continues) {
-      found.back().last = frame;
-    } else {
-      found.push_back({frame, frame});
-    }
-  }
-  return found;
-}
-
-bool is_long_enough(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy) {
-  return length_of(encounter) >= policy.min_encounter_s * rate_hz - kFrameRounding;
-}
-
-std::optional<int> confirmed_at(const EncounterSpan& encounter, const TargetTruth& target,
-                                std::span<const std::set<int>> tracks, double rate_hz, const DetectionPolicy& policy) {
-  const int window = window_frames(encounter, rate_hz, policy);
-  for (int last = encounter.first + window - 1; last <= encounter.last; ++last)
-    if (is_confirmed(target, tracks, last - window + 1, last, policy)) return last;
-  return std::nullopt;
-}
-
-int deadline_of(const EncounterSpan& encounter, const TargetTruth& target, double rate_hz,
-                const DetectionPolicy& policy) {
-  int last_far = encounter.first - 1;
-  while (last_far < encounter.last) {
-    const TargetFrame& next = frame_at(target, last_far + 1);
-    if (is_in_range(next, policy) && next.distance_m < policy.detect_range_m) break;
-    ++last_far;
-  }
-  return std::max(last_far, encounter.first + window_frames(encounter, rate_hz, policy) - 1);
 }
 
 namespace {

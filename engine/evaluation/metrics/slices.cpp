@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 
 #include "base/ensure.h"
 #include "base/random.h"
 #include "base/statistics.h"
-#include "evaluation/metrics/detection_score.h"
 
 namespace sigs {
 

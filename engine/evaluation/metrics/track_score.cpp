@@ -134,24 +134,6 @@ TrackScore score_track(const ClipTruth& clip, const TargetTruth& target, const R
   return score;
 }
 
-TrackScore pooled_score(const std::string& name, const std::vector<const TrackScore*>& clips) {
-  TrackScore score{.name = name};
-  double frames = 0;
-  double time_s = 0;
-  for (const TrackScore* const clip : clips) {
-    score.frames.insert(score.frames.end(), clip->frames.begin(), clip->frames.end());
-    score.reported_absent += clip->reported_absent;
-    if (!clip->frames_per_s || !(*clip->frames_per_s > 0)) continue;
-    frames += static_cast<double>(clip->frames.size());
-    time_s += static_cast<double>(clip->frames.size()) / *clip->frames_per_s;
-  }
-  if (time_s > 0) score.frames_per_s = frames / time_s;
-  count_frames(score);
-  sum_errors(score);
-  compute_curves(score);
-  return score;
-}
-
 std::optional<int> first_frame_to_track(const ClipTruth& clip, const TargetTruth& target, const TrackPolicy& policy,
                                         double min_side_px) {
   for (std::size_t i = 0; i < target.frames.size(); ++i) {
@@ -173,6 +155,25 @@ std::optional<TrackPolicy> policy_from_start(const ClipTruth& clip, const Target
 }
 
 namespace {
+
+// All frames of the clips, one behind the other; frames_per_s is of all frames by all time.
+TrackScore pooled_score(const std::string& name, const std::vector<const TrackScore*>& clips) {
+  TrackScore score{.name = name};
+  double frames = 0;
+  double time_s = 0;
+  for (const TrackScore* const clip : clips) {
+    score.frames.insert(score.frames.end(), clip->frames.begin(), clip->frames.end());
+    score.reported_absent += clip->reported_absent;
+    if (!clip->frames_per_s || !(*clip->frames_per_s > 0)) continue;
+    frames += static_cast<double>(clip->frames.size());
+    time_s += static_cast<double>(clip->frames.size()) / *clip->frames_per_s;
+  }
+  if (time_s > 0) score.frames_per_s = frames / time_s;
+  count_frames(score);
+  sum_errors(score);
+  compute_curves(score);
+  return score;
+}
 
 double mean_over_clips(const TrackSetReport& report, std::size_t tracker,
                        const std::function<double(const TrackScore&)>& figure) {

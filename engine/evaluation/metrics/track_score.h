@@ -78,10 +78,6 @@ struct TrackScore {
 [[nodiscard]] TrackScore score_track(const ClipTruth& clip, const TargetTruth& target, const Results& results,
                                      const TrackPolicy& policy);
 
-// The figures of one tracker over all frames of several clips, each frame counting alike. frames are those of all
-// clips, one behind the other; frames_per_s is of all frames by all time.
-[[nodiscard]] TrackScore pooled_score(const std::string& name, const std::vector<const TrackScore*>& clips);
-
 // The first frame in which a tracker can be started: the policy counts it, and both sides of its true box are at least
 // min_side_px. The footage's number; nullopt: there is none.
 [[nodiscard]] std::optional<int> first_frame_to_track(const ClipTruth& clip, const TargetTruth& target,
@@ -108,7 +104,7 @@ struct TrackSetClip {
 
 // The figures of one tracker. Means over clips leave out clips in which the figure does not exist; NaN: there is none.
 struct TrackSetFigures {
-  TrackScore over_frames;  // pooled_score()
+  TrackScore over_frames;  // of all clips, one behind the other; frames_per_s is of all frames by all time
   double clips_center_error_px = 0;
   double clips_precision_at_20 = 0;
   double clips_success_auc = 0;

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <pugixml.hpp>
-#include <utility>
 
 #include "base/pose.h"
 #include "base/staged_outputs.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>

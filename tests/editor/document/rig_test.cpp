@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "project/rig.h"
+#include "project/project.h"
 
 #include <doctest/doctest.h>
 

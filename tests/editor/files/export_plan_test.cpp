@@ -10,7 +10,7 @@
 #include "export/export_project.h"
 #include "project/fields.h"
 #include "project/json.h"
-#include "project/rig.h"
+#include "project/project.h"
 
 using namespace sigs;
 using namespace sigs::editor;

@@ -10,7 +10,7 @@
 
 #include "editor/preview/surveys.h"
 #include "preview_client.h"
-#include "project/rig.h"
+#include "project/project.h"
 #include "scene/scene_parts.h"
 
 using namespace sigs;
