@@ -108,10 +108,6 @@ std::string short_number_text(double number) {
   return text;
 }
 
-std::string count_text(std::int64_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
 std::string image_size_text(cv::Size size_px, std::string_view between) {
   return fmt::format("{}{}{}", size_px.width, between, size_px.height);
 }

@@ -3,7 +3,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdint>
+#include <concepts>
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <string>
@@ -64,7 +64,10 @@ namespace sigs {
 // --- Quantities, for people.
 
 // "1 frame", "12 frames": how many of a thing there are. `thing` is one of them.
-[[nodiscard]] std::string count_text(std::int64_t count, std::string_view thing);
+template <std::integral Count>
+[[nodiscard]] std::string count_text(Count count, std::string_view thing) {
+  return std::to_string(count) + ' ' + std::string(thing) + (count == 1 ? "" : "s");
+}
 
 // "1280x960": the size of an image, as command lines take it. People read it more easily with " x " between.
 [[nodiscard]] std::string image_size_text(cv::Size size_px, std::string_view between = "x");

@@ -113,8 +113,8 @@ class Walk {
       at_ += size;
     }
     if (skips_ > kMaxNamed)
-      contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(skips_ - kMaxNamed), "more place") +
-                                            " with bytes that are no message"});
+      contents_.warnings.push_back(
+          {"", count_text(skips_ - kMaxNamed, "more place") + " with bytes that are no message"});
     return std::move(contents_);
   }
 

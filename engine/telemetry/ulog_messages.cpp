@@ -183,8 +183,7 @@ class MessageWalk {
       return false;
     }
     if (++skips_ <= kMaxNamedTopics)
-      contents_.warnings.push_back({where, "is no message; " +
-                                               count_text(static_cast<std::int64_t>(found - at_), "byte") +
+      contents_.warnings.push_back({where, "is no message; " + count_text(found - at_, "byte") +
                                                " skipped up to the next synchronisation message, after " +
                                                short_number_text(last_s_) + " s since boot"});
     at_ = found;
@@ -293,11 +292,11 @@ class MessageWalk {
 
   void finish() {
     if (skips_ > kMaxNamedTopics)
-      contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(skips_ - kMaxNamedTopics), "more place") +
-                                            " with bytes that are no message"});
+      contents_.warnings.push_back(
+          {"", count_text(skips_ - kMaxNamedTopics, "more place") + " with bytes that are no message"});
     if (without_subscription_ > 0)
-      contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(without_subscription_), "data message") +
-                                            " of no known topic left out"});
+      contents_.warnings.push_back(
+          {"", count_text(without_subscription_, "data message") + " of no known topic left out"});
   }
 
   static std::string printable(std::string_view text) {
