@@ -21,7 +21,7 @@
 #include "base/ensure.h"
 #include "base/file_stamp.h"
 #include "base/image.h"
-#include "base/image_file.h"
+#include "base/image_codecs.h"
 #include "base/input_file.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
