@@ -12,7 +12,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/ensure.h"
 #include "base/paths.h"
 #include "base/text.h"

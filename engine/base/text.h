@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace sigs {
 
@@ -108,5 +109,33 @@ template <class Number = double>
   const std::optional<Number> number = parsed_number<Number>(text);
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
+
+// --- Comma-separated values (RFC 4180, https://www.rfc-editor.org/rfc/rfc4180), one line at a time.
+
+// The fields of one line, in order, as views into it: as many as there are commas outside of double quotes, plus one;
+// an empty line has one empty field. White space (blank, tab, carriage return) around a field and the outer quotes of a
+// quoted field are left out. A doubled quote within a quoted field stays doubled (csv_text()), and a field cannot
+// contain a line break, since the line ends there. A quote that is never closed makes the rest of the line one field.
+[[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line);
+
+// What a field of csv_fields() says: a doubled quote in it stands for one.
+[[nodiscard]] std::string csv_text(std::string_view field);
+
+// A text as one field. It is put between double quotes, and quotes in it are doubled, where it contains a comma, a
+// quote or a line break; any other text is returned unchanged.
+[[nodiscard]] std::string csv_field(std::string_view text);
+
+// --- Text of any bytes, as names from users and from files of strangers are, made fit to be written.
+
+// Text that an XML 1.0 file may contain: bytes that are not UTF-8 and the characters that XML forbids (control
+// characters, U+FFFE, U+FFFF; XML 1.0 section 2.2) become U+FFFD. Markup is not escaped.
+[[nodiscard]] std::string xml_text(std::string_view text);
+
+// The same on one line: line breaks, tabs and DEL become blanks too.
+[[nodiscard]] std::string line_text(std::string_view text);
+
+// Text for an element or a quoted attribute of XML or HTML (XML 1.0 section 2.4): & < > " become entities, and each
+// character in `also` a numeric reference, as &#39;. The text itself must be allowed (xml_text, line_text).
+[[nodiscard]] std::string escaped_text(std::string_view text, std::string_view also = {});
 
 }  // namespace sigs

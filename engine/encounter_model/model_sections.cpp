@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "base/xml_text.h"
 
 namespace sigs {
 

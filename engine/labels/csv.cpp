@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/csv.h"
 #include "base/ensure.h"
 #include "base/text.h"
 #include "labels/label_files.h"

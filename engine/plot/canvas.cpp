@@ -10,7 +10,6 @@
 #include <string>
 
 #include "base/text.h"
-#include "base/xml_text.h"
 
 namespace sigs {
 

@@ -10,7 +10,6 @@
 #include <map>
 #include <optional>
 
-#include "base/csv.h"
 #include "base/input_file.h"
 #include "base/text.h"
 #include "telemetry/log_samples.h"

@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/input_file.h"
 #include "base/text.h"
 #include "evaluation/readers/json_reading.h"

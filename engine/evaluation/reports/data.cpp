@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "base/csv.h"
 #include "base/json.h"
 #include "base/text.h"
 #include "evaluation/reports/report_files.h"

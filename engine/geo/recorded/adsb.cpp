@@ -6,8 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/csv.h"
-#include "base/nesting.h"
+#include "base/input_file.h"
 #include "base/text.h"
 #include "geo/recorded/path_draft.h"
 

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "base/text.h"
-#include "base/xml_text.h"
 #include "geo/utc_time.h"
 
 namespace sigs {
