@@ -107,7 +107,7 @@ Patch strut(const glm::dvec3& from_m, const glm::dvec3& to_m, double chord_m, do
     rings[0].push_back(from_m + rim);
     rings[1].push_back(to_m + rim);
   }
-  const UvOf uv = [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); };
+  const UvOf uv = untextured;
   return turned_outwards(skin(closed(std::move(rings)), uv, material));
 }
 
@@ -137,9 +137,7 @@ Patch tube(const std::vector<glm::dvec3>& points_m, double diameter_m, const std
       rings[0].push_back(points_m[i] - 0.3 * diameter_m * along + rim);
       rings[1].push_back(points_m[i + 1] + 0.3 * diameter_m * along + rim);
     }
-    all = joined(all,
-                 turned_outwards(skin(
-                     closed(std::move(rings)), [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, material)));
+    all = joined(all, turned_outwards(skin(closed(std::move(rings)), untextured, material)));
   }
   return all;
 }

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "finishes.h"
+#include "paint.h"
 
 namespace sigs::models {
 
@@ -21,8 +21,7 @@ Patch blade_disc(const TurningBlades& b, int rings, int sides) {
     }
     circles.push_back(std::move(circle));
   }
-  return skin(
-      circles, [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, b.material);
+  return skin(circles, untextured, b.material);
 }
 
 MaterialSpec blade_material(const TurningBlades& b) {
