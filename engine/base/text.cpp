@@ -27,10 +27,10 @@ std::string chars_of(double number, Format... format) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kSpace);
+std::string_view trimmed(std::string_view text, std::string_view space) {
+  const auto first = text.find_first_not_of(space);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+  return text.substr(first, text.find_last_not_of(space) - first + 1);
 }
 
 std::string_view without_bom(std::string_view text) {

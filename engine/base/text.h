@@ -18,8 +18,8 @@ namespace sigs {
 
 // --- Reading. White space is blank, tab and carriage return.
 
-// The text without white space at its two ends.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
+// The text without white space, or what else is given for it, at its two ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text, std::string_view space = " \t\r");
 
 // The text without the byte order mark (EF BB BF) with which some editors begin files in UTF-8.
 [[nodiscard]] std::string_view without_bom(std::string_view text);

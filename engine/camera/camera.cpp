@@ -53,15 +53,7 @@ const Field* found(const Fields& fields, Names names) {
 
 // The model in warnings, by the words of calibration files and of footage.lens_model.
 const char* word_for(LensModel model) {
-  switch (model) {
-    case LensModel::brown_conrady:
-      return name_of(model);
-    case LensModel::kannala_brandt:
-      return "fisheye";
-    case LensModel::equirectangular:
-      return name_of(model);
-  }
-  return "";
+  return is_fisheye(model) ? "fisheye" : name_of(model);
 }
 
 // Reads the fields by the keys that docs/calibration-files.md lists. Its messages name the file and, where one is at

@@ -2,6 +2,7 @@
 #include "geo/recorded_path.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -52,19 +53,9 @@ void set_longitudes(std::vector<double> longitudes, PathExtent& extent) {
 }  // namespace
 
 std::string_view name_of(HeightReference reference) {
-  switch (reference) {
-    case HeightReference::ellipsoid:
-      return "above the ellipsoid";
-    case HeightReference::sea_level:
-      return "above the sea";
-    case HeightReference::pressure:
-      return "by pressure";
-    case HeightReference::ground:
-      return "above the ground";
-    case HeightReference::unknown:
-      return "not known";
-  }
-  return "";
+  static constexpr std::array<std::string_view, 5> kNames{"above the ellipsoid", "above the sea", "by pressure",
+                                                          "above the ground", "not known"};
+  return kNames.at(static_cast<std::size_t>(reference));
 }
 
 Result<std::vector<RecordedPath>> recorded_paths_of(std::string_view text, const std::string& where) {

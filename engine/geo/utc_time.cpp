@@ -105,10 +105,7 @@ std::optional<double> zone_s(InstantText& text) {
 }  // namespace
 
 std::optional<UtcInstant> utc_instant_of(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == std::string_view::npos) return std::nullopt;
-  InstantText rest(text.substr(first, text.find_last_not_of(kSpace) - first + 1));
+  InstantText rest(trimmed(text, " \t\r\n"));
   double time_s = day_s(rest);
   if (rest.take('T') || rest.take('t') || rest.take(' ')) time_s += clock_s(rest);
   const std::optional<double> zone = zone_s(rest);
