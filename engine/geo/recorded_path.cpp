@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/pose.h"
 #include "base/text.h"
 #include "geo/recorded/path_draft.h"
 
@@ -98,13 +99,6 @@ namespace {
 // of this number stays, so that such a file takes as long as its length; in others it is one point of thousands.
 constexpr std::size_t kMaxAtOnce = 4096;
 
-double distance_to_segment_m(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 along = b - a;
-  const double length2 = glm::dot(along, along);
-  const double part = length2 > 0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0;
-  return glm::length(p - (a + part * along));
-}
-
 class Simplification {
  public:
   Simplification(const std::vector<WorldWaypoint>& all, bool in_time, double tolerance_m)
@@ -123,7 +117,7 @@ class Simplification {
   [[nodiscard]] double error_m(std::size_t i, std::size_t first, std::size_t last) const {
     const WorldWaypoint& a = all_[first];
     const WorldWaypoint& b = all_[last];
-    if (!in_time_) return distance_to_segment_m(all_[i].position_m, a.position_m, b.position_m);
+    if (!in_time_) return distance_to_segment(all_[i].position_m, a.position_m, b.position_m);
     const double part = (all_[i].time_s - a.time_s) / (b.time_s - a.time_s);
     return glm::length(all_[i].position_m - glm::mix(a.position_m, b.position_m, part));
   }

@@ -19,10 +19,10 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "base/file_stamp.h"
 #include "base/image.h"
 #include "base/image_codecs.h"
 #include "base/input_file.h"
+#include "base/paths.h"
 #include "base/pose.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <set>
 
 #include "base/statistics.h"
 #include "base/text.h"
+#include "geo/utc_time.h"
 #include "telemetry/log_samples.h"
 
 namespace sigs {
@@ -295,12 +295,9 @@ std::optional<double> utc_of_gpsu(const std::string& text) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0;
   double second = 0;
   if (std::sscanf(text.c_str(), "%2d%2d%2d%2d%2d%lf", &year, &month, &day, &hour, &minute, &second) != 6) return {};
-  const std::chrono::year_month_day date{std::chrono::year(2000 + year),
-                                         std::chrono::month(static_cast<unsigned>(month)),
-                                         std::chrono::day(static_cast<unsigned>(day))};
-  if (!date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0 && second < 61)) return {};
-  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return static_cast<double>(days) * kSecondsPerDay + hour * 3600 + minute * 60 + second;
+  const std::optional<double> day_s = utc_of_day(2000 + year, month, day);
+  if (!day_s || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0 && second < 61)) return {};
+  return *day_s + hour * 3600 + minute * 60 + second;
 }
 
 std::string span_text(double first_s, double last_s) {
