@@ -12,9 +12,9 @@
 #include <string_view>
 #include <thread>
 
-#include "base/allocator.h"
 #include "base/output_stream.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "cli/options.h"
 #include "cli/process.h"
 #include "export/export_project.h"

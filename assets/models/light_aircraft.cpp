@@ -7,7 +7,6 @@
 #include "light_aircraft_livery.h"
 #include "loft.h"
 #include "model.h"
-#include "rotor.h"
 #include "section_body.h"
 
 namespace sigs::models {

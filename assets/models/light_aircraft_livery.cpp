@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "loft.h"
 #include "paint.h"
-#include "rotor.h"
 
 namespace sigs::models {
 

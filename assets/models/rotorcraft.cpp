@@ -9,7 +9,6 @@
 #include "loft.h"
 #include "model.h"
 #include "paint.h"
-#include "rotor.h"
 #include "section_body.h"
 
 namespace sigs::models {

@@ -18,7 +18,6 @@
 #include <optional>
 #include <system_error>
 
-#include "base/allocator.h"
 #include "base/image.h"
 #include "base/input_file.h"
 #include "base/text.h"

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -41,6 +42,9 @@ struct Fields::Group {
   std::string name;
   Fields fields;
 };
+
+// The field of the first of these names that there is; nullptr: of none.
+[[nodiscard]] const Field* found(const Fields& fields, std::span<const std::string_view> names);
 
 // The fields of a calibration text, whose format is recognised by how it begins:
 //   '<'            OpenCV FileStorage XML

@@ -30,13 +30,6 @@ constexpr double kGpsEpoch_s = 315964800;  // 1980-01-06 as UTC seconds since 19
 constexpr double kWeek_s = 604800;
 constexpr double kLastWeek = 4000;  // beyond 2056 the receiver has no date
 
-DataflashColumn raw(const char* name) {
-  return {name, false};
-}
-DataflashColumn scaled(const char* name) {
-  return {name, true};
-}
-
 // Seconds since boot: TimeUS, or TimeMS in old logs.
 double time_of_message(Values v) {
   return std::isfinite(v[0]) ? v[0] * 1e-6 : v[1] * 1e-3;
@@ -54,14 +47,20 @@ class DataflashReading {
 
  private:
   struct Message {
-    std::vector<DataflashColumn> columns;  // the first are TimeUS, TimeMS and the instance
+    const char* raw = "";     // columns, with blanks between; the first are TimeUS, TimeMS and the instance
+    const char* scaled = "";  // behind them
     void (DataflashReading::*take)(Values v) = nullptr;
   };
   static const std::map<std::string, Message, std::less<>>& messages();
 
   static std::vector<DataflashColumn> columns_of(std::string_view name) {
     const auto found = messages().find(name);
-    return found == messages().end() ? std::vector<DataflashColumn>{} : found->second.columns;
+    std::vector<DataflashColumn> columns;
+    if (found == messages().end()) return columns;
+    std::string_view raw = found->second.raw, scaled = found->second.scaled;
+    while (!raw.empty()) columns.push_back({std::string(next_token(raw)), false});
+    while (!scaled.empty()) columns.push_back({std::string(next_token(scaled)), true});
+    return columns;
   }
 
   void take(std::string_view name, Values v) {
@@ -93,12 +92,12 @@ class DataflashReading {
   // Status 3 and above is a three-dimensional fix. Course over ground is clockwise from north, VZ positive down.
   void take_gps(Values v) {
     const double t_s = time_of_message(v);
-    if (!(v[6] >= 3)) return gps_.leave_out("no three-dimensional fix (Status below 3)", t_s);
-    take_place(gps_, v, 3);
-    const double course_rad = rad_of_deg(v[8]);
-    gps_velocity_.add(t_s, {v[7] * std::cos(course_rad), v[7] * std::sin(course_rad), v[9]});
-    if (!utc_minus_boot_s_ && v[11] > 0 && v[11] < kLastWeek && v[10] >= 0 && v[10] <= kWeek_s * 1e3)
-      utc_minus_boot_s_ = kGpsEpoch_s + v[11] * kWeek_s + v[10] * 1e-3 - leap_seconds(v[11]) - t_s;
+    if (!(v[3] >= 3)) return gps_.leave_out("no three-dimensional fix (Status below 3)", t_s);
+    take_place(gps_, v, 6);
+    const double course_rad = rad_of_deg(v[10]);
+    gps_velocity_.add(t_s, {v[9] * std::cos(course_rad), v[9] * std::sin(course_rad), v[11]});
+    if (!utc_minus_boot_s_ && v[5] > 0 && v[5] < kLastWeek && v[4] >= 0 && v[4] <= kWeek_s * 1e3)
+      utc_minus_boot_s_ = kGpsEpoch_s + v[5] * kWeek_s + v[4] * 1e-3 - leap_seconds(v[5]) - t_s;
   }
 
   void take_imu(Values v) {
@@ -159,34 +158,18 @@ class DataflashReading {
 };
 
 const std::map<std::string, DataflashReading::Message, std::less<>>& DataflashReading::messages() {
-  static const std::vector<DataflashColumn> kFilter = {raw("TimeUS"),   raw("TimeMS"), raw("C"),     scaled("Roll"),
-                                                       scaled("Pitch"), scaled("Yaw"), scaled("VN"), scaled("VE"),
-                                                       scaled("VD"),    scaled("PN"),  scaled("PE"), scaled("PD")};
+  constexpr const char* kStamp = "TimeUS TimeMS I";
+  constexpr const char* kFilter = "Roll Pitch Yaw VN VE VD PN PE PD";
   static const std::map<std::string, Message, std::less<>> kMessages = {
-      {"ATT",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Roll"), scaled("Pitch"), scaled("Yaw")},
-        &DataflashReading::take_att}},
-      {"POS",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Lat"), scaled("Lng"), scaled("Alt")},
-        &DataflashReading::take_pos}},
-      {"AHR2",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Roll"), scaled("Pitch"), scaled("Yaw"), scaled("Lat"),
-         scaled("Lng"), scaled("Alt")},
-        &DataflashReading::take_ahr2}},
-      {"GPS",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Lat"), scaled("Lng"), scaled("Alt"), raw("Status"),
-         scaled("Spd"), scaled("GCrs"), scaled("VZ"), raw("GMS"), raw("GWk")},
-        &DataflashReading::take_gps}},
-      {"IMU",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("GyrX"), scaled("GyrY"), scaled("GyrZ"), scaled("AccX"),
-         scaled("AccY"), scaled("AccZ")},
-        &DataflashReading::take_imu}},
-      {"XKF1", {kFilter, &DataflashReading::take_xkf1}},
-      {"NKF1", {kFilter, &DataflashReading::take_nkf1}},
-      {"MNT",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Roll"), scaled("Pitch"), scaled("YawE"), scaled("YawB")},
-        &DataflashReading::take_mnt}},
-      {"CAM", {{raw("TimeUS"), raw("TimeMS"), raw("I")}, &DataflashReading::take_cam}},
+      {"ATT", {kStamp, "Roll Pitch Yaw", &DataflashReading::take_att}},
+      {"POS", {kStamp, "Lat Lng Alt", &DataflashReading::take_pos}},
+      {"AHR2", {kStamp, "Roll Pitch Yaw Lat Lng Alt", &DataflashReading::take_ahr2}},
+      {"GPS", {"TimeUS TimeMS I Status GMS GWk", "Lat Lng Alt Spd GCrs VZ", &DataflashReading::take_gps}},
+      {"IMU", {kStamp, "GyrX GyrY GyrZ AccX AccY AccZ", &DataflashReading::take_imu}},
+      {"XKF1", {"TimeUS TimeMS C", kFilter, &DataflashReading::take_xkf1}},
+      {"NKF1", {"TimeUS TimeMS C", kFilter, &DataflashReading::take_nkf1}},
+      {"MNT", {kStamp, "Roll Pitch YawE YawB", &DataflashReading::take_mnt}},
+      {"CAM", {kStamp, "", &DataflashReading::take_cam}},
   };
   return kMessages;
 }

@@ -92,7 +92,7 @@ std::vector<Range> ranges_of(std::string_view name, const Channel<T>& channel) {
   return ranges;
 }
 
-std::string utc_text(double utc_s) {
+std::string date_text(double utc_s) {
   const double day = std::floor(utc_s / 86400);
   if (!(std::abs(day) < 1e6)) return exact_text(utc_s) + " s since 1970";
   const double in_day_s = utc_s - day * 86400;
@@ -107,7 +107,7 @@ std::string heading_of(const Track& track) {
   std::string text = fmt::format("format: {}\n", track.format);
   if (!track.device.empty()) text += fmt::format("device: {}\n", track.device);
   text += fmt::format("time 0: {}\n", track.on_footage_time ? "the footage's frame 0" : "the log's first stamp");
-  if (track.utc_at_zero_s) text += fmt::format("UTC at time 0: {}\n", utc_text(*track.utc_at_zero_s));
+  if (track.utc_at_zero_s) text += fmt::format("UTC at time 0: {}\n", date_text(*track.utc_at_zero_s));
   if (track.readout_s)
     text += fmt::format("rolling shutter: {} s from the first row to the last\n", short_number_text(*track.readout_s));
   if (!track.heading_is_north) text += "yaw 0: an arbitrary heading, not north\n";
