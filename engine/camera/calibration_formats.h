@@ -54,7 +54,7 @@ struct Fields::Group {
 //                  models and a second ("digital") lens are errors that name them. Other JSON is read like YAML
 //   anything else  YAML as ROS (camera_info), Python scripts and OpenCV's FileStorage (first line "%YAML:1.0") write it
 // Errors (bad_data) name file_name and, where known, the line or the key. Texts nested deeper than kMaxNesting
-// (base/nesting.h) and aliases in YAML are errors.
+// (base/input_file.h) and aliases in YAML are errors.
 [[nodiscard]] Result<Fields> fields_in(const std::string& text, const std::string& file_name);
 
 // The cameras of a file by name, each in the keys of a file of one camera, with what ties it to the others (T_cn_cnm1,
