@@ -13,7 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "base/csv.h"
 #include "base/image_codecs.h"
 #include "base/text.h"
 #include "plot/plot.h"

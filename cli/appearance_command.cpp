@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "appearance/appearance.h"
-#include "base/allocator.h"
 #include "base/json.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output_files.h"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "appearance/target_look.h"
-#include "base/csv.h"
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "base/allocator.h"
 #include "base/paths.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "cli/dataset_command.h"
 #include "cli/options.h"
 #include "cli/output_files.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <system_error>
 
-#include "base/nesting.h"
+#include "base/input_file.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"

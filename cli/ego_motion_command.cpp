@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/image_file.h"
+#include "base/image_codecs.h"
+#include "base/paths.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "camera/camera.h"

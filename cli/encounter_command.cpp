@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/text.h"
-#include "base/xml_text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output_files.h"

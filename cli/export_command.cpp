@@ -11,9 +11,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/allocator.h"
 #include "base/output_stream.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/allocator.h"
 #include "base/numbered_files.h"
 #include "base/paths.h"
 #include "base/result.h"
+#include "base/threads.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"

@@ -13,7 +13,6 @@
 #include <thread>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/ensure.h"
 #include "base/paths.h"
 #include "base/text.h"

@@ -10,11 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/csv.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "base/xml_text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/path_project.h"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/image_file.h"
+#include "base/image_codecs.h"
 #include "base/input_file.h"
 #include "base/paths.h"
 #include "base/result.h"

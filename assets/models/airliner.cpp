@@ -86,13 +86,6 @@ const Profile& profile_of_fuselage() {
 
 constexpr int kUnderside = 13;  // point on a half ring from which on the underside's image is used
 
-// Points [first, last] of each ring.
-std::vector<Ring> strip_of(const std::vector<Ring>& rings, int first, int last) {
-  std::vector<Ring> strip;
-  for (const Ring& ring : rings) strip.emplace_back(ring.begin() + first, ring.begin() + last + 1);
-  return strip;
-}
-
 Patch fuselage() {
   const Profile& profile = profile_of_fuselage();
   std::vector<Ring> rings;
@@ -140,8 +133,7 @@ Patch left_panes() {
       for (int i = 0; i <= 6; ++i) row.push_back(outside_fuselage(std::lerp(front(z), rear(z), i / 6.0), z));
       rows.push_back(std::move(row));
     }
-    return skin(
-        rows, [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, "glass");
+    return skin(rows, untextured, "glass");
   };
   const auto at_post = [&](double s) { return [&post, s](double z) { return post(s, z); }; };
   const auto rear = [](double z) { return 3.82 - 0.55 * (z - 0.58); };
@@ -224,8 +216,7 @@ Patch fin() {
 std::vector<Patch> left_engine() {
   constexpr int kSides = 24;
   const glm::dvec3 hub = at(10.9, kEngineY_m, -1.98);
-  const glm::dmat3 straight(1.0);
-  const auto place = [&](const Patch& patch) { return moved(patch, straight, hub); };
+  const auto place = [&](const Patch& patch) { return moved(patch, hub); };
   const Patch lip =
       revolved({{-0.22, 0.92}, {-0.08, 0.93}, {-0.02, 0.965}, {0, 1.0}, {-0.03, 1.05}, {-0.14, 1.105}}, kSides, "lip");
   const Patch cowl =
@@ -236,7 +227,7 @@ std::vector<Patch> left_engine() {
   const Patch nozzle = revolved({{-4.3, 0.44}, {-4.1, 0.36}, {-4.1, 0.27}}, kSides, "dark");
   const Patch plug = revolved({{-4.1, 0.27}, {-4.6, 0.2}, {-4.9, 0}}, kSides, "metal");
   const Patch duct = revolved({{-2.9, 0.66}, {-2.9, 0.89}, {-3.3, 0.89}}, kSides, "dark");
-  const Patch fan = moved(disc(0.86, kSides, "fan"), straight, {-0.9, 0, 0});
+  const Patch fan = moved(disc(0.86, kSides, "fan"), {-0.9, 0, 0});
   const Patch spinner = revolved({{-0.9, 0.26}, {-0.7, 0.19}, {-0.52, 0.09}, {-0.45, 0}}, kSides, "metal");
   // The wall of the duct is seen from within.
   return {place(joined(lip, cowl)),
@@ -259,19 +250,14 @@ Patch left_pylon() {
 Patch left_track(double y_m, double s_m, double length_m) {
   const double z = -1.42 + 0.095 * y_m + 0.0012 * y_m * y_m;
   const double front = length_m / 2.6;
-  return moved(teardrop({front, 0.18, 0.26}, 1.6, 10, "track"), glm::dmat3(1.0), at(s_m + front, y_m, z));
-}
-
-void add_both(Model& model, const Patch& left) {
-  model.patches.push_back(left);
-  model.patches.push_back(mirrored(left, false));
+  return moved(teardrop({front, 0.18, 0.26}, 1.6, 10, "track"), at(s_m + front, y_m, z));
 }
 
 // Position lights at the wing tips and the tail, the anti-collision beacons on crown and belly; larger than they are
 // built, so that they are as bright in the image as the lamps that they stand for.
 std::vector<Patch> lights() {
   const auto lamp = [](double s, double y, double z, double radius_m, const char* material) {
-    return moved(teardrop(glm::dvec3(radius_m), 1.5, 6, material), glm::dmat3(1.0), at(s, y, z));
+    return moved(teardrop(glm::dvec3(radius_m), 1.5, 6, material), at(s, y, z));
   };
   return {lamp(19.35, 16.12, 0.55, 0.12, "light_red"),
           lamp(19.35, -16.12, 0.55, 0.12, "light_green"),
@@ -286,11 +272,10 @@ std::vector<Patch> lights() {
 
 Model airliner() {
   Model model{.name = "airliner", .patches = {fuselage(), belly_fairing(), fin()}, .liveries = airliner_liveries()};
-  for (const Patch& part : {left_panes(), left_wing(), left_tailplane(), left_pylon(), left_track(4.3, 15.6, 3.3),
-                            left_track(8.4, 16.9, 2.7), left_track(11.6, 18.3, 2.2)})
-    add_both(model, part);
-  for (const Patch& part : left_engine()) add_both(model, part);
-  for (const Patch& lamp : lights()) model.patches.push_back(lamp);
+  add_both(model, {left_panes(), left_wing(), left_tailplane(), left_pylon(), left_track(4.3, 15.6, 3.3),
+                   left_track(8.4, 16.9, 2.7), left_track(11.6, 18.3, 2.2)});
+  add_both(model, left_engine());
+  add(model, lights());
   return model;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "finishes.h"
+#include "paint.h"
 
 namespace sigs::models {
 

@@ -6,16 +6,13 @@
 #include <numbers>
 #include <string>
 
-#include "finishes.h"
 #include "loft.h"
 #include "model.h"
+#include "paint.h"
 
 namespace sigs::models {
 
 namespace {
-
-const glm::dmat3 kAsIs(1.0);
-const glm::dmat3 kNoseUp(glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0));
 
 WingStation feathers(double forward_m, double left_m, double up_m, double chord_m) {
   return {.leading_edge_m = {forward_m, left_m, up_m},
@@ -68,7 +65,7 @@ Model bird() {
                                {-0.180, 0.016},
                                {-0.200, 0}},
                               16, "body");
-  const Patch beak = moved(teardrop({0.035, 0.007, 0.009}, 1.0, 8, "beak"), kAsIs, {0.172, 0, -0.004});
+  const Patch beak = moved(teardrop({0.035, 0.007, 0.009}, 1.0, 8, "beak"), {0.172, 0, -0.004});
   const auto fan = [](double left_m, double chord_m) {
     return WingStation{.leading_edge_m = {-0.13, left_m, 0.004}, .chord_m = chord_m, .thickness = 0.04};
   };
@@ -77,7 +74,7 @@ Model bird() {
               .patches = {body, beak, tail},
               .liveries = {{.materials = plumage(0.72, 0.42, 0.06, {0.60, 0.38, 0.05})},
                            {.name = "dark", .materials = plumage(0.035, 0.03, 0.025, grey(0.04))}}};
-  for (const Patch& part : wings()) model.patches.push_back(part);
+  add(model, wings());
   return model;
 }
 
@@ -90,8 +87,8 @@ Model balloon() {
     const double r = i % kSteps == 0 ? 0.0 : 0.15 * std::pow(std::sin(angle), x < 0 ? 1.25 : 1.0);
     profile.emplace_back(x > 0 ? 0.15 * x : 0.20 * x, r);
   }
-  const Patch skin_of_balloon = moved(revolved(profile, 28, "rubber"), kNoseUp, {0, 0, 0});
-  const Patch knot = moved(teardrop({0.010, 0.010, 0.010}, 1.0, 8, "rubber"), kNoseUp, {0, 0, -0.205});
+  const Patch skin_of_balloon = moved(revolved(profile, 28, "rubber"), kUpright, {0, 0, 0});
+  const Patch knot = moved(teardrop({0.010, 0.010, 0.010}, 1.0, 8, "rubber"), kUpright, {0, 0, -0.205});
   const Patch string = strut({0, 0, -0.21}, {0.02, 0, -0.75}, 0.003, 0.003, "string");
   const auto painted_in = [](const Colour& colour) {
     return std::vector<MaterialSpec>{lacquer("rubber", colour), matt("string", grey(0.6))};
@@ -116,9 +113,7 @@ Model insect() {
     circles.push_back(std::move(circle));
   }
   Model model{.name = "insect",
-              .patches = {skin(
-                  circles, [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); },
-                  [](int r, int) { return spot_material(r); })},
+              .patches = {skin(circles, untextured, [](int r, int) { return spot_material(r); })},
               .liveries = {{}}};
   for (int r = 0; r < kSpotRings; ++r) {
     model.liveries.front().materials.push_back(matt(spot_material(r), grey(0.02)));

@@ -4,10 +4,9 @@
 // paint are our own. "s" is metres behind the nose.
 #include <cmath>
 
-#include "finishes.h"
 #include "loft.h"
 #include "model.h"
-#include "rotor.h"
+#include "paint.h"
 #include "section_body.h"
 
 namespace sigs::models {
@@ -15,10 +14,6 @@ namespace sigs::models {
 namespace {
 
 constexpr double kNose_m = 3.4;  // ahead of the origin, which lies below the mast
-const glm::dmat3 kStraight(1.0);
-// Bodies of revolution around x, set upright (+x becomes +z), and set across (+x becomes the right, -y).
-const glm::dmat3 kUpright(glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0));
-const glm::dmat3 kAcross(glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1));
 
 constexpr SideMap kSides{kNose_m, 10.8, 1.05, -1.05};
 constexpr PlanMap kBelow{kNose_m, 10.8, 1.0};
@@ -73,7 +68,7 @@ Colour underside_colour(const PlanPoint& at) {
 }
 
 Patch ball(double s, double y, double z, const glm::dvec3& half_axes_m, const std::string& material) {
-  return moved(teardrop(half_axes_m, 1.0, 10, material), kStraight, at(s, y, z));
+  return moved(teardrop(half_axes_m, 1.0, 10, material), at(s, y, z));
 }
 
 // Engine and gearbox behind and below the mast, with the air inlets each side and the exhaust at the end.
@@ -83,21 +78,13 @@ std::vector<Patch> engine() {
       {3.00, 0.46, 1.36, 0.72, 2.6, 0.85, 1.1},  {3.60, 0.50, 1.40, 0.70, 2.6, 0.85, 1.1},
       {4.20, 0.47, 1.38, 0.70, 2.6, 0.85, 1.1},  {4.80, 0.40, 1.32, 0.70, 2.4, 0.85, 1.1},
       {5.35, 0.30, 1.22, 0.72, 2.2, 0.85, 1.0},  {5.60, 0.22, 1.14, 0.76, 2.0, 0.85, 0.95}};
-  std::vector<Ring> rings;
-  for (const Section& section : sections) rings.push_back(half_ring(section, kNose_m, 1.0));
-  const auto middle = [](const Ring& ring) { return Ring(ring.size(), 0.5 * (ring.front() + ring.back())); };
-  rings.insert(rings.begin(), middle(rings.front()));
-  rings.push_back(middle(rings.back()));
-  const Patch left = turned_outwards(skin(
-      rings, [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); },
-      [](int r, int c) {
-        const bool inlet = r >= 3 && r < 5 && c >= 2 && c < 8;
-        return std::string(inlet ? "grille" : "cowl");
-      }));
+  const auto material = [](int r, int c) {
+    return std::string(r >= 3 && r < 5 && c >= 2 && c < 8 ? "grille" : "cowl");
+  };
   return {
-      joined(left, mirrored(left, false)),
+      hull(sections, kNose_m, material),
       moved(revolved({{0.2, 0.0}, {0.2, 0.17}, {-0.35, 0.19}, {-0.35, 0.16}, {-0.15, 0.15}, {-0.15, 0}}, 16, "metal"),
-            kStraight, at(5.55, 0, 1.02)),
+            at(5.55, 0, 1.02)),
       moved(disc(0.16, 16, "dark"), glm::dmat3(glm::dvec3(-1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1)),
             at(5.87, 0, 1.02))};
 }
@@ -194,12 +181,8 @@ Model helicopter() {
               .patches = {section_body(kSections, covering), section_lining(kSections, covering, 0.1, 3.8), left_skid(),
                           mirrored(left_skid(), false)},
               .liveries = {livery()}};
-  for (const auto& parts : {engine(), main_rotor(), tail(), cockpit(), lights()})
-    for (const Patch& part : parts) model.patches.push_back(part);
-  for (const Patch& part : left_half_of_cabin()) {
-    model.patches.push_back(part);
-    model.patches.push_back(mirrored(part, false));
-  }
+  for (const auto& parts : {engine(), main_rotor(), tail(), cockpit(), lights()}) add(model, parts);
+  add_both(model, left_half_of_cabin());
   return model;
 }
 

@@ -7,14 +7,11 @@
 #include "light_aircraft_livery.h"
 #include "loft.h"
 #include "model.h"
-#include "rotor.h"
 #include "section_body.h"
 
 namespace sigs::models {
 
 namespace {
-
-const glm::dmat3 kStraight(1.0);
 
 glm::dvec3 at(double s_m, double y_m, double z_m) {
   return {kLightNose_m - s_m, y_m, z_m};
@@ -47,7 +44,7 @@ bool is_glass(double s, int point) {
 const Covering kCovering{is_glass, kLightSides, kLightUnderside};
 
 Patch ball(double s, double y, double z, const glm::dvec3& half_axes_m, const std::string& material) {
-  return moved(teardrop(half_axes_m, 1.0, 10, material), kStraight, at(s, y, z));
+  return moved(teardrop(half_axes_m, 1.0, 10, material), at(s, y, z));
 }
 
 std::vector<Patch> left_half_of_cabin() {
@@ -101,19 +98,18 @@ Patch wheel(double s, double y, double z, double radius, double half_width) {
 }
 
 Patch spat(double s, double y, double z, double scale) {
-  return moved(teardrop(scale * glm::dvec3(0.30, 0.125, 0.185), 1.9, 12, "white"), kStraight, at(s, y, z));
+  return moved(teardrop(scale * glm::dvec3(0.30, 0.125, 0.185), 1.9, 12, "white"), at(s, y, z));
 }
 
 Patch propeller() {
-  return moved(blade_disc(kLightPropeller, 2, 40), kStraight, at(0.2, 0, 0.05));
+  return moved(blade_disc(kLightPropeller, 2, 40), at(0.2, 0, 0.05));
 }
 
 std::vector<Patch> nose_parts() {
   const Patch spinner =
       revolved({{0, 0}, {-0.015, 0.045}, {-0.06, 0.09}, {-0.14, 0.135}, {-0.24, 0.16}, {-0.31, 0.165}}, 20, "trim");
-  return {moved(spinner, kStraight, at(0, 0, 0.05)), propeller(),
-          strut(at(0.95, 0, -0.5), at(0.88, 0, -1.1), 0.09, 0.07, "metal"), wheel(0.88, 0, -1.13, 0.19, 0.065),
-          spat(0.92, 0, -1.06, 0.88)};
+  return {moved(spinner, at(0, 0, 0.05)), propeller(), strut(at(0.95, 0, -0.5), at(0.88, 0, -1.1), 0.09, 0.07, "metal"),
+          wheel(0.88, 0, -1.13, 0.19, 0.065), spat(0.92, 0, -1.06, 0.88)};
 }
 
 // Position lights at the wing tips and the tail, and the beacon on the fin; larger than they are built.
@@ -141,13 +137,8 @@ Model light_aircraft() {
               .patches = {section_body(kSections, kCovering), section_lining(kSections, kCovering, 1.45, 5.1), fin(),
                           left_wing("wing_left"), mirrored(left_wing("wing"), false)},
               .liveries = light_aircraft_liveries()};
-  for (const auto& parts : {nose_parts(), lights()})
-    for (const Patch& part : parts) model.patches.push_back(part);
-  for (const auto& parts : {left_parts(), left_half_of_cabin()})
-    for (const Patch& part : parts) {
-      model.patches.push_back(part);
-      model.patches.push_back(mirrored(part, false));
-    }
+  for (const auto& parts : {nose_parts(), lights()}) add(model, parts);
+  for (const auto& parts : {left_parts(), left_half_of_cabin()}) add_both(model, parts);
   return model;
 }
 

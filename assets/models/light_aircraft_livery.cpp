@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "finishes.h"
-#include "rotor.h"
+#include "loft.h"
+#include "paint.h"
 
 namespace sigs::models {
 

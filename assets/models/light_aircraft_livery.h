@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "loft.h"
 #include "model.h"
-#include "rotor.h"
 #include "side_map.h"
 
 namespace sigs::models {

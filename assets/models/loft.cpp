@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+
+#include "paint.h"
 
 namespace sigs::models {
 
@@ -107,7 +110,7 @@ Patch strut(const glm::dvec3& from_m, const glm::dvec3& to_m, double chord_m, do
     rings[0].push_back(from_m + rim);
     rings[1].push_back(to_m + rim);
   }
-  const UvOf uv = [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); };
+  const UvOf uv = untextured;
   return turned_outwards(skin(closed(std::move(rings)), uv, material));
 }
 
@@ -137,11 +140,35 @@ Patch tube(const std::vector<glm::dvec3>& points_m, double diameter_m, const std
       rings[0].push_back(points_m[i] - 0.3 * diameter_m * along + rim);
       rings[1].push_back(points_m[i + 1] + 0.3 * diameter_m * along + rim);
     }
-    all = joined(all,
-                 turned_outwards(skin(
-                     closed(std::move(rings)), [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); }, material)));
+    all = joined(all, turned_outwards(skin(closed(std::move(rings)), untextured, material)));
   }
   return all;
+}
+
+Patch blade_disc(const TurningBlades& b, int rings, int sides) {
+  const double rim_m = b.tip_m / std::cos(std::numbers::pi / sides);
+  std::vector<Ring> circles;
+  for (int r = 0; r <= rings; ++r) {
+    const double radius_m = b.root_m + (rim_m - b.root_m) * r / rings;
+    Ring circle;
+    for (int i = 0; i <= sides; ++i) {
+      const double angle = 2 * std::numbers::pi * (i % sides) / sides;
+      circle.emplace_back(b.coning_m * r / rings, radius_m * std::sin(angle), radius_m * std::cos(angle));
+    }
+    circles.push_back(std::move(circle));
+  }
+  return skin(circles, untextured, b.material);
+}
+
+MaterialSpec blade_material(const TurningBlades& b) {
+  MaterialSpec material = matt(b.material, grey(b.reflectance));
+  const double area_m2 = b.count * (b.tip_m - b.root_m) * 0.5 * (b.root_chord_m + b.tip_chord_m);
+  material.opacity = area_m2 / (std::numbers::pi * (b.tip_m * b.tip_m - b.root_m * b.root_m));
+  char text[200];
+  std::snprintf(text, sizeof text, "rotor_blades %d\nrotor_rpm %.0f\nrotor_radii %.3f %.3f\nrotor_chords %.3f %.3f\n",
+                b.count, b.rpm, b.root_m, b.tip_m, b.root_chord_m, b.tip_chord_m);
+  material.rotor = text;
+  return material;
 }
 
 }  // namespace sigs::models

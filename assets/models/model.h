@@ -39,6 +39,14 @@ struct Model {
   std::vector<Livery> liveries;  // the first one is without a name
 };
 
+// Adds patches to a model, and with add_both() their mirror images too.
+inline void add(Model& model, const std::vector<Patch>& parts) {
+  model.patches.insert(model.patches.end(), parts.begin(), parts.end());
+}
+inline void add_both(Model& model, const std::vector<Patch>& left_parts) {
+  for (const Patch& left : left_parts) add(model, {left, mirrored(left, false)});
+}
+
 [[nodiscard]] Model airliner();
 [[nodiscard]] Model light_aircraft();
 [[nodiscard]] Model helicopter();

@@ -60,6 +60,12 @@ Patch skin(const std::vector<Ring>& rings, const UvOf& uv_of, const std::string&
   return skin(rings, uv_of, [&](int, int) { return material; });
 }
 
+std::vector<Ring> strip_of(const std::vector<Ring>& rings, int first, int last) {
+  std::vector<Ring> strip;
+  for (const Ring& ring : rings) strip.emplace_back(ring.begin() + first, ring.begin() + last + 1);
+  return strip;
+}
+
 std::vector<Ring> closed(std::vector<Ring> rings) {
   const auto pole = [](const Ring& ring) {
     glm::dvec3 middle{0};

@@ -5,6 +5,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sigs::models {
@@ -28,6 +29,14 @@ using Ring = std::vector<glm::dvec3>;
 using UvOf = std::function<glm::dvec2(const glm::dvec3& position_m, int row, int column)>;
 using MaterialOf = std::function<std::string(int row, int column)>;
 
+// Of materials without a texture.
+[[nodiscard]] inline glm::dvec2 untextured(const glm::dvec3& /*position_m*/, int /*row*/, int /*column*/) {
+  return glm::dvec2(0.5);
+}
+
+// Points [first, last] of each ring.
+[[nodiscard]] std::vector<Ring> strip_of(const std::vector<Ring>& rings, int first, int last);
+
 // Joins rings of equal length by triangles. A closed ring repeats its first point. Triangles without area are left out.
 [[nodiscard]] Patch skin(const std::vector<Ring>& rings, const UvOf& uv_of, const MaterialOf& material_of);
 [[nodiscard]] Patch skin(const std::vector<Ring>& rings, const UvOf& uv_of, const std::string& material);
@@ -37,6 +46,13 @@ using MaterialOf = std::function<std::string(int row, int column)>;
 
 [[nodiscard]] Patch joined(const Patch& a, const Patch& b);
 [[nodiscard]] Patch moved(Patch patch, const glm::dmat3& turn, const glm::dvec3& shift_m);
+[[nodiscard]] inline Patch moved(Patch patch, const glm::dvec3& shift_m) {
+  return moved(std::move(patch), glm::dmat3(1.0), shift_m);
+}
+
+// Turns that set bodies of revolution around x upright (+x becomes +z) and across (+x becomes the right, -y).
+inline const glm::dmat3 kUpright(glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0));
+inline const glm::dmat3 kAcross(glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1));
 
 // Reflection at the plane y = 0; still seen from outside. flip_v mirrors the texture's rows, so that both sides of a
 // body share one image: its left side in the upper half, its right side upside down in the lower one.

@@ -22,13 +22,6 @@ std::vector<Ring> with_poles(std::vector<Ring> rings) {
   return rings;
 }
 
-// Points [first, last] of each ring.
-std::vector<Ring> strip_of(const std::vector<Ring>& rings, int first, int last) {
-  std::vector<Ring> strip;
-  for (const Ring& ring : rings) strip.emplace_back(ring.begin() + first, ring.begin() + last + 1);
-  return strip;
-}
-
 }  // namespace
 
 Ring half_ring(const Section& section, double nose_x_m, double inset) {
@@ -49,6 +42,13 @@ Ring half_ring(const Section& section, double nose_x_m, double inset) {
     ring.emplace_back(nose_x_m - section.s, i == 0 || i == kKeel ? 0.0 : y, z);
   }
   return ring;
+}
+
+Patch hull(const std::vector<Section>& sections, double nose_x_m, const MaterialOf& material_of) {
+  std::vector<Ring> rings;
+  for (const Section& section : sections) rings.push_back(half_ring(section, nose_x_m, 1.0));
+  const Patch left = turned_outwards(skin(with_poles(std::move(rings)), untextured, material_of));
+  return joined(left, mirrored(left, false));
 }
 
 Patch section_body(const std::vector<Section>& sections, const Covering& covering) {
@@ -76,12 +76,10 @@ Patch section_lining(const std::vector<Section>& sections, const Covering& cover
   std::vector<Ring> rings;
   for (const Section& section : within) rings.push_back(half_ring(section, covering.sides.nose_x_m, 0.95));
   const int count = static_cast<int>(within.size());
-  Patch left = turned_outwards(skin(
-      with_poles(std::move(rings)), [](const glm::dvec3&, int, int) { return glm::dvec2(0.5); },
-      [&](int r, int c) {
-        const bool is_open = r > 0 && r < count && covering.is_glass(0.5 * (within[r - 1].s + within[r].s), c);
-        return std::string(is_open ? "" : "interior");
-      }));
+  Patch left = turned_outwards(skin(with_poles(std::move(rings)), untextured, [&](int r, int c) {
+    const bool is_open = r > 0 && r < count && covering.is_glass(0.5 * (within[r - 1].s + within[r].s), c);
+    return std::string(is_open ? "" : "interior");
+  }));
   std::erase_if(left.faces, [](const Face& face) { return face.material.empty(); });
   return turned_over(both_sides(left));
 }

@@ -25,6 +25,10 @@ inline constexpr int kHead = 5, kSill = 9, kUnderside = 14, kKeel = 18;  // poin
 // Left half of a section at model x = nose_x_m - s, from the crown down to the keel. inset shrinks it about its middle.
 [[nodiscard]] Ring half_ring(const Section& section, double nose_x_m, double inset);
 
+// A body of sections without a texture, closed at both ends.
+//   material_of  of the cells of its left half: rows from the pole before the first section on
+[[nodiscard]] Patch hull(const std::vector<Section>& sections, double nose_x_m, const MaterialOf& material_of);
+
 // What a body of sections is covered with.
 struct Covering {
   std::function<bool(double s, int point)>

@@ -6,7 +6,6 @@
 #include <memory>
 #include <thread>
 
-#include "base/allocator.h"
 #include "base/threads.h"
 #include "editor/app/app.h"
 #include "editor/app/command_line.h"

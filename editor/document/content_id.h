@@ -5,7 +5,7 @@
 #include <compare>
 #include <cstdint>
 
-#include "base/file_stamp.h"
+#include "base/paths.h"
 #include "mesh/model_files.h"
 #include "project/project.h"
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <string>
@@ -17,6 +18,19 @@
 namespace sigs {
 
 namespace {
+
+struct SourceWords {
+  const char* name;
+  const char* key;  // in JSON
+};
+
+const SourceWords& words_of(AutocalibrationSource source) {
+  static constexpr std::array<SourceWords, 4> kWords{{{"the field of view given", "given"},
+                                                      {"the gyroscope", "gyroscope"},
+                                                      {"turns of the camera", "turn"},
+                                                      {"what the file states", "stated"}}};
+  return kWords.at(static_cast<std::size_t>(source));
+}
 
 bool overlap(const LensEstimate& a, const LensEstimate& b) {
   return a.field_low_rad <= b.field_high_rad && b.field_low_rad <= a.field_high_rad;
@@ -45,7 +59,7 @@ class Search {
     if (!tracks) return fail(tracks.error());
     found_.frames = static_cast<int>(tracks->frames.size());
     search(*tracks);
-    if (is_cancelled(control_.cancel)) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+    if (const Result<void> goes_on = check_interrupt(control_.cancel); !goes_on) return fail(goes_on.error());
     if (const Result<void> chosen = choose(tracks->size_px); !chosen) return fail(chosen.error());
     compare();
     return std::move(found_);
@@ -136,17 +150,7 @@ class Search {
 }  // namespace
 
 const char* name_of(AutocalibrationSource source) {
-  switch (source) {
-    case AutocalibrationSource::given:
-      return "the field of view given";
-    case AutocalibrationSource::gyroscope:
-      return "the gyroscope";
-    case AutocalibrationSource::turn:
-      return "turns of the camera";
-    case AutocalibrationSource::stated:
-      return "what the file states";
-  }
-  return "";
+  return words_of(source).name;
 }
 
 Result<Autocalibration> autocalibrated(FrameSource& footage, const Track* log, const std::filesystem::path& log_file,
@@ -217,10 +221,7 @@ std::string summary_of(const Autocalibration& found) {
 
 std::string json_of(const Autocalibration& found) {
   Json json{{"rough", true},
-            {"source", found.source == AutocalibrationSource::given       ? "given"
-                       : found.source == AutocalibrationSource::gyroscope ? "gyroscope"
-                       : found.source == AutocalibrationSource::turn      ? "turn"
-                                                                          : "stated"},
+            {"source", words_of(found.source).key},
             {"width", found.fit.lens.size_px.width},
             {"height", found.fit.lens.size_px.height},
             {"frames", found.frames}};

@@ -9,7 +9,7 @@
 #include "autocalibration/division_lens.h"
 #include "autocalibration/lens_by_motion.h"
 #include "base/result.h"
-#include "calibration/calibration_file.h"
+#include "calibration/board_calibration.h"
 #include "telemetry/track.h"
 #include "video/frame_source.h"
 

@@ -46,8 +46,7 @@ Result<PixelTracks> tracked_pixels(FrameSource& footage, int max_frames, const A
     FeatureTracker tracker(tracks.size_px, {}, {});
     LumaStream stream(footage, {.first = stretch.first, .every = 1, .count = stretch.count});
     while (const std::optional<Result<LumaFrame>> frame = stream.next()) {
-      if (control.cancel != nullptr && *control.cancel)
-        return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+      if (const Result<void> goes_on = check_interrupt(control.cancel); !goes_on) return fail(goes_on.error());
       if (!*frame) return fail(frame->error());
       const int number = (*frame)->number;
       TrackedFrame found{.number = number, .time_s = times_s[static_cast<std::size_t>(number)], .stretch = s};

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdio>
+#include <cstdlib>
+
 namespace sigs {
 
 // Prints the condition that does not hold, with its file and line, and aborts the program.
-[[noreturn]] void ensure_failed(const char* condition, const char* file, int line);
+[[noreturn]] inline void ensure_failed(const char* condition, const char* file, int line) {
+  std::fprintf(stderr, "%s:%d: broken promise: %s\n", file, line, condition);
+  std::abort();
+}
 
 }  // namespace sigs
 

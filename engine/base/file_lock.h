@@ -14,11 +14,11 @@ class Descriptor {
  public:
   Descriptor() = default;
   explicit Descriptor(int number) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
   Descriptor& operator=(Descriptor&& other) noexcept {
     if (this == &other) return *this;
     reset();
-    number_ = std::exchange(other.number_, -1);
+    number_ = other.release();
     return *this;
   }
   ~Descriptor() { reset(); }
@@ -26,11 +26,14 @@ class Descriptor {
   [[nodiscard]] int number() const { return number_; }
   [[nodiscard]] bool is_open() const { return number_ >= 0; }
 
+  // The number, for whoever closes the file instead.
+  [[nodiscard]] int release() noexcept { return std::exchange(number_, -1); }
+
   // Closes the file. Leaves errno as it was.
   void reset() noexcept {
     if (number_ < 0) return;
     const int error = errno;
-    close(std::exchange(number_, -1));
+    close(release());
     errno = error;
   }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/nesting.h"
+#include "base/input_file.h"
 #include "base/text.h"
 
 namespace sigs {

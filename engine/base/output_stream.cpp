@@ -26,52 +26,32 @@ bool is_regular_file(int descriptor) {
 
 }  // namespace
 
-OutputStream::OutputStream(int descriptor, std::string name, const std::atomic<bool>* cancel)
-    : descriptor_(descriptor),
+OutputStream::OutputStream(Descriptor descriptor, std::string name, const std::atomic<bool>* cancel)
+    : descriptor_(std::move(descriptor)),
       name_(std::move(name)),
       cancel_(cancel),
-      chunk_bytes_(is_regular_file(descriptor) ? kFileChunk_bytes : PIPE_BUF) {}
-
-OutputStream::OutputStream(OutputStream&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      name_(std::move(other.name_)),
-      cancel_(other.cancel_),
-      chunk_bytes_(other.chunk_bytes_) {}
-
-OutputStream& OutputStream::operator=(OutputStream&& other) noexcept {
-  if (this == &other) return *this;
-  if (descriptor_ >= 0) ::close(descriptor_);
-  descriptor_ = std::exchange(other.descriptor_, -1);
-  name_ = std::move(other.name_);
-  cancel_ = other.cancel_;
-  chunk_bytes_ = other.chunk_bytes_;
-  return *this;
-}
-
-OutputStream::~OutputStream() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
+      chunk_bytes_(is_regular_file(descriptor_.number()) ? kFileChunk_bytes : PIPE_BUF) {}
 
 Result<OutputStream> OutputStream::create(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0)
+  Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (!descriptor.is_open())
     return fail(path.string(), std::string("cannot be created: ") + std::strerror(errno), ErrorKind::cannot_create);
-  return OutputStream(descriptor, path.string(), nullptr);
+  return OutputStream(std::move(descriptor), path.string(), nullptr);
 }
 
 Result<OutputStream> OutputStream::of_descriptor(int descriptor, std::string name, const std::atomic<bool>* cancel) {
   const int flags = ::fcntl(descriptor, F_GETFL);
   if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY)
     return fail(std::move(name), "is not open for writing", ErrorKind::usage);
-  const int own = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 3);
-  if (own < 0)
+  Descriptor own(::fcntl(descriptor, F_DUPFD_CLOEXEC, 3));
+  if (!own.is_open())
     return fail(std::move(name), std::string("cannot be used: ") + std::strerror(errno), ErrorKind::cannot_create);
-  return OutputStream(own, std::move(name), cancel);
+  return OutputStream(std::move(own), std::move(name), cancel);
 }
 
 // A reader that has closed its end is noticed by the writing.
 Result<void> OutputStream::wait_for_reader() const {
-  pollfd state{.fd = descriptor_, .events = POLLOUT, .revents = 0};
+  pollfd state{.fd = descriptor_.number(), .events = POLLOUT, .revents = 0};
   while (true) {
     if (cancel_ != nullptr && cancel_->load()) return fail("", "interrupted", ErrorKind::interrupted);
     const int ready = ::poll(&state, 1, kPollInterval_ms);
@@ -82,7 +62,7 @@ Result<void> OutputStream::wait_for_reader() const {
 Result<void> OutputStream::write(std::string_view bytes) {
   while (!bytes.empty()) {
     if (const Result<void> ready = wait_for_reader(); !ready) return ready;
-    const ssize_t written = ::write(descriptor_, bytes.data(), std::min(bytes.size(), chunk_bytes_));
+    const ssize_t written = ::write(descriptor_.number(), bytes.data(), std::min(bytes.size(), chunk_bytes_));
     if (written < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (written < 0 && errno == EPIPE)
       return fail(name_, "its reader has closed it before the end", ErrorKind::write_failed);
@@ -94,8 +74,8 @@ Result<void> OutputStream::write(std::string_view bytes) {
 }
 
 Result<void> OutputStream::close() {
-  if (descriptor_ < 0) return {};
-  if (::close(std::exchange(descriptor_, -1)) == 0 || errno == EINTR) return {};
+  if (!descriptor_.is_open()) return {};
+  if (::close(descriptor_.release()) == 0 || errno == EINTR) return {};
   return fail(name_, std::string("could not be written: ") + std::strerror(errno), ErrorKind::write_failed);
 }
 

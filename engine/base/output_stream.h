@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/file_lock.h"
 #include "base/result.h"
 
 namespace sigs {
@@ -25,10 +26,6 @@ class OutputStream {
   [[nodiscard]] static Result<OutputStream> of_descriptor(int descriptor, std::string name,
                                                           const std::atomic<bool>* cancel = nullptr);
 
-  OutputStream(OutputStream&& other) noexcept;
-  OutputStream& operator=(OutputStream&& other) noexcept;
-  ~OutputStream();
-
   // Writes all of the bytes. Errors: write_failed (the disk is full, the reader has closed its end), interrupted.
   [[nodiscard]] Result<void> write(std::string_view bytes);
 
@@ -38,10 +35,10 @@ class OutputStream {
   [[nodiscard]] const std::string& name() const { return name_; }
 
  private:
-  OutputStream(int descriptor, std::string name, const std::atomic<bool>* cancel);
+  OutputStream(Descriptor descriptor, std::string name, const std::atomic<bool>* cancel);
   [[nodiscard]] Result<void> wait_for_reader() const;
 
-  int descriptor_ = -1;  // -1: closed
+  Descriptor descriptor_;  // not open: closed
   std::string name_;
   const std::atomic<bool>* cancel_ = nullptr;
   std::size_t chunk_bytes_ = 0;  // written at a time; of a pipe what never blocks where poll() has said so

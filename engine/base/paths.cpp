@@ -144,8 +144,6 @@ Result<void> check_inputs_not_overwritten(const std::vector<fs::path>& outputs, 
   return {};
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 std::error_code code_of(int result) {

@@ -24,6 +24,14 @@ namespace sigs {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
+// From a point to the nearest one between two others.
+[[nodiscard]] inline double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 along = b - a;
+  const double squared = glm::dot(along, along);
+  const double share = squared > 0 ? glm::clamp(glm::dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
+  return glm::distance(p, a + share * along);
+}
+
 // The reference frames of docs/frames-and-units.md, as types. All are right-handed, in metres.
 namespace frame {
 struct World;   // X: the camera's heading at the first frame, Y: right, Z: down

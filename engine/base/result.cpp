@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "base/xml_text.h"
+#include "base/text.h"
 
 namespace sigs {
 

@@ -27,7 +27,7 @@ struct Error {
   std::string what;
   ErrorKind kind = ErrorKind::bad_data;
 
-  // "where: what" as it is printed: on one line, without control characters, in UTF-8 (line_text() in base/xml_text.h).
+  // "where: what" as it is printed: on one line, without control characters, in UTF-8 (line_text() in base/text.h).
   // Both may quote what a stranger's file contains; of more than 4800 bytes the middle is left out.
   [[nodiscard]] std::string text() const;
 };

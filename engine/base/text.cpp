@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 #include "base/ensure.h"
 
@@ -26,10 +27,10 @@ std::string chars_of(double number, Format... format) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kSpace);
+std::string_view trimmed(std::string_view text, std::string_view space) {
+  const auto first = text.find_first_not_of(space);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+  return text.substr(first, text.find_last_not_of(space) - first + 1);
 }
 
 std::string_view without_bom(std::string_view text) {
@@ -108,10 +109,6 @@ std::string short_number_text(double number) {
   return text;
 }
 
-std::string count_text(std::int64_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
 std::string image_size_text(cv::Size size_px, std::string_view between) {
   return fmt::format("{}{}{}", size_px.width, between, size_px.height);
 }
@@ -120,6 +117,111 @@ std::string clock_text(double seconds) {
   const long whole = std::lround(std::min(std::max(0.0, seconds), 1e7));
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+std::vector<std::string_view> csv_fields(std::string_view line) {
+  std::vector<std::string_view> fields;
+  std::size_t begin = 0;
+  bool is_quoted = false;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] == '"') is_quoted = !is_quoted;
+    if (i < line.size() && (is_quoted || line[i] != ',')) continue;
+    std::string_view field = trimmed(line.substr(begin, i - begin));
+    if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+    fields.push_back(field);
+    begin = i + 1;
+  }
+  return fields;
+}
+
+std::string csv_text(std::string_view field) {
+  std::string text;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    text += field[i];
+    if (field.substr(i, 2) == "\"\"") ++i;
+  }
+  return text;
+}
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string field = "\"";
+  for (const char c : text) {
+    if (c == '"') field += '"';
+    field += c;
+  }
+  return field + '"';
+}
+
+namespace {
+
+struct DecodedCharacter {
+  std::uint32_t point = 0;
+  std::size_t bytes = 1;
+};
+
+// The first code point of well-formed UTF-8 (RFC 3629): no overlong forms, no surrogates, none above U+10FFFF.
+std::optional<DecodedCharacter> decoded_character(std::string_view text) {
+  const auto byte = [&text](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
+  const std::uint32_t first = byte(0);
+  if (first < 0x80) return DecodedCharacter{first, 1};
+  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < bytes) return std::nullopt;
+  std::uint32_t point = first & (0x7FU >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return std::nullopt;
+    point = point << 6U | (byte(i) & 0x3FU);
+  }
+  const std::uint32_t min_point = bytes == 2 ? 0x80 : bytes == 3 ? 0x800 : 0x10000;
+  const bool is_surrogate = point >= 0xD800 && point <= 0xDFFF;
+  if (point < min_point || point > 0x10FFFF || is_surrogate) return std::nullopt;
+  return DecodedCharacter{point, bytes};
+}
+
+bool is_allowed_in_xml(std::uint32_t point) {
+  if (point < 0x20) return point == 0x9 || point == 0xA || point == 0xD;
+  return point != 0xFFFE && point != 0xFFFF;
+}
+
+}  // namespace
+
+std::string xml_text(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::optional<DecodedCharacter> character = decoded_character(text.substr(i));
+    if (character && is_allowed_in_xml(character->point))
+      out += text.substr(i, character->bytes);
+    else
+      out += "\xEF\xBF\xBD";
+    i += character ? character->bytes : 1;
+  }
+  return out;
+}
+
+std::string line_text(std::string_view text) {
+  std::string line = xml_text(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; }, ' ');
+  return line;
+}
+
+std::string escaped_text(std::string_view text, std::string_view also) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (also.find(c) != std::string_view::npos)
+      out += fmt::format("&#{};", static_cast<int>(c));
+    else
+      out += c;
+  }
+  return out;
 }
 
 }  // namespace sigs

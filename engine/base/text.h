@@ -3,12 +3,13 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdint>
+#include <concepts>
 #include <opencv2/core/types.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace sigs {
 
@@ -17,8 +18,8 @@ namespace sigs {
 
 // --- Reading. White space is blank, tab and carriage return.
 
-// The text without white space at its two ends.
-[[nodiscard]] std::string_view trimmed(std::string_view text);
+// The text without white space, or what else is given for it, at its two ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text, std::string_view space = " \t\r");
 
 // The text without the byte order mark (EF BB BF) with which some editors begin files in UTF-8.
 [[nodiscard]] std::string_view without_bom(std::string_view text);
@@ -64,7 +65,10 @@ namespace sigs {
 // --- Quantities, for people.
 
 // "1 frame", "12 frames": how many of a thing there are. `thing` is one of them.
-[[nodiscard]] std::string count_text(std::int64_t count, std::string_view thing);
+template <std::integral Count>
+[[nodiscard]] std::string count_text(Count count, std::string_view thing) {
+  return std::to_string(count) + ' ' + std::string(thing) + (count == 1 ? "" : "s");
+}
 
 // "1280x960": the size of an image, as command lines take it. People read it more easily with " x " between.
 [[nodiscard]] std::string image_size_text(cv::Size size_px, std::string_view between = "x");
@@ -105,5 +109,33 @@ template <class Number = double>
   const std::optional<Number> number = parsed_number<Number>(text);
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
+
+// --- Comma-separated values (RFC 4180, https://www.rfc-editor.org/rfc/rfc4180), one line at a time.
+
+// The fields of one line, in order, as views into it: as many as there are commas outside of double quotes, plus one;
+// an empty line has one empty field. White space (blank, tab, carriage return) around a field and the outer quotes of a
+// quoted field are left out. A doubled quote within a quoted field stays doubled (csv_text()), and a field cannot
+// contain a line break, since the line ends there. A quote that is never closed makes the rest of the line one field.
+[[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line);
+
+// What a field of csv_fields() says: a doubled quote in it stands for one.
+[[nodiscard]] std::string csv_text(std::string_view field);
+
+// A text as one field. It is put between double quotes, and quotes in it are doubled, where it contains a comma, a
+// quote or a line break; any other text is returned unchanged.
+[[nodiscard]] std::string csv_field(std::string_view text);
+
+// --- Text of any bytes, as names from users and from files of strangers are, made fit to be written.
+
+// Text that an XML 1.0 file may contain: bytes that are not UTF-8 and the characters that XML forbids (control
+// characters, U+FFFE, U+FFFF; XML 1.0 section 2.2) become U+FFFD. Markup is not escaped.
+[[nodiscard]] std::string xml_text(std::string_view text);
+
+// The same on one line: line breaks, tabs and DEL become blanks too.
+[[nodiscard]] std::string line_text(std::string_view text);
+
+// Text for an element or a quoted attribute of XML or HTML (XML 1.0 section 2.4): & < > " become entities, and each
+// character in `also` a numeric reference, as &#39;. The text itself must be allowed (xml_text, line_text).
+[[nodiscard]] std::string escaped_text(std::string_view text, std::string_view also = {});
 
 }  // namespace sigs

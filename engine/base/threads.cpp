@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "base/threads.h"
 
+#include <sys/mman.h>
+
 #include <cerrno>
+#include <cstdlib>  // defines __GLIBC__ where it is glibc
 #include <new>
 #include <opencv2/core.hpp>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace sigs {
 
@@ -94,6 +101,21 @@ void run_in_background(const std::function<void()>& body) {
     thread->detach();
   else
     body();
+}
+
+void tune_allocator() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the maximum that glibc accepts
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+  mallopt(M_ARENA_MAX, 2);
+#endif
+}
+
+bool has_free_memory(std::size_t bytes) {
+  void* const mapping = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (mapping == MAP_FAILED) return false;
+  munmap(mapping, bytes);
+  return true;
 }
 
 }  // namespace sigs

@@ -20,24 +20,12 @@ namespace sigs {
 
 namespace {
 
-using Named = std::pair<const char*, int>;
-constexpr std::array<Named, 17> kDictionaries{{{"DICT_4X4_50", cv::aruco::DICT_4X4_50},
-                                               {"DICT_4X4_100", cv::aruco::DICT_4X4_100},
-                                               {"DICT_4X4_250", cv::aruco::DICT_4X4_250},
-                                               {"DICT_4X4_1000", cv::aruco::DICT_4X4_1000},
-                                               {"DICT_5X5_50", cv::aruco::DICT_5X5_50},
-                                               {"DICT_5X5_100", cv::aruco::DICT_5X5_100},
-                                               {"DICT_5X5_250", cv::aruco::DICT_5X5_250},
-                                               {"DICT_5X5_1000", cv::aruco::DICT_5X5_1000},
-                                               {"DICT_6X6_50", cv::aruco::DICT_6X6_50},
-                                               {"DICT_6X6_100", cv::aruco::DICT_6X6_100},
-                                               {"DICT_6X6_250", cv::aruco::DICT_6X6_250},
-                                               {"DICT_6X6_1000", cv::aruco::DICT_6X6_1000},
-                                               {"DICT_7X7_50", cv::aruco::DICT_7X7_50},
-                                               {"DICT_7X7_100", cv::aruco::DICT_7X7_100},
-                                               {"DICT_7X7_250", cv::aruco::DICT_7X7_250},
-                                               {"DICT_7X7_1000", cv::aruco::DICT_7X7_1000},
-                                               {"DICT_ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL}}};
+// By their numbers in OpenCV.
+constexpr std::array<std::string_view, 17> kDictionaries{
+    "DICT_4X4_50",  "DICT_4X4_100",  "DICT_4X4_250", "DICT_4X4_1000", "DICT_5X5_50",        "DICT_5X5_100",
+    "DICT_5X5_250", "DICT_5X5_1000", "DICT_6X6_50",  "DICT_6X6_100",  "DICT_6X6_250",       "DICT_6X6_1000",
+    "DICT_7X7_50",  "DICT_7X7_100",  "DICT_7X7_250", "DICT_7X7_1000", "DICT_ARUCO_ORIGINAL"};
+static_assert(cv::aruco::DICT_4X4_50 == 0 && cv::aruco::DICT_7X7_1000 == 15 && cv::aruco::DICT_ARUCO_ORIGINAL == 16);
 
 Result<void> check_markers(const CalibrationBoard& board) {
   if (!(board.marker_m > 0) || !(board.marker_m < board.square_m))
@@ -72,18 +60,15 @@ Result<void> check_board(const CalibrationBoard& board) {
 }
 
 Result<int> dictionary_of(std::string_view name) {
-  std::string names;
-  for (const Named& known : kDictionaries) {
-    if (name == known.first) return known.second;
-    names.append(names.empty() ? "" : ", ").append(known.first);
-  }
-  return fail("--dictionary", fmt::format("there is no {}; there are {}", name, names), ErrorKind::usage);
+  const auto found = std::ranges::find(kDictionaries, name);
+  if (found != kDictionaries.end()) return static_cast<int>(found - kDictionaries.begin());
+  return fail("--dictionary", fmt::format("there is no {}; there are {}", name, listed(kDictionaries)),
+              ErrorKind::usage);
 }
 
 std::string dictionary_name(int dictionary) {
-  for (const Named& known : kDictionaries)
-    if (dictionary == known.second) return known.first;
-  return std::to_string(dictionary);
+  const auto index = static_cast<std::size_t>(dictionary);  // beyond the end for negative ones
+  return index < kDictionaries.size() ? std::string(kDictionaries[index]) : std::to_string(dictionary);
 }
 
 namespace {

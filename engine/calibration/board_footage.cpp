@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/image_file.h"
+#include "base/image_codecs.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "base/threads.h"

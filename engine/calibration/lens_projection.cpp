@@ -10,6 +10,15 @@ namespace sigs {
 
 namespace {
 
+struct FitModelTraits {
+  const char* name;
+  int intrinsics;
+};
+
+// In the order of FitModel.
+constexpr std::array<FitModelTraits, 4> kFitModels{
+    {{"pinhole", 4}, {"Brown-Conrady 5", 9}, {"Kannala-Brandt", 8}, {"Brown-Conrady 8", 12}}};
+
 // A point on the plane one focal length ahead, as the lens distorts it.
 struct Distorted {
   glm::dvec2 at;
@@ -88,31 +97,11 @@ glm::dvec2 pixel_at(const Intrinsics& intrinsics, const glm::dvec2& at) {
 }  // namespace
 
 const char* name_of(FitModel model) {
-  switch (model) {
-    case FitModel::pinhole:
-      return "pinhole";
-    case FitModel::brown_conrady_5:
-      return "Brown-Conrady 5";
-    case FitModel::kannala_brandt:
-      return "Kannala-Brandt";
-    case FitModel::brown_conrady_8:
-      return "Brown-Conrady 8";
-  }
-  return "";
+  return kFitModels.at(static_cast<std::size_t>(model)).name;
 }
 
 int intrinsic_count(FitModel model) {
-  switch (model) {
-    case FitModel::pinhole:
-      return 4;
-    case FitModel::brown_conrady_5:
-      return 9;
-    case FitModel::kannala_brandt:
-      return 8;
-    case FitModel::brown_conrady_8:
-      return 12;
-  }
-  return 4;
+  return kFitModels.at(static_cast<std::size_t>(model)).intrinsics;
 }
 
 LensParameters lens_of(FitModel model, const Intrinsics& intrinsics) {

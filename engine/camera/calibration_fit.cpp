@@ -51,14 +51,7 @@ std::string state_the_size() {
 
 // The angle that a side of the image sees without distortion, as far as the model's middle tells.
 double field_rad(const LensParameters& lens, double focal_px, int side_px) {
-  switch (lens.model) {
-    case LensModel::brown_conrady:
-      return 2 * std::atan(side_px / (2 * focal_px));
-    case LensModel::kannala_brandt:
-    case LensModel::equirectangular:
-      return side_px / focal_px;
-  }
-  return 0;
+  return lens.model == LensModel::brown_conrady ? 2 * std::atan(side_px / (2 * focal_px)) : side_px / focal_px;
 }
 
 // For one side of the image; empty where the focal length is plausible.

@@ -22,7 +22,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/nesting.h"
+#include "base/input_file.h"
 #include "base/text.h"
 #include "base/threads.h"
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -42,6 +43,9 @@ struct Fields::Group {
   Fields fields;
 };
 
+// The field of the first of these names that there is; nullptr: of none.
+[[nodiscard]] const Field* found(const Fields& fields, std::span<const std::string_view> names);
+
 // The fields of a calibration text, whose format is recognised by how it begins:
 //   '<'            OpenCV FileStorage XML
 //   '{'            JSON. A text with fisheye_params is a Gyroflow lens profile: fisheye_params holds matrix and
@@ -50,7 +54,7 @@ struct Fields::Group {
 //                  models and a second ("digital") lens are errors that name them. Other JSON is read like YAML
 //   anything else  YAML as ROS (camera_info), Python scripts and OpenCV's FileStorage (first line "%YAML:1.0") write it
 // Errors (bad_data) name file_name and, where known, the line or the key. Texts nested deeper than kMaxNesting
-// (base/nesting.h) and aliases in YAML are errors.
+// (base/input_file.h) and aliases in YAML are errors.
 [[nodiscard]] Result<Fields> fields_in(const std::string& text, const std::string& file_name);
 
 // The cameras of a file by name, each in the keys of a file of one camera, with what ties it to the others (T_cn_cnm1,

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "camera/calibration_formats.h"
 
 namespace sigs::calibration {
@@ -45,23 +46,9 @@ std::string joined(Names names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-const Field* found(const Fields& fields, Names names) {
-  for (const std::string_view name : names)
-    if (const auto it = fields.find(name); it != fields.end()) return &it->second;
-  return nullptr;
-}
-
 // The model in warnings, by the words of calibration files and of footage.lens_model.
 const char* word_for(LensModel model) {
-  switch (model) {
-    case LensModel::brown_conrady:
-      return name_of(model);
-    case LensModel::kannala_brandt:
-      return "fisheye";
-    case LensModel::equirectangular:
-      return name_of(model);
-  }
-  return "";
+  return is_fisheye(model) ? "fisheye" : name_of(model);
 }
 
 // Reads the fields by the keys that docs/calibration-files.md lists. Its messages name the file and, where one is at
@@ -272,6 +259,12 @@ Result<Camera> equirectangular_camera_from(const Reader& reader, std::optional<c
 }
 
 }  // namespace
+
+const Field* found(const Fields& fields, Names names) {
+  for (const std::string_view name : names)
+    if (const auto it = fields.find(name); it != fields.end()) return &it->second;
+  return nullptr;
+}
 
 Result<void> check_numbers(const Field& field, const std::string& file_name) {
   const std::string where = file_name + ": " + field.name;

@@ -143,36 +143,33 @@ bool is_finite(const glm::dvec3& v) {
   return is_finite(glm::dvec2{v}) && std::isfinite(v.z);
 }
 
-bool has_count(LensModel model, std::size_t count) {
-  constexpr std::array<std::size_t, 6> kBrownConrady{0, 4, 5, 8, 12, 14};
-  switch (model) {
-    case LensModel::brown_conrady:
-      return std::ranges::find(kBrownConrady, count) != kBrownConrady.end();
-    case LensModel::kannala_brandt:
-      return count == 4;
-    case LensModel::equirectangular:
-      return count == 0;
-  }
-  return false;
-}
+constexpr std::size_t kBrownConradyCounts[] = {0, 4, 5, 8, 12, 14};
+constexpr std::size_t kKannalaBrandtCounts[] = {4};
+constexpr std::size_t kEquirectangularCounts[] = {0};
 
-// What has_count() accepts.
-const char* counts_text(LensModel model) {
-  switch (model) {
-    case LensModel::brown_conrady:
-      return "0, 4, 5, 8, 12 or 14 distortion";
-    case LensModel::kannala_brandt:
-      return "4 fisheye";
-    case LensModel::equirectangular:
-      return "0 equirectangular";
-  }
-  return "";
+struct ModelTraits {
+  const char* name;
+  std::span<const std::size_t> counts;  // of coefficients
+  const char* counts_text;
+};
+
+// In the order of LensModel.
+constexpr std::array<ModelTraits, 3> kModelTraits{{
+    {"Brown-Conrady", kBrownConradyCounts, "0, 4, 5, 8, 12 or 14 distortion"},
+    {"Kannala-Brandt", kKannalaBrandtCounts, "4 fisheye"},
+    {"equirectangular", kEquirectangularCounts, "0 equirectangular"},
+}};
+
+const ModelTraits& traits_of(LensModel model) {
+  return kModelTraits.at(static_cast<std::size_t>(model));
 }
 
 // What is wrong with the parameters; empty where they are valid.
 std::string fault(const LensParameters& p) {
   const std::size_t count = p.coefficients.size();
-  if (!has_count(p.model, count)) return fmt::format("expected {} coefficients, found {}", counts_text(p.model), count);
+  const ModelTraits& traits = traits_of(p.model);
+  if (std::ranges::find(traits.counts, count) == traits.counts.end())
+    return fmt::format("expected {} coefficients, found {}", traits.counts_text, count);
   if (!is_finite({p.fx, p.fy}) || !is_finite({p.cx, p.cy})) return "focal length and principal point must be finite";
   if (!(p.fx > 0 && p.fy > 0)) return "the focal length must be positive";
   if (!std::ranges::all_of(p.coefficients, [](double c) { return std::isfinite(c); }))
@@ -186,26 +183,7 @@ std::string fault(const LensParameters& p) {
 }  // namespace
 
 const char* name_of(LensModel model) {
-  switch (model) {
-    case LensModel::brown_conrady:
-      return "Brown-Conrady";
-    case LensModel::kannala_brandt:
-      return "Kannala-Brandt";
-    case LensModel::equirectangular:
-      return "equirectangular";
-  }
-  return "";
-}
-
-bool is_fisheye(LensModel model) {
-  switch (model) {
-    case LensModel::brown_conrady:
-    case LensModel::equirectangular:
-      return false;
-    case LensModel::kannala_brandt:
-      return true;
-  }
-  return false;
+  return traits_of(model).name;
 }
 
 Lens::Lens(LensParameters parameters, Model model)
@@ -302,26 +280,13 @@ double Lens::pixels_per_radian(const glm::dvec3& direction_in_camera) const {
 }
 
 double Lens::valid_angle_rad() const {
-  switch (parameters_.model) {
-    case LensModel::brown_conrady:
-      return std::atan(field_.radius);
-    case LensModel::kannala_brandt:
-      return field_.radius;
-    case LensModel::equirectangular:
-      return std::numbers::pi;
-  }
-  return 0;
+  if (parameters_.model == LensModel::equirectangular) return std::numbers::pi;
+  return parameters_.model == LensModel::brown_conrady ? std::atan(field_.radius) : field_.radius;
 }
 
 bool Lens::is_pinhole() const {
-  switch (parameters_.model) {
-    case LensModel::brown_conrady:
-      return std::ranges::all_of(parameters_.coefficients, [](double c) { return c == 0; });
-    case LensModel::kannala_brandt:
-    case LensModel::equirectangular:
-      return false;
-  }
-  return false;
+  return parameters_.model == LensModel::brown_conrady &&
+         std::ranges::all_of(parameters_.coefficients, [](double c) { return c == 0; });
 }
 
 double Lens::period_px() const {

@@ -21,7 +21,9 @@ enum class LensModel {
 [[nodiscard]] const char* name_of(LensModel model);
 
 // Whether it is a fisheye's: its images reach 90 degrees from the axis and beyond, round about the axis.
-[[nodiscard]] bool is_fisheye(LensModel model);
+[[nodiscard]] inline bool is_fisheye(LensModel model) {
+  return model == LensModel::kannala_brandt;
+}
 
 // The intrinsics of a camera. Pixels as in base/image.h: the centre of the first pixel is (0, 0).
 struct LensParameters {

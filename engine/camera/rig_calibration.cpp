@@ -18,12 +18,6 @@ namespace {
 
 using Names = std::span<const std::string_view>;
 
-const Field* first_of(const Fields& fields, Names names) {
-  for (const std::string_view name : names)
-    if (const auto it = fields.find(name); it != fields.end()) return &it->second;
-  return nullptr;
-}
-
 // Keys of a file of one camera.
 constexpr std::array<std::string_view, 5> kOneMatrix{"camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "k"};
 constexpr std::array<std::string_view, 2> kKalibrKeys{"intrinsics", "camera_model"};
@@ -34,16 +28,16 @@ constexpr std::array<std::string_view, 2> kFirstCoefficients{"D1", "distCoeffs1"
 constexpr std::array<std::string_view, 2> kSecondCoefficients{"D2", "distCoeffs2"};
 
 bool is_pair(const Fields& fields) {
-  return first_of(fields, kOneMatrix) == nullptr && first_of(fields, kFirstMatrix) != nullptr &&
-         first_of(fields, kSecondMatrix) != nullptr;
+  return found(fields, kOneMatrix) == nullptr && found(fields, kFirstMatrix) != nullptr &&
+         found(fields, kSecondMatrix) != nullptr;
 }
 
 // The fields of one of the two, with its matrix and coefficients by the names of a single camera's.
 Fields one_of_pair(Fields fields, Names matrix, Names coefficients) {
-  if (const Field* field = first_of(fields, matrix)) fields.insert_or_assign("camera_matrix", Field(*field));
-  if (const Field* field = first_of(fields, coefficients))
+  if (const Field* field = found(fields, matrix)) fields.insert_or_assign("camera_matrix", Field(*field));
+  if (const Field* field = found(fields, coefficients))
     fields.insert_or_assign("distortion_coefficients", Field(*field));
-  else if (const Field* unnumbered = first_of(fields, std::array<std::string_view, 1>{"D"}))
+  else if (const Field* unnumbered = found(fields, std::array<std::string_view, 1>{"D"}))
     fields.erase(unnumbered->name);
   return fields;
 }
@@ -81,7 +75,7 @@ Result<Fields> from_kalibr(Fields fields, const std::string& prefix, const std::
 // Maps that are cameras, in the file's order, the outermost ones.
 void collect(const Fields& fields, std::vector<Fields::Group>& cameras) {
   for (const Fields::Group& group : fields.groups)
-    if (first_of(group.fields, kKalibrKeys) != nullptr)
+    if (found(group.fields, kKalibrKeys) != nullptr)
       cameras.push_back(group);
     else
       collect(group.fields, cameras);
@@ -109,7 +103,7 @@ Result<std::vector<Fields::Group>> cameras_in(const Fields& fields, const std::s
     return std::vector<Fields::Group>{{"left", one_of_pair(fields, kFirstMatrix, kFirstCoefficients)},
                                       {"right", one_of_pair(fields, kSecondMatrix, kSecondCoefficients)}};
   std::vector<Fields::Group> cameras;
-  if (first_of(fields, kOneMatrix) == nullptr && first_of(fields, kKalibrKeys) == nullptr) collect(fields, cameras);
+  if (found(fields, kOneMatrix) == nullptr && found(fields, kKalibrKeys) == nullptr) collect(fields, cameras);
   if (cameras.empty()) {
     Result<Fields> one = from_kalibr(fields, "", file_name);
     if (!one) return fail(one.error());
@@ -148,8 +142,7 @@ struct Motion {
 };
 
 const Field* field_in(const Fields& fields, std::string_view name) {
-  const auto it = fields.find(name);
-  return it == fields.end() ? nullptr : &it->second;
+  return found(fields, {&name, 1});
 }
 
 // A matrix of 9 numbers, row by row, as the nearest rotation. `stride`: numbers from row to row.

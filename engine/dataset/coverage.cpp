@@ -14,7 +14,6 @@
 #include "base/pose.h"
 #include "base/text.h"
 #include "base/threads.h"
-#include "base/xml_text.h"
 #include "dataset/footage_cache.h"
 #include "dataset/index.h"
 #include "dataset/made_dataset.h"

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "base/xml_text.h"
 #include "dataset/data_sheet.h"
 
 namespace sigs {

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "base/pose.h"
+#include "base/text.h"
 #include "base/threads.h"
-#include "base/xml_text.h"
 #include "dataset/index.h"
 #include "dataset/made_dataset.h"
 #include "scene/scene_at.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 
-#include "base/csv.h"
 #include "base/text.h"
 #include "encounter/daa_file.h"
 #include "encounter/well_clear.h"

@@ -8,10 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/input_file.h"
 #include "base/text.h"
-#include "base/xml_text.h"
 #include "encounter_model/model_sections.h"
 
 namespace sigs {

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/csv.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "plot/plot.h"

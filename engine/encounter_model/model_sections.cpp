@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "base/text.h"
-#include "base/xml_text.h"
 
 namespace sigs {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/xml_text.h"
+#include "base/text.h"
 #include "encounter/encounter.h"
 #include "labels/label_files.h"
 #include "scene/flight.h"

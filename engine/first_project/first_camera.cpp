@@ -10,7 +10,6 @@
 
 #include "base/pose.h"
 #include "base/text.h"
-#include "base/xml_text.h"
 #include "scene/camera_track.h"
 #include "scene/scene_at.h"
 #include "telemetry/gpmf.h"

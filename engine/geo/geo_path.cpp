@@ -10,7 +10,6 @@
 
 #include "base/ensure.h"
 #include "base/text.h"
-#include "base/xml_text.h"
 #include "geo/utc_time.h"
 
 namespace sigs {

@@ -2,10 +2,12 @@
 #include "geo/recorded_path.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/pose.h"
 #include "base/text.h"
 #include "geo/recorded/path_draft.h"
 
@@ -52,19 +54,9 @@ void set_longitudes(std::vector<double> longitudes, PathExtent& extent) {
 }  // namespace
 
 std::string_view name_of(HeightReference reference) {
-  switch (reference) {
-    case HeightReference::ellipsoid:
-      return "above the ellipsoid";
-    case HeightReference::sea_level:
-      return "above the sea";
-    case HeightReference::pressure:
-      return "by pressure";
-    case HeightReference::ground:
-      return "above the ground";
-    case HeightReference::unknown:
-      return "not known";
-  }
-  return "";
+  static constexpr std::array<std::string_view, 5> kNames{"above the ellipsoid", "above the sea", "by pressure",
+                                                          "above the ground", "not known"};
+  return kNames.at(static_cast<std::size_t>(reference));
 }
 
 Result<std::vector<RecordedPath>> recorded_paths_of(std::string_view text, const std::string& where) {
@@ -107,13 +99,6 @@ namespace {
 // of this number stays, so that such a file takes as long as its length; in others it is one point of thousands.
 constexpr std::size_t kMaxAtOnce = 4096;
 
-double distance_to_segment_m(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 along = b - a;
-  const double length2 = glm::dot(along, along);
-  const double part = length2 > 0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0;
-  return glm::length(p - (a + part * along));
-}
-
 class Simplification {
  public:
   Simplification(const std::vector<WorldWaypoint>& all, bool in_time, double tolerance_m)
@@ -132,7 +117,7 @@ class Simplification {
   [[nodiscard]] double error_m(std::size_t i, std::size_t first, std::size_t last) const {
     const WorldWaypoint& a = all_[first];
     const WorldWaypoint& b = all_[last];
-    if (!in_time_) return distance_to_segment_m(all_[i].position_m, a.position_m, b.position_m);
+    if (!in_time_) return distance_to_segment(all_[i].position_m, a.position_m, b.position_m);
     const double part = (all_[i].time_s - a.time_s) / (b.time_s - a.time_s);
     return glm::length(all_[i].position_m - glm::mix(a.position_m, b.position_m, part));
   }

@@ -70,10 +70,7 @@ double day_s(InstantText& text) {
   const int year = text.digits(4, 1, 9999);
   const int month = text.take('-') ? text.digits(2, 1, 12) : 1;
   const int day = text.take('-') ? text.digits(2, 1, 31) : 1;
-  const ch::year_month_day date{ch::year(year), ch::month(static_cast<unsigned>(month)),
-                                ch::day(static_cast<unsigned>(day))};
-  if (!date.ok()) return NAN;
-  return 86400.0 * static_cast<double>(ch::sys_days(date).time_since_epoch().count());
+  return utc_of_day(year, month, day).value_or(NAN);
 }
 
 double clock_s(InstantText& text) {
@@ -104,11 +101,15 @@ std::optional<double> zone_s(InstantText& text) {
 
 }  // namespace
 
+std::optional<double> utc_of_day(int year, int month, int day) {
+  const ch::year_month_day date{ch::year(year), ch::month(static_cast<unsigned>(month)),
+                                ch::day(static_cast<unsigned>(day))};
+  if (!date.ok()) return std::nullopt;
+  return 86400.0 * static_cast<double>(ch::sys_days(date).time_since_epoch().count());
+}
+
 std::optional<UtcInstant> utc_instant_of(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == std::string_view::npos) return std::nullopt;
-  InstantText rest(text.substr(first, text.find_last_not_of(kSpace) - first + 1));
+  InstantText rest(trimmed(text, " \t\r\n"));
   double time_s = day_s(rest);
   if (rest.take('T') || rest.take('t') || rest.take(' ')) time_s += clock_s(rest);
   const std::optional<double> zone = zone_s(rest);

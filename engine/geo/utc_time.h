@@ -18,6 +18,9 @@ struct UtcInstant {
   bool has_zone = false;  // the text ends with Z or an offset, as +02:00; without one the time is taken for UTC
 };
 
+// The beginning of a day of the Gregorian calendar; nullopt where there is no such day.
+[[nodiscard]] std::optional<double> utc_of_day(int year, int month, int day);
+
 // An instant as XML Schema's dateTime, date, gYearMonth or gYear have it (https://www.w3.org/TR/xmlschema-2), which are
 // what GPX and KML allow: 2026-05-01T12:00:00.25Z, 2026-05-01T14:00:00+02:00, 2026-05-01, 2026-05, 2026. A blank may
 // stand in place of the T. Second 60 is that after 59. White space around it is ignored. nullopt: no such text or day.

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/ensure.h"
 #include "base/text.h"
 #include "labels/label_files.h"

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
-#include "base/csv.h"
 #include "base/pose.h"
 #include "base/text.h"
 

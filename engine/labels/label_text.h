@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/xml_text.h"  // xml_text, line_text
+#include "base/text.h"
 #include "truth/annotation.h"
 
 namespace pugi {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/csv.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "labels/label_files.h"

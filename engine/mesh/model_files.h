@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "base/file_stamp.h"
+#include "base/paths.h"
 #include "base/result.h"
 
 namespace sigs {

@@ -121,15 +121,7 @@ void add(const FoundRotor& rotor, std::vector<FoundRotor>& all) {
 }
 
 const char* name_of(RotorKind kind) {
-  switch (kind) {
-    case RotorKind::propeller:
-      return "propeller";
-    case RotorKind::main_rotor:
-      return "main rotor";
-    case RotorKind::tail_rotor:
-      break;
-  }
-  return "tail rotor";
+  return kind == RotorKind::propeller ? "propeller" : kind == RotorKind::main_rotor ? "main rotor" : "tail rotor";
 }
 
 // Facing along its axis.

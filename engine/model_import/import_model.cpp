@@ -177,7 +177,7 @@ Result<ImportedModel> import_model(const ModelImport& request, const std::string
   for (const ImportedPart& part : scene->parts) model.triangles += part.triangles.size();
   model.warnings = scene->warnings;
   model.files = {{name + ".obj", obj_text(*scene, name)}, {name + ".mtl", mtl_text(*scene)}};
-  for (ImportedImage& image : scene->images) model.files.push_back({std::move(image.name), std::move(image.bytes)});
+  for (ImportedFile& image : scene->images) model.files.push_back(std::move(image));
   return model;
 }
 

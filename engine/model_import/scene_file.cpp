@@ -16,12 +16,10 @@
 #include <set>
 
 #include "base/image_codecs.h"
-#include "base/image_file.h"
 #include "base/input_file.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
-#include "base/xml_text.h"
 #include "mesh/materials.h"
 
 namespace sigs {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "model_import/import_model.h"
 
 namespace sigs {
 
@@ -35,18 +36,12 @@ struct ImportedMaterial {
   std::string statements;  // further lines of the MTL
 };
 
-// An image as it will be written: bytes of an encoded file.
-struct ImportedImage {
-  std::string name;
-  std::string bytes;
-};
-
 struct ImportedScene {
   std::vector<ImportedPart> parts;
   std::vector<ImportedMaterial> materials;
-  std::vector<ImportedImage> images;
-  bool unit_is_known = false;     // the file states it
-  std::vector<Warning> warnings;  // an image is missing
+  std::vector<ImportedFile> images;  // as they will be written
+  bool unit_is_known = false;        // the file states it
+  std::vector<Warning> warnings;     // an image is missing
 };
 
 // Reads whatever assimp does; points and lines are left out. Positions are those of the whole scene. Errors:

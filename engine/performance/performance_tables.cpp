@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/csv.h"
 #include "base/text.h"
 #include "labels/label_text.h"
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <mutex>
 
-#include "base/csv.h"
 #include "base/pose.h"
 #include "base/text.h"
 #include "base/threads.h"

@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/text.h"
-#include "base/xml_text.h"
 
 namespace sigs {
 

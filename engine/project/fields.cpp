@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/nesting.h"
+#include "base/input_file.h"
 #include "base/text.h"
 #include "project/field_list.h"
 #include "project/json.h"

@@ -21,7 +21,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/allocator.h"
 #include "base/ensure.h"
 #include "base/result.h"
 #include "base/threads.h"

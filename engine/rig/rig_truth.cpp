@@ -8,8 +8,8 @@
 #include <numbers>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/json.h"
+#include "base/text.h"
 #include "project/project.h"
 
 namespace sigs {

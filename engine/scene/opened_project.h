@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "base/file_stamp.h"
+#include "base/paths.h"
 #include "base/result.h"
 #include "base/threads.h"
 #include "project/project.h"

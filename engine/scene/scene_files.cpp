@@ -18,9 +18,9 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "base/file_stamp.h"
-#include "base/image_file.h"
+#include "base/image_codecs.h"
 #include "base/input_file.h"
+#include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "mesh/model_files.h"

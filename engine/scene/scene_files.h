@@ -30,7 +30,7 @@ struct AttitudeAtFrame {
 // order mark and blank lines are skipped. The result is never empty. Errors name file and line: cannot_read; bad_data.
 [[nodiscard]] Result<std::vector<AttitudeAtFrame>> read_attitude_file(const std::filesystem::path& path);
 
-// Reads a mask of the UAV's own body: an image that read_image_file() (base/image_file.h) reads, 8 or 16 bits a
+// Reads a mask of the UAV's own body: an image that read_image_file() (base/image_codecs.h) reads, 8 or 16 bits a
 // sample, of the footage's size, white where the own body is; soft edges are kept, of a colour image the luma is taken.
 // Returns CV_32FC1, 0..1. Errors: cannot_read; bad_data (not an image, another depth, or another size: both sizes are
 // named).

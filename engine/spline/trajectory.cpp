@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "base/ensure.h"
+#include "base/pose.h"
 #include "spline/attitude.h"
 #include "spline/constant_speed.h"
 #include "spline/piecewise_cubic.h"
@@ -187,13 +188,6 @@ class CardinalFunctions {
   std::vector<double> after_;
 };
 
-double distance_to_segment_m(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 way = b - a;
-  const double squared = dot(way, way);
-  const double share = squared > 0 ? std::clamp(dot(p - a, way) / squared, 0.0, 1.0) : 0.0;
-  return distance(p, a + share * way);
-}
-
 // Upper bound: a curve leaves its chord by an eighth of the greatest acceleration times the duration squared at most.
 double max_overshoot_m(const PiecewiseCubic& curve, const TimedWaypoint& from, const TimedWaypoint& to) {
   const double duration_s = to.time_s - from.time_s;
@@ -207,7 +201,7 @@ double overshoot_m_of(const PiecewiseCubic& curve, const TimedWaypoint& from, co
   for (int i = 1; i < kOvershootSamples; ++i) {
     const double time_s = from.time_s + (to.time_s - from.time_s) * i / kOvershootSamples;
     const glm::dvec3 p_m = curve.motion_at(time_s).position_m;
-    farthest_m = std::max(farthest_m, distance_to_segment_m(p_m, from.position_m, to.position_m));
+    farthest_m = std::max(farthest_m, distance_to_segment(p_m, from.position_m, to.position_m));
   }
   return farthest_m;
 }

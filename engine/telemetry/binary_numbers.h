@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "base/ensure.h"
 
@@ -13,27 +16,37 @@ namespace sigs {
 
 // Numbers in binary logs.
 
-enum class NumberType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+// The number that the bits of one are, least significant first. Integers beyond 2^53 are rounded to the nearest double.
+template <class Number>
+[[nodiscard]] double number_of_bits(std::uint64_t bits) {
+  if constexpr (std::is_same_v<Number, float>)
+    return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+  else if constexpr (std::is_same_v<Number, double>)
+    return std::bit_cast<double>(bits);
+  else
+    return static_cast<double>(static_cast<Number>(bits));
+}
 
-// Bytes that a number takes.
-[[nodiscard]] inline std::size_t size_of(NumberType type) {
-  switch (type) {
-    case NumberType::int8:
-    case NumberType::uint8:
-      return 1;
-    case NumberType::int16:
-    case NumberType::uint16:
-      return 2;
-    case NumberType::int32:
-    case NumberType::uint32:
-    case NumberType::float32:
-      return 4;
-    case NumberType::int64:
-    case NumberType::uint64:
-    case NumberType::float64:
-      return 8;
-  }
-  return 8;
+struct NumberType {
+  std::size_t bytes = 0;
+  double (*number_of)(std::uint64_t bits) = nullptr;  // nullptr: what is stored is no number
+
+  [[nodiscard]] bool operator==(const NumberType&) const = default;
+};
+template <class Number>
+inline constexpr NumberType kNumberType{sizeof(Number), number_of_bits<Number>};
+
+// A type that a format has a letter for. What is meant is the number that is stored times `scale`.
+struct LetterType {
+  char letter = '\0';
+  NumberType type;
+  double scale = 1;
+};
+
+// The letter's line of a table; a type of 0 bytes where the table lacks it.
+[[nodiscard]] inline LetterType type_of_letter(std::span<const LetterType> table, char letter) {
+  const auto found = std::ranges::find(table, letter, &LetterType::letter);
+  return found != table.end() ? *found : LetterType{};
 }
 
 // The unsigned integer of 1 to 8 bytes, least or most significant byte first. The caller has checked that the bytes are
@@ -51,28 +64,10 @@ enum class NumberType { int8, uint8, int16, uint16, int32, uint32, int64, uint64
   return value;
 }
 
-// The number at a place, least significant byte first. NaN where it does not lie within the bytes. Integers beyond 2^53
-// are rounded to the nearest double.
+// The number at a place, least significant byte first. NaN where it does not lie within the bytes.
 [[nodiscard]] inline double number_at(std::string_view bytes, std::size_t offset, NumberType type) {
-  const std::size_t size = size_of(type);
-  if (offset > bytes.size() || bytes.size() - offset < size) return std::numeric_limits<double>::quiet_NaN();
-  const std::uint64_t bits = little_endian(bytes.substr(offset, size));
-  switch (type) {
-    case NumberType::int8:
-      return static_cast<std::int8_t>(bits);
-    case NumberType::int16:
-      return static_cast<std::int16_t>(bits);
-    case NumberType::int32:
-      return static_cast<std::int32_t>(bits);
-    case NumberType::int64:
-      return static_cast<double>(static_cast<std::int64_t>(bits));
-    case NumberType::float32:
-      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-    case NumberType::float64:
-      return std::bit_cast<double>(bits);
-    default:
-      return static_cast<double>(bits);
-  }
+  if (offset > bytes.size() || bytes.size() - offset < type.bytes) return std::numeric_limits<double>::quiet_NaN();
+  return type.number_of(little_endian(bytes.substr(offset, type.bytes)));
 }
 
 }  // namespace sigs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "telemetry/track_csv.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -38,36 +39,26 @@ std::vector<std::string> csv_columns(std::string_view channel) {
 }
 
 std::string csv_column_name(std::string_view name) {
-  static const std::map<std::string, std::string, std::less<>> kOurs = {
-      {"time", "time_s"},
-      {"t", "time_s"},
-      {"t_s", "time_s"},
-      {"timestamp_s", "time_s"},
-      {"lat", "latitude_deg"},
-      {"lat_deg", "latitude_deg"},
-      {"latitude", "latitude_deg"},
-      {"lon", "longitude_deg"},
-      {"lng", "longitude_deg"},
-      {"lon_deg", "longitude_deg"},
-      {"long", "longitude_deg"},
-      {"longitude", "longitude_deg"},
-      {"alt", "height_m"},
-      {"alt_m", "height_m"},
-      {"altitude", "height_m"},
-      {"altitude_m", "height_m"},
-      {"height", "height_m"},
-      {"roll", "roll_deg"},
-      {"pitch", "pitch_deg"},
-      {"yaw", "yaw_deg"},
-      {"heading", "yaw_deg"},
-      {"heading_deg", "yaw_deg"},
-      {"vn", "vn_mps"},
-      {"ve", "ve_mps"},
-      {"vd", "vd_mps"},
+  struct Names {
+    const char* ours;
+    std::vector<std::string_view> others;
   };
-  const std::string small = lower_case(name);
-  const auto found = kOurs.find(small);
-  return found != kOurs.end() ? found->second : small;
+  static const std::vector<Names> kNames = {
+      {"time_s", {"time", "t", "t_s", "timestamp_s"}},
+      {"latitude_deg", {"lat", "lat_deg", "latitude"}},
+      {"longitude_deg", {"lon", "lng", "lon_deg", "long", "longitude"}},
+      {"height_m", {"alt", "alt_m", "altitude", "altitude_m", "height"}},
+      {"roll_deg", {"roll"}},
+      {"pitch_deg", {"pitch"}},
+      {"yaw_deg", {"yaw", "heading", "heading_deg"}},
+      {"vn_mps", {"vn"}},
+      {"ve_mps", {"ve"}},
+      {"vd_mps", {"vd"}},
+  };
+  std::string small = lower_case(name);
+  for (const Names& names : kNames)
+    if (std::ranges::find(names.others, small) != names.others.end()) return names.ours;
+  return small;
 }
 
 std::vector<double> csv_numbers(std::string_view, const GeodeticPosition& value) {

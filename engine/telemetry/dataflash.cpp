@@ -30,18 +30,6 @@ constexpr double kGpsEpoch_s = 315964800;  // 1980-01-06 as UTC seconds since 19
 constexpr double kWeek_s = 604800;
 constexpr double kLastWeek = 4000;  // beyond 2056 the receiver has no date
 
-DataflashColumn raw(const char* name) {
-  return {name, false};
-}
-DataflashColumn scaled(const char* name) {
-  return {name, true};
-}
-
-glm::dquat ned_from_deg(double roll_deg, double pitch_deg, double yaw_deg) {
-  return rotation_of(
-      {.roll_rad = rad_of_deg(roll_deg), .pitch_rad = rad_of_deg(pitch_deg), .yaw_rad = rad_of_deg(yaw_deg)});
-}
-
 // Seconds since boot: TimeUS, or TimeMS in old logs.
 double time_of_message(Values v) {
   return std::isfinite(v[0]) ? v[0] * 1e-6 : v[1] * 1e-3;
@@ -59,14 +47,20 @@ class DataflashReading {
 
  private:
   struct Message {
-    std::vector<DataflashColumn> columns;  // the first are TimeUS, TimeMS and the instance
+    const char* raw = "";     // columns, with blanks between; the first are TimeUS, TimeMS and the instance
+    const char* scaled = "";  // behind them
     void (DataflashReading::*take)(Values v) = nullptr;
   };
   static const std::map<std::string, Message, std::less<>>& messages();
 
   static std::vector<DataflashColumn> columns_of(std::string_view name) {
     const auto found = messages().find(name);
-    return found == messages().end() ? std::vector<DataflashColumn>{} : found->second.columns;
+    std::vector<DataflashColumn> columns;
+    if (found == messages().end()) return columns;
+    std::string_view raw = found->second.raw, scaled = found->second.scaled;
+    while (!raw.empty()) columns.push_back({std::string(next_token(raw)), false});
+    while (!scaled.empty()) columns.push_back({std::string(next_token(scaled)), true});
+    return columns;
   }
 
   void take(std::string_view name, Values v) {
@@ -86,24 +80,24 @@ class DataflashReading {
     for (const char c : text) device_ += c >= ' ' && c <= '~' ? c : '?';
   }
 
-  void take_att(Values v) { att_.add(time_of_message(v), ned_from_deg(v[3], v[4], v[5])); }
+  void take_att(Values v) { att_.add(time_of_message(v), rotation_of_deg(v[3], v[4], v[5])); }
 
-  void take_pos(Values v) { add_place(pos_, v, 3); }
+  void take_pos(Values v) { take_place(pos_, v, 3); }
 
   void take_ahr2(Values v) {
-    ahr2_attitude_.add(time_of_message(v), ned_from_deg(v[3], v[4], v[5]));
-    add_place(ahr2_, v, 6);
+    ahr2_attitude_.add(time_of_message(v), rotation_of_deg(v[3], v[4], v[5]));
+    take_place(ahr2_, v, 6);
   }
 
   // Status 3 and above is a three-dimensional fix. Course over ground is clockwise from north, VZ positive down.
   void take_gps(Values v) {
     const double t_s = time_of_message(v);
-    if (!(v[6] >= 3)) return gps_.leave_out("no three-dimensional fix (Status below 3)", t_s);
-    add_place(gps_, v, 3);
-    const double course_rad = rad_of_deg(v[8]);
-    gps_velocity_.add(t_s, {v[7] * std::cos(course_rad), v[7] * std::sin(course_rad), v[9]});
-    if (!utc_minus_boot_s_ && v[11] > 0 && v[11] < kLastWeek && v[10] >= 0 && v[10] <= kWeek_s * 1e3)
-      utc_minus_boot_s_ = kGpsEpoch_s + v[11] * kWeek_s + v[10] * 1e-3 - leap_seconds(v[11]) - t_s;
+    if (!(v[3] >= 3)) return gps_.leave_out("no three-dimensional fix (Status below 3)", t_s);
+    take_place(gps_, v, 6);
+    const double course_rad = rad_of_deg(v[10]);
+    gps_velocity_.add(t_s, {v[9] * std::cos(course_rad), v[9] * std::sin(course_rad), v[11]});
+    if (!utc_minus_boot_s_ && v[5] > 0 && v[5] < kLastWeek && v[4] >= 0 && v[4] <= kWeek_s * 1e3)
+      utc_minus_boot_s_ = kGpsEpoch_s + v[5] * kWeek_s + v[4] * 1e-3 - leap_seconds(v[5]) - t_s;
   }
 
   void take_imu(Values v) {
@@ -121,7 +115,7 @@ class DataflashReading {
   void take_nkf1(Values v) { take_filter(nkf1_, v); }
   static void take_filter(Filter& filter, Values v) {
     const double t_s = time_of_message(v);
-    filter.attitude.add(t_s, ned_from_deg(v[3], v[4], v[5]));
+    filter.attitude.add(t_s, rotation_of_deg(v[3], v[4], v[5]));
     filter.velocity.add(t_s, {v[6], v[7], v[8]});
     filter.local_position.add(t_s, {v[9], v[10], v[11]});
   }
@@ -129,11 +123,11 @@ class DataflashReading {
   // Roll and pitch are from the horizon, YawE from north, YawB from the nose; one of the two may be missing.
   void take_mnt(Values v) {
     const double t_s = time_of_message(v);
-    if (std::isfinite(v[5])) return camera_.add(t_s, ned_from_deg(v[3], v[4], v[5]));
+    if (std::isfinite(v[5])) return camera_.add(t_s, rotation_of_deg(v[3], v[4], v[5]));
     if (att_.empty() || !std::isfinite(v[6]))
       return camera_.leave_out("its yaw is not from north, and the heading is not known", t_s);
     const double nose_deg = deg_of_rad(attitude_of(att_.values().back()).yaw_rad);
-    camera_.add(t_s, ned_from_deg(v[3], v[4], nose_deg + v[6]));
+    camera_.add(t_s, rotation_of_deg(v[3], v[4], nose_deg + v[6]));
   }
 
   void take_cam(Values v) {
@@ -141,12 +135,8 @@ class DataflashReading {
   }
 
   // Latitude, longitude and height lie in three columns from `first` on.
-  static void add_place(Samples<GeodeticPosition>& places, Values v, std::size_t first) {
-    const GeodeticPosition place{.latitude_deg = v[first], .longitude_deg = v[first + 1], .height_m = v[first + 2]};
-    if (const char* const why = why_no_place(place))
-      places.leave_out(why, time_of_message(v));
-    else
-      places.add(time_of_message(v), place);
+  static void take_place(Samples<GeodeticPosition>& places, Values v, std::size_t first) {
+    add_place(places, time_of_message(v), {v[first], v[first + 1], v[first + 2]});
   }
 
   std::string device_;
@@ -168,34 +158,18 @@ class DataflashReading {
 };
 
 const std::map<std::string, DataflashReading::Message, std::less<>>& DataflashReading::messages() {
-  static const std::vector<DataflashColumn> kFilter = {raw("TimeUS"),   raw("TimeMS"), raw("C"),     scaled("Roll"),
-                                                       scaled("Pitch"), scaled("Yaw"), scaled("VN"), scaled("VE"),
-                                                       scaled("VD"),    scaled("PN"),  scaled("PE"), scaled("PD")};
+  constexpr const char* kStamp = "TimeUS TimeMS I";
+  constexpr const char* kFilter = "Roll Pitch Yaw VN VE VD PN PE PD";
   static const std::map<std::string, Message, std::less<>> kMessages = {
-      {"ATT",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Roll"), scaled("Pitch"), scaled("Yaw")},
-        &DataflashReading::take_att}},
-      {"POS",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Lat"), scaled("Lng"), scaled("Alt")},
-        &DataflashReading::take_pos}},
-      {"AHR2",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Roll"), scaled("Pitch"), scaled("Yaw"), scaled("Lat"),
-         scaled("Lng"), scaled("Alt")},
-        &DataflashReading::take_ahr2}},
-      {"GPS",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Lat"), scaled("Lng"), scaled("Alt"), raw("Status"),
-         scaled("Spd"), scaled("GCrs"), scaled("VZ"), raw("GMS"), raw("GWk")},
-        &DataflashReading::take_gps}},
-      {"IMU",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("GyrX"), scaled("GyrY"), scaled("GyrZ"), scaled("AccX"),
-         scaled("AccY"), scaled("AccZ")},
-        &DataflashReading::take_imu}},
-      {"XKF1", {kFilter, &DataflashReading::take_xkf1}},
-      {"NKF1", {kFilter, &DataflashReading::take_nkf1}},
-      {"MNT",
-       {{raw("TimeUS"), raw("TimeMS"), raw("I"), scaled("Roll"), scaled("Pitch"), scaled("YawE"), scaled("YawB")},
-        &DataflashReading::take_mnt}},
-      {"CAM", {{raw("TimeUS"), raw("TimeMS"), raw("I")}, &DataflashReading::take_cam}},
+      {"ATT", {kStamp, "Roll Pitch Yaw", &DataflashReading::take_att}},
+      {"POS", {kStamp, "Lat Lng Alt", &DataflashReading::take_pos}},
+      {"AHR2", {kStamp, "Roll Pitch Yaw Lat Lng Alt", &DataflashReading::take_ahr2}},
+      {"GPS", {"TimeUS TimeMS I Status GMS GWk", "Lat Lng Alt Spd GCrs VZ", &DataflashReading::take_gps}},
+      {"IMU", {kStamp, "GyrX GyrY GyrZ AccX AccY AccZ", &DataflashReading::take_imu}},
+      {"XKF1", {"TimeUS TimeMS C", kFilter, &DataflashReading::take_xkf1}},
+      {"NKF1", {"TimeUS TimeMS C", kFilter, &DataflashReading::take_nkf1}},
+      {"MNT", {kStamp, "Roll Pitch YawE YawB", &DataflashReading::take_mnt}},
+      {"CAM", {kStamp, "", &DataflashReading::take_cam}},
   };
   return kMessages;
 }
@@ -222,10 +196,7 @@ Track DataflashReading::track(const DataflashContents& log, const std::filesyste
     track.warnings.push_back({track.position.source, "heights are above the mean sea, not above the ellipsoid"});
   if (!other_instances_.empty())
     track.warnings.push_back({listed(other_instances_), "only the first instance (0) is read"});
-  if (!captures_s_.empty())
-    track.warnings.push_back({"CAM", count_text(static_cast<std::int64_t>(captures_s_.size()), "image") +
-                                         " taken, the first at " + short_number_text(captures_s_.front() - zero_s) +
-                                         " s; a track has no channel for them"});
+  warn_of_captures(captures_s_, "CAM", zero_s, track.warnings);
   return track;
 }
 

@@ -22,58 +22,29 @@ constexpr std::size_t kFormat_bytes = 89;
 constexpr unsigned kFormatType = 128;
 constexpr std::size_t kMaxNamed = 10;  // places with skipped bytes that a warning names
 
-// What a letter of a format stands for.
-struct Letter {
-  std::size_t bytes = 0;             // 0: no known letter
-  std::optional<NumberType> number;  // none: a text or an array
-  double scale = 1;
+// What the letters of a format stand for: numbers, texts and arrays.
+constexpr LetterType kLetters[] = {
+    {'a', {64}},
+    {'b', kNumberType<std::int8_t>},
+    {'B', kNumberType<std::uint8_t>},
+    {'M', kNumberType<std::uint8_t>},
+    {'h', kNumberType<std::int16_t>},
+    {'H', kNumberType<std::uint16_t>},
+    {'c', kNumberType<std::int16_t>, 0.01},
+    {'C', kNumberType<std::uint16_t>, 0.01},
+    {'i', kNumberType<std::int32_t>},
+    {'I', kNumberType<std::uint32_t>},
+    {'e', kNumberType<std::int32_t>, 0.01},
+    {'E', kNumberType<std::uint32_t>, 0.01},
+    {'L', kNumberType<std::int32_t>, 1e-7},
+    {'f', kNumberType<float>},
+    {'d', kNumberType<double>},
+    {'q', kNumberType<std::int64_t>},
+    {'Q', kNumberType<std::uint64_t>},
+    {'n', {4}},
+    {'N', {16}},
+    {'Z', {64}},
 };
-
-Letter letter_of(char c) {
-  switch (c) {
-    case 'a':
-      return {.bytes = 64};
-    case 'b':
-      return {1, NumberType::int8};
-    case 'B':
-    case 'M':
-      return {1, NumberType::uint8};
-    case 'h':
-      return {2, NumberType::int16};
-    case 'H':
-      return {2, NumberType::uint16};
-    case 'c':
-      return {2, NumberType::int16, 0.01};
-    case 'C':
-      return {2, NumberType::uint16, 0.01};
-    case 'i':
-      return {4, NumberType::int32};
-    case 'I':
-      return {4, NumberType::uint32};
-    case 'e':
-      return {4, NumberType::int32, 0.01};
-    case 'E':
-      return {4, NumberType::uint32, 0.01};
-    case 'L':
-      return {4, NumberType::int32, 1e-7};
-    case 'f':
-      return {4, NumberType::float32};
-    case 'd':
-      return {8, NumberType::float64};
-    case 'q':
-      return {8, NumberType::int64};
-    case 'Q':
-      return {8, NumberType::uint64};
-    case 'n':
-      return {.bytes = 4};
-    case 'N':
-      return {.bytes = 16};
-    case 'Z':
-      return {.bytes = 64};
-    default:
-      return {};
-  }
-}
 
 // The text up to its first zero byte.
 std::string_view text_of(std::string_view bytes) {
@@ -83,13 +54,14 @@ std::string_view text_of(std::string_view bytes) {
 struct Column {
   std::string name;
   std::size_t offset = 0;
-  Letter letter;
+  NumberType type;
+  double scale = 1;
 };
 
 // A wanted column at its place.
 struct Place {
   std::size_t offset = 0;
-  NumberType type = NumberType::uint8;
+  NumberType type;
   double scale = 1;
 };
 
@@ -114,11 +86,11 @@ std::optional<MessageType> defined_type(std::string_view body) {
   std::size_t offset = kHeader_bytes;
   for (const char c : letters) {
     const std::size_t comma = std::min(labels.find(','), labels.size());
-    const Letter letter = letter_of(c);
-    if (letter.bytes == 0) return {};
-    type.columns.push_back({std::string(trimmed(labels.substr(0, comma))), offset, letter});
+    const LetterType letter = type_of_letter(kLetters, c);
+    if (letter.type.bytes == 0) return {};
+    type.columns.push_back({std::string(trimmed(labels.substr(0, comma))), offset, letter.type, letter.scale});
     labels.remove_prefix(std::min(comma + 1, labels.size()));
-    offset += letter.bytes;
+    offset += letter.type.bytes;
   }
   if (offset != type.bytes || type.name.empty()) return {};
   return type;
@@ -141,8 +113,8 @@ class Walk {
       at_ += size;
     }
     if (skips_ > kMaxNamed)
-      contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(skips_ - kMaxNamed), "more place") +
-                                            " with bytes that are no message"});
+      contents_.warnings.push_back(
+          {"", count_text(skips_ - kMaxNamed, "more place") + " with bytes that are no message"});
     return std::move(contents_);
   }
 
@@ -215,17 +187,17 @@ class Walk {
   void take_multipliers(const MessageType& type, std::string_view message) {
     const Column* const about = column(type, "FmtType");
     const Column* const letters = column(type, "MultIds");
-    if (!about || !letters || about->letter.bytes != 1) return;
+    if (!about || !letters || about->type.bytes != 1) return;
     MessageType& described = types_[static_cast<unsigned char>(message[about->offset])];
-    described.multipliers = text_of(message.substr(letters->offset, letters->letter.bytes));
+    described.multipliers = text_of(message.substr(letters->offset, letters->type.bytes));
     described.is_placed = false;
   }
 
   void take_multiplier(const MessageType& type, std::string_view message) {
     const Column* const letter = column(type, "Id");
     const Column* const value = column(type, "Mult");
-    if (!letter || !value || value->letter.number != NumberType::float64) return;
-    const double multiplier = number_at(message, value->offset, NumberType::float64);
+    if (!letter || !value || value->type != kNumberType<double>) return;
+    const double multiplier = number_at(message, value->offset, value->type);
     if (!std::isfinite(multiplier) || multiplier == 0) return;
     multipliers_[message[letter->offset]] = multiplier;
     for (MessageType& other : types_) other.is_placed = false;
@@ -233,7 +205,7 @@ class Walk {
 
   void take_text(const MessageType& type, std::string_view message) {
     if (const Column* const text = column(type, "Message"); text && reader_.take_text)
-      reader_.take_text(text_of(message.substr(text->offset, text->letter.bytes)));
+      reader_.take_text(text_of(message.substr(text->offset, text->type.bytes)));
   }
 
   void place(MessageType& type) {
@@ -243,9 +215,9 @@ class Walk {
       type.places.emplace_back();
       for (std::size_t i = 0; i < type.columns.size(); ++i) {
         const Column& column = type.columns[i];
-        if (column.name != wanted.name || !column.letter.number) continue;
+        if (column.name != wanted.name || !column.type.number_of) continue;
         const double scale = wanted.is_scaled ? scale_of(type, i) : 1;
-        type.places.back() = Place{.offset = column.offset, .type = *column.letter.number, .scale = scale};
+        type.places.back() = Place{.offset = column.offset, .type = column.type, .scale = scale};
       }
     }
   }
@@ -254,8 +226,7 @@ class Walk {
   [[nodiscard]] double scale_of(const MessageType& type, std::size_t index) const {
     const char letter = index < type.multipliers.size() ? type.multipliers[index] : '-';
     const auto stated = multipliers_.find(letter);
-    return letter == '-' || letter == '?' || stated == multipliers_.end() ? type.columns[index].letter.scale
-                                                                          : stated->second;
+    return letter == '-' || letter == '?' || stated == multipliers_.end() ? type.columns[index].scale : stated->second;
   }
 
   std::string_view bytes_;

@@ -2,10 +2,10 @@
 #include "telemetry/dji_cues.h"
 
 #include <charconv>
-#include <chrono>
 #include <cmath>
 
 #include "base/text.h"
+#include "geo/utc_time.h"
 
 namespace sigs {
 namespace {
@@ -217,11 +217,9 @@ std::optional<double> taken_date(std::string_view text) {
     if (!part) return {};
     parts[i] = *part;
   }
-  const std::chrono::year_month_day day{std::chrono::year{*year}, std::chrono::month{static_cast<unsigned>(parts[0])},
-                                        std::chrono::day{static_cast<unsigned>(parts[1])}};
-  if (!day.ok() || parts[2] > 23 || parts[3] > 59 || parts[4] > 60) return {};
-  double seconds = static_cast<double>(std::chrono::sys_days{day}.time_since_epoch().count()) * 86400.0 +
-                   parts[2] * 3600 + parts[3] * 60 + parts[4];
+  const std::optional<double> day_s = utc_of_day(*year, parts[0], parts[1]);
+  if (!day_s || parts[2] > 23 || parts[3] > 59 || parts[4] > 60) return {};
+  double seconds = *day_s + parts[2] * 3600 + parts[3] * 60 + parts[4];
   double unit_s = 1e-3;
   while (unit_s > 1e-7 && (skip(text, ',') || skip(text, '.'))) {
     const std::optional<int> thousandths = number(3, 3);

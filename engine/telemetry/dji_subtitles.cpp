@@ -52,9 +52,7 @@ std::optional<LoggedLens> lens_in(const std::vector<DjiValues>& all) {
 }
 
 glm::dquat attitude_of_deg(const std::array<double, 3>& roll_pitch_yaw_deg) {
-  return rotation_of({.roll_rad = rad_of_deg(roll_pitch_yaw_deg[0]),
-                      .pitch_rad = rad_of_deg(roll_pitch_yaw_deg[1]),
-                      .yaw_rad = rad_of_deg(roll_pitch_yaw_deg[2])});
+  return rotation_of_deg(roll_pitch_yaw_deg[0], roll_pitch_yaw_deg[1], roll_pitch_yaw_deg[2]);
 }
 
 class DjiReading {
@@ -165,8 +163,7 @@ class DjiReading {
     };
     if (!has_time_lines_)
       say("time", "the subtitles have no times of the footage; times are their dates, with the first at 0");
-    if (without_time_ > 0)
-      say("time", count_text(static_cast<std::int64_t>(without_time_), "subtitle") + " left out: no time and no date");
+    if (without_time_ > 0) say("time", count_text(without_time_, "subtitle") + " left out: no time and no date");
     if (std::any_of(all_.begin(), all_.end(), [](const DjiValues& values) { return values.local_time_s; }))
       say("date", "dates are local time of an unknown zone, so UTC is not known");
     if (track.position.empty()) say("position", "there is no place in these subtitles");

@@ -326,13 +326,6 @@ class Reading {
   Track track_;
 };
 
-bool has_any(const Track& track) {
-  return !(track.position.empty() && track.local_position_ned_m.empty() && track.velocity_ned_mps.empty() &&
-           track.ned_from_airframe.empty() && track.start_from_camera.empty() && track.camera_from_image.empty() &&
-           track.camera_rate_radps.empty() && track.camera_force_mps2.empty() && track.camera_gravity.empty() &&
-           track.exposure_s.empty());
-}
-
 }  // namespace
 
 bool is_gopro(const DataStream& stream) {
@@ -352,7 +345,7 @@ Result<Track> track_of_gopro(const std::filesystem::path& file, const DataPacket
                                           "byte {}",
                                           payloads.packets.back().file_offset)});
   }
-  if (!has_any(track))
+  if (!has_samples(track))
     return fail(file.string(), track.damaged ? "its GoPro telemetry is broken; none of it can be read"
                                              : "its GoPro telemetry has no motion, place or exposure in it");
   return track;

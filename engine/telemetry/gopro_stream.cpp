@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "base/statistics.h"
 #include "base/text.h"
+#include "geo/utc_time.h"
 #include "telemetry/log_samples.h"
 
 namespace sigs {
@@ -40,19 +41,20 @@ std::vector<double> all_numbers(const GpmfElement& element) {
 
 // Takes an element that describes the samples which follow it. False: it is of another kind.
 bool describe(Description& description, const GpmfElement& element) {
+  static const std::set<std::string_view> kUnused = {"SIUN", "UNIT", "TICK", "TOCK", "EMPT",
+                                                     "TMPC", "RMRK", "GPSP", "DVID", "DVNM"};
   const std::string_view key = element.key;
-  if (key == "SCAL")
+  std::string* const text = key == "TYPE"   ? &description.structure
+                            : key == "STNM" ? &description.stream.name
+                            : key == "ORIN" ? &description.stream.axes_in
+                            : key == "ORIO" ? &description.stream.axes_out
+                            : key == "GPSA" ? &description.stream.height_of
+                            : key == "GPSU" ? &description.block.utc
+                                            : nullptr;
+  if (text != nullptr)
+    *text = gpmf_text(element);
+  else if (key == "SCAL")
     description.scale = all_numbers(element);
-  else if (key == "TYPE")
-    description.structure = gpmf_text(element);
-  else if (key == "STNM")
-    description.stream.name = gpmf_text(element);
-  else if (key == "ORIN")
-    description.stream.axes_in = gpmf_text(element);
-  else if (key == "ORIO")
-    description.stream.axes_out = gpmf_text(element);
-  else if (key == "GPSA")
-    description.stream.height_of = gpmf_text(element);
   else if (key == "MTRX")
     description.stream.matrix = all_numbers(element);
   else if (key == "TSMP")
@@ -61,14 +63,10 @@ bool describe(Description& description, const GpmfElement& element) {
     description.block.delay_s = first_number(element).value_or(0);
   else if (key == "GPSF")
     description.block.fix = first_number(element);
-  else if (key == "GPSU")
-    description.block.utc = gpmf_text(element);
-  else if (key == "STMP")
-    description.block.stamp_s = first_number(element);
-  else
-    return key == "SIUN" || key == "UNIT" || key == "TICK" || key == "TOCK" || key == "EMPT" || key == "TMPC" ||
-           key == "RMRK" || key == "GPSP" || key == "DVID" || key == "DVNM";
-  if (key == "STMP" && description.block.stamp_s) *description.block.stamp_s *= 1e-6;
+  else if (key != "STMP")
+    return kUnused.contains(key);
+  else if ((description.block.stamp_s = first_number(element)))
+    *description.block.stamp_s *= 1e-6;
   return true;
 }
 
@@ -297,12 +295,9 @@ std::optional<double> utc_of_gpsu(const std::string& text) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0;
   double second = 0;
   if (std::sscanf(text.c_str(), "%2d%2d%2d%2d%2d%lf", &year, &month, &day, &hour, &minute, &second) != 6) return {};
-  const std::chrono::year_month_day date{std::chrono::year(2000 + year),
-                                         std::chrono::month(static_cast<unsigned>(month)),
-                                         std::chrono::day(static_cast<unsigned>(day))};
-  if (!date.ok() || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0 && second < 61)) return {};
-  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return static_cast<double>(days) * kSecondsPerDay + hour * 3600 + minute * 60 + second;
+  const std::optional<double> day_s = utc_of_day(2000 + year, month, day);
+  if (!day_s || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0 && second < 61)) return {};
+  return *day_s + hour * 3600 + minute * 60 + second;
 }
 
 std::string span_text(double first_s, double last_s) {

@@ -2,17 +2,15 @@
 #include "telemetry/gpmf.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <fstream>
 #include <limits>
 #include <string_view>
 #include <system_error>
 
-#include "base/text.h"
-
 #include "base/input_file.h"
 #include "base/pose.h"
+#include "base/text.h"
 #include "telemetry/binary_numbers.h"
 
 namespace sigs {
@@ -21,62 +19,33 @@ namespace {
 constexpr std::size_t kElementHeader_bytes = 8;
 constexpr std::size_t kMaxColumns = 255;  // a sample has at most 255 bytes
 
+constexpr LetterType kGpmfTypes[] = {
+    {'b', kNumberType<std::int8_t>},
+    {'B', kNumberType<std::uint8_t>},
+    {'c', {1}},
+    {'s', kNumberType<std::int16_t>},
+    {'S', kNumberType<std::uint16_t>},
+    {'f', kNumberType<float>},
+    {'F', {4}},
+    {'l', kNumberType<std::int32_t>},
+    {'L', kNumberType<std::uint32_t>},
+    {'q', kNumberType<std::int32_t>, 0x1p-16},
+    {'d', kNumberType<double>},
+    {'j', kNumberType<std::int64_t>},
+    {'J', kNumberType<std::uint64_t>},
+    {'Q', kNumberType<std::int64_t>, 0x1p-32},
+    {'G', {16}},
+    {'U', {16}},
+};
+
 // Bytes of one number of a type; 0: no such type.
 int size_of_type(char type) {
-  switch (type) {
-    case 'b':
-    case 'B':
-    case 'c':
-      return 1;
-    case 's':
-    case 'S':
-      return 2;
-    case 'f':
-    case 'F':
-    case 'l':
-    case 'L':
-    case 'q':
-      return 4;
-    case 'd':
-    case 'j':
-    case 'J':
-    case 'Q':
-      return 8;
-    case 'G':
-    case 'U':
-      return 16;
-    default:
-      return 0;
-  }
+  return static_cast<int>(type_of_letter(kGpmfTypes, type).type.bytes);
 }
 
-double number_of(char type, std::string_view bytes) {
-  const std::uint64_t bits = bytes.size() <= 8 ? big_endian(bytes) : 0;
-  switch (type) {
-    case 'b':
-      return static_cast<std::int8_t>(bits);
-    case 's':
-      return static_cast<std::int16_t>(bits);
-    case 'l':
-      return static_cast<std::int32_t>(bits);
-    case 'j':
-      return static_cast<double>(static_cast<std::int64_t>(bits));
-    case 'B':
-    case 'S':
-    case 'L':
-    case 'J':
-      return static_cast<double>(bits);
-    case 'f':
-      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-    case 'd':
-      return std::bit_cast<double>(bits);
-    case 'q':
-      return static_cast<std::int32_t>(bits) / 65536.0;
-    case 'Q':
-      return static_cast<double>(static_cast<std::int64_t>(bits)) / 4294967296.0;
-    default:
-      return std::numeric_limits<double>::quiet_NaN();
-  }
+double gpmf_number(const LetterType& letter, std::string_view bytes) {
+  return letter.type.number_of ? letter.type.number_of(big_endian(bytes)) * letter.scale
+                               : std::numeric_limits<double>::quiet_NaN();
 }
 
 // The count in brackets behind a type, taken off the structure: "[8]L" gives 8 and leaves "L". 1 where there is none.
@@ -158,9 +127,9 @@ std::optional<GpmfNumbers> gpmf_numbers(const GpmfElement& element, std::string_
   std::string_view rest = element.value;
   for (int row = 0; row < element.repeat; ++row) {
     for (const char type : types) {
-      const std::size_t bytes = static_cast<std::size_t>(size_of_type(type));
-      numbers.values.push_back(number_of(type, rest.substr(0, bytes)));
-      rest.remove_prefix(bytes);
+      const LetterType letter = type_of_letter(kGpmfTypes, type);
+      numbers.values.push_back(gpmf_number(letter, rest.substr(0, letter.type.bytes)));
+      rest.remove_prefix(letter.type.bytes);
     }
   }
   return numbers;

@@ -12,19 +12,13 @@
 namespace sigs {
 namespace {
 
-std::string count_of(std::size_t count, std::string_view thing) {
-  return count_text(static_cast<std::int64_t>(count), thing);
-}
-
 std::optional<glm::dquat> airframe_attitude(const KlvPacket& packet) {
   const std::optional<double>& pitch_deg =
       packet.platform_full_pitch_deg ? packet.platform_full_pitch_deg : packet.platform_pitch_deg;
   const std::optional<double>& roll_deg =
       packet.platform_full_roll_deg ? packet.platform_full_roll_deg : packet.platform_roll_deg;
   if (!packet.platform_heading_deg || !pitch_deg || !roll_deg) return {};
-  return rotation_of({.roll_rad = rad_of_deg(*roll_deg),
-                      .pitch_rad = rad_of_deg(*pitch_deg),
-                      .yaw_rad = rad_of_deg(*packet.platform_heading_deg)});
+  return rotation_of_deg(*roll_deg, *pitch_deg, *packet.platform_heading_deg);
 }
 
 // The two tags for one angle are further apart than the coarser one's steps (0.0006 and 0.0015 degrees) explain.
@@ -44,9 +38,7 @@ const std::optional<double>& ellipsoid_height_m(const KlvPacket& packet) {
 std::optional<glm::dquat> camera_attitude(const KlvPacket& packet) {
   const std::optional<glm::dquat> airframe = airframe_attitude(packet);
   if (!airframe || !packet.sensor_azimuth_deg || !packet.sensor_elevation_deg || !packet.sensor_roll_deg) return {};
-  return *airframe * rotation_of({.roll_rad = rad_of_deg(*packet.sensor_roll_deg),
-                                  .pitch_rad = rad_of_deg(*packet.sensor_elevation_deg),
-                                  .yaw_rad = rad_of_deg(*packet.sensor_azimuth_deg)});
+  return *airframe * rotation_of_deg(*packet.sensor_roll_deg, *packet.sensor_elevation_deg, *packet.sensor_azimuth_deg);
 }
 
 bool has_place(const KlvPacket& packet) {
@@ -68,19 +60,15 @@ struct KlvSamples {
         camera("tags 5, 90 (6), 91 (7), 18, 19, 20", clock) {}
 
   void add(const KlvPacket& packet, double t_s, bool by_ellipsoid) {
-    if (has_place(packet)) add_place(packet, t_s, by_ellipsoid);
+    if (has_place(packet)) take_place(packet, t_s, by_ellipsoid);
     if (const std::optional<glm::dquat> attitude = airframe_attitude(packet)) airframe.add(t_s, *attitude);
     if (const std::optional<glm::dquat> attitude = camera_attitude(packet)) camera.add(t_s, *attitude);
   }
 
-  void add_place(const KlvPacket& packet, double t_s, bool by_ellipsoid) {
+  void take_place(const KlvPacket& packet, double t_s, bool by_ellipsoid) {
     const std::optional<double>& height_m = by_ellipsoid ? ellipsoid_height_m(packet) : packet.sensor_altitude_m;
     if (!height_m) return position.leave_out("no height above the mean sea, which others have", t_s);
-    const GeodeticPosition place{.latitude_deg = *packet.sensor_latitude_deg,
-                                 .longitude_deg = *packet.sensor_longitude_deg,
-                                 .height_m = *height_m};
-    if (const char* const why = why_no_place(place)) return position.leave_out(why, t_s);
-    position.add(t_s, place);
+    add_place(position, t_s, {*packet.sensor_latitude_deg, *packet.sensor_longitude_deg, *height_m});
   }
 
   Samples<GeodeticPosition> position;
@@ -102,11 +90,11 @@ void add_utc(Track& track, const std::vector<TimedKlvPacket>& packets, bool on_f
 
 void warn_of_packets(std::vector<Warning>& warnings, const KlvPackets& read) {
   if (read.bad_checksums > 0)
-    warnings.push_back({"checksum", count_of(read.bad_checksums, "packet") + " left out: the checksum is wrong"});
+    warnings.push_back({"checksum", count_text(read.bad_checksums, "packet") + " left out: the checksum is wrong"});
   if (read.broken > 0)
-    warnings.push_back({"", count_of(read.broken, "packet") + " left out: the items do not fit into the packet"});
+    warnings.push_back({"", count_text(read.broken, "packet") + " left out: the items do not fit into the packet"});
   if (read.skipped_bytes > 0)
-    warnings.push_back({"", count_of(read.skipped_bytes, "byte") + " skipped that belong to no packet"});
+    warnings.push_back({"", count_text(read.skipped_bytes, "byte") + " skipped that belong to no packet"});
   if (read.cut_off) warnings.push_back({"", "a packet is cut off, or its length is damaged"});
 }
 
@@ -161,12 +149,12 @@ Result<Track> klv_track(const std::vector<TimedKlvPacket>& packets, const std::f
   track.ned_from_airframe = std::move(samples.airframe).on_axis(zero_s, track.warnings);
   track.ned_from_camera = std::move(samples.camera).on_axis(zero_s, track.warnings);
   if (without_time > 0)
-    track.warnings.push_back({"tag 2", count_of(without_time, "packet") + " left out: no precision time stamp"});
+    track.warnings.push_back({"tag 2", count_text(without_time, "packet") + " left out: no precision time stamp"});
   if (contradictions > 0)
-    track.warnings.push_back({"tags 90, 91", "in " + count_of(contradictions, "packet") +
+    track.warnings.push_back({"tags 90, 91", "in " + count_text(contradictions, "packet") +
                                                  " pitch or roll is not that of tags 6 and 7; 90 and 91 are taken"});
   if (without_checksum > 0)
-    track.warnings.push_back({"tag 1", count_of(without_checksum, "packet") + " without a checksum"});
+    track.warnings.push_back({"tag 1", count_text(without_checksum, "packet") + " without a checksum"});
   if (!track.position.empty() && !by_ellipsoid)
     track.warnings.push_back({"tag 15", "heights are above the mean sea, not above the ellipsoid"});
   if (!has_samples(track))

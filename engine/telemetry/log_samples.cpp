@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/pose.h"
 #include "base/statistics.h"
 #include "base/text.h"
 
@@ -64,9 +65,9 @@ LoneStamps lone_stamps(const std::vector<double>& times_s) {
 }
 
 bool has_samples(const Track& track) {
-  return !track.position.empty() || !track.local_position_ned_m.empty() || !track.velocity_ned_mps.empty() ||
-         !track.ned_from_airframe.empty() || !track.ned_from_camera.empty() || !track.airframe_rate_radps.empty() ||
-         !track.airframe_force_mps2.empty() || !track.exposure_s.empty();
+  bool any = false;
+  for_each_channel(track, [&](std::string_view, const auto& channel) { any = any || !channel.empty(); });
+  return any;
 }
 
 bool all_finite(double value) {
@@ -100,7 +101,7 @@ void LeftOutByReason::count(const std::string& reason, double own_time_s) {
 
 void LeftOutByReason::report(const std::string& source, double zero_s, std::vector<Warning>& warnings) const {
   for (const auto& [reason, samples] : by_reason_) {
-    std::string what = count_text(static_cast<std::int64_t>(samples.count), "sample") + " left out";
+    std::string what = count_text(samples.count, "sample") + " left out";
     const double first_s = samples.first_s - zero_s;
     if (std::isfinite(first_s)) what += ", the first at " + short_number_text(first_s) + " s";
     warnings.push_back({source, what + ": " + reason});
@@ -124,8 +125,27 @@ void warn_of_gaps(const std::vector<double>& times_s, const std::string& source,
       warnings.push_back(
           {source, "no samples for " + short_number_text(gap_s) + " s after " + short_number_text(times_s[i]) + " s"});
   }
-  if (gaps > kMaxNamedGaps)
-    warnings.push_back({source, count_text(static_cast<std::int64_t>(gaps - kMaxNamedGaps), "more gap")});
+  if (gaps > kMaxNamedGaps) warnings.push_back({source, count_text(gaps - kMaxNamedGaps, "more gap")});
+}
+
+void add_place(Samples<GeodeticPosition>& places, double own_time_s, const GeodeticPosition& place) {
+  if (const char* const why = why_no_place(place))
+    places.leave_out(why, own_time_s);
+  else
+    places.add(own_time_s, place);
+}
+
+void warn_of_captures(const std::vector<double>& captures_s, const std::string& source, double zero_s,
+                      std::vector<Warning>& warnings) {
+  if (captures_s.empty()) return;
+  warnings.push_back({source, count_text(captures_s.size(), "image") + " taken, the first at " +
+                                  short_number_text(captures_s.front() - zero_s) +
+                                  " s; a track has no channel for them"});
+}
+
+glm::dquat rotation_of_deg(double roll_deg, double pitch_deg, double yaw_deg) {
+  return rotation_of(
+      {.roll_rad = rad_of_deg(roll_deg), .pitch_rad = rad_of_deg(pitch_deg), .yaw_rad = rad_of_deg(yaw_deg)});
 }
 
 }  // namespace sigs

@@ -23,7 +23,7 @@ namespace sigs {
 // The largest log that is read, in bytes: an hour of all sensors at their full rate has less.
 inline constexpr std::uint64_t kLogLimit_bytes = std::uint64_t{2} << 30;
 
-// Whether the track has position, attitude, velocity, rates, forces or exposure: a log without any is refused.
+// Whether the track has a channel that is not empty: a log without any is refused.
 [[nodiscard]] bool has_samples(const Track& track);
 
 // Whether all numbers of a value are finite.
@@ -206,5 +206,17 @@ class Samples {
   StampedValues<T> stamped_;
   LeftOutByReason left_out_;
 };
+
+// Adds a place, or leaves it out where it cannot be one (why_no_place()).
+void add_place(Samples<GeodeticPosition>& places, double own_time_s, const GeodeticPosition& place);
+
+// Warns that a log names images that were taken, where it does.
+//   source      the name of their messages in the file
+//   captures_s  their times on the log's clock, of which zero_s is the track's zero
+void warn_of_captures(const std::vector<double>& captures_s, const std::string& source, double zero_s,
+                      std::vector<Warning>& warnings);
+
+// The rotation of an attitude in degrees, as logs have it.
+[[nodiscard]] glm::dquat rotation_of_deg(double roll_deg, double pitch_deg, double yaw_deg);
 
 }  // namespace sigs

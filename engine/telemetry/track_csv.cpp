@@ -10,9 +10,9 @@
 #include <map>
 #include <optional>
 
-#include "base/csv.h"
 #include "base/input_file.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "telemetry/log_samples.h"
 #include "telemetry/track.h"
 
@@ -174,8 +174,8 @@ class Reader {
     if (const Result<void> timed = find_time(names, settings); !timed) return fail(timed.error());
     find_channels(names, settings);
     while (!text.empty()) {
-      if (options_.cancel != nullptr && line_ % 1024 == 0 && options_.cancel->load())
-        return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+      if (line_ % 1024 == 0)
+        if (const Result<void> goes_on = check_interrupt(options_.cancel); !goes_on) return fail(goes_on.error());
       const std::string_view line = next_line(text);
       ++line_;
       if (const std::string_view there = trimmed(line); !there.empty() && there.front() != '#') add_row(line);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -91,22 +92,14 @@ std::vector<Range> ranges_of(std::string_view name, const Channel<T>& channel) {
   return ranges;
 }
 
-std::string utc_text(double utc_s) {
+std::string date_text(double utc_s) {
   const double day = std::floor(utc_s / 86400);
   if (!(std::abs(day) < 1e6)) return exact_text(utc_s) + " s since 1970";
   const double in_day_s = utc_s - day * 86400;
-  // Days since 1970-01-01 to a date of the Gregorian calendar, from an era that begins on 0000-03-01.
-  const long long z = static_cast<long long>(day) + 719468;
-  const long long era = (z >= 0 ? z : z - 146096) / 146097;
-  const long long of_era = z - era * 146097;
-  const long long year_of_era = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
-  const long long of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-  const long long month = (5 * of_year + 2) / 153;
-  const long long day_of_month = of_year - (153 * month + 2) / 5 + 1;
-  const long long calendar_month = month < 10 ? month + 3 : month - 9;
-  const long long year = year_of_era + era * 400 + (calendar_month <= 2 ? 1 : 0);
+  const std::chrono::year_month_day date(std::chrono::sys_days(std::chrono::days(static_cast<int>(day))));
   const int whole_s = static_cast<int>(in_day_s);
-  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:06.3f}", year, calendar_month, day_of_month, whole_s / 3600,
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:06.3f}", static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), whole_s / 3600,
                      whole_s / 60 % 60, in_day_s - whole_s / 60 * 60);
 }
 
@@ -114,7 +107,7 @@ std::string heading_of(const Track& track) {
   std::string text = fmt::format("format: {}\n", track.format);
   if (!track.device.empty()) text += fmt::format("device: {}\n", track.device);
   text += fmt::format("time 0: {}\n", track.on_footage_time ? "the footage's frame 0" : "the log's first stamp");
-  if (track.utc_at_zero_s) text += fmt::format("UTC at time 0: {}\n", utc_text(*track.utc_at_zero_s));
+  if (track.utc_at_zero_s) text += fmt::format("UTC at time 0: {}\n", date_text(*track.utc_at_zero_s));
   if (track.readout_s)
     text += fmt::format("rolling shutter: {} s from the first row to the last\n", short_number_text(*track.readout_s));
   if (!track.heading_is_north) text += "yaw 0: an arbitrary heading, not north\n";

@@ -62,14 +62,18 @@ class UlogReading {
 
  private:
   struct Topic {
-    std::vector<std::string> fields;  // the first two are timestamp and timestamp_sample
+    const char* fields = "";  // those after timestamp and timestamp_sample, with blanks between
     void (UlogReading::*take)(TopicValues v) = nullptr;
   };
   static const std::map<std::string, Topic, std::less<>>& topics();
 
   static std::vector<std::string> fields_of(std::string_view topic) {
     const auto found = topics().find(topic);
-    return found == topics().end() ? std::vector<std::string>{} : found->second.fields;
+    if (found == topics().end()) return {};
+    std::vector<std::string> fields = {"timestamp", "timestamp_sample"};
+    std::string_view rest = found->second.fields;
+    while (!rest.empty()) fields.emplace_back(next_token(rest));
+    return fields;
   }
   void take(std::string_view topic, TopicValues v) {
     if (const auto found = topics().find(topic); found != topics().end()) (this->*found->second.take)(v);
@@ -169,18 +173,10 @@ class UlogReading {
     if (std::isfinite(time_of(v))) captures_s_.push_back(time_of(v));
   }
 
-  static void add_place(Samples<GeodeticPosition>& places, double t_s, const GeodeticPosition& place) {
-    if (const char* const why = why_no_place(place))
-      places.leave_out(why, t_s);
-    else
-      places.add(t_s, place);
-  }
-
   [[nodiscard]] std::optional<glm::dquat> airframe_at(double t_s) const;
   void make_camera();
   void choose_position(Track& track, double zero_s);
   void add_utc(Track& track, double zero_s);
-  void add_captures(Track& track, double zero_s) const;
   static void add_dropouts(Track& track, const UlogContents& log);
 
   Samples<glm::dquat> attitude_{"vehicle_attitude"};
@@ -205,50 +201,28 @@ class UlogReading {
 };
 
 const std::map<std::string, UlogReading::Topic, std::less<>>& UlogReading::topics() {
-  static const std::vector<std::string> kGps = {"timestamp",
-                                                "timestamp_sample",
-                                                "lat",
-                                                "lon",
-                                                "alt",
-                                                "alt_ellipsoid",
-                                                "latitude_deg",
-                                                "longitude_deg",
-                                                "altitude_msl_m",
-                                                "altitude_ellipsoid_m",
-                                                "fix_type",
-                                                "vel_n_m_s",
-                                                "vel_e_m_s",
-                                                "vel_d_m_s",
-                                                "vel_ned_valid",
-                                                "time_utc_usec",
-                                                "timestamp_time_relative"};
+  constexpr const char* kGps =
+      "lat lon alt alt_ellipsoid latitude_deg longitude_deg altitude_msl_m altitude_ellipsoid_m fix_type vel_n_m_s "
+      "vel_e_m_s vel_d_m_s vel_ned_valid time_utc_usec timestamp_time_relative";
+  constexpr const char* kCombined =
+      "gyro_rad[0] gyro_rad[1] gyro_rad[2] accelerometer_timestamp_relative accelerometer_m_s2[0] "
+      "accelerometer_m_s2[1] accelerometer_m_s2[2]";
+  constexpr const char* kLocal =
+      "x y z vx vy vz xy_valid z_valid v_xy_valid v_z_valid xy_global z_global ref_lat ref_lon ref_alt";
+  constexpr const char* kMount = "attitude_euler_angle[0] attitude_euler_angle[1] attitude_euler_angle[2]";
   static const std::map<std::string, Topic, std::less<>> kTopics = {
-      {"vehicle_attitude",
-       {{"timestamp", "timestamp_sample", "q[0]", "q[1]", "q[2]", "q[3]"}, &UlogReading::take_attitude}},
-      {"vehicle_local_position",
-       {{"timestamp", "timestamp_sample", "x", "y", "z", "vx", "vy", "vz", "xy_valid", "z_valid", "v_xy_valid",
-         "v_z_valid", "xy_global", "z_global", "ref_lat", "ref_lon", "ref_alt"},
-        &UlogReading::take_local_position}},
-      {"vehicle_global_position",
-       {{"timestamp", "timestamp_sample", "lat", "lon", "alt", "lat_lon_valid"}, &UlogReading::take_global_position}},
+      {"vehicle_attitude", {"q[0] q[1] q[2] q[3]", &UlogReading::take_attitude}},
+      {"vehicle_local_position", {kLocal, &UlogReading::take_local_position}},
+      {"vehicle_global_position", {"lat lon alt lat_lon_valid", &UlogReading::take_global_position}},
       {"vehicle_gps_position", {kGps, &UlogReading::take_vehicle_gps}},
       {"sensor_gps", {kGps, &UlogReading::take_sensor_gps}},
-      {"sensor_combined",
-       {{"timestamp", "timestamp_sample", "gyro_rad[0]", "gyro_rad[1]", "gyro_rad[2]",
-         "accelerometer_timestamp_relative", "accelerometer_m_s2[0]", "accelerometer_m_s2[1]", "accelerometer_m_s2[2]"},
-        &UlogReading::take_sensor_combined}},
-      {"vehicle_angular_velocity",
-       {{"timestamp", "timestamp_sample", "xyz[0]", "xyz[1]", "xyz[2]"}, &UlogReading::take_angular_velocity}},
-      {"vehicle_acceleration",
-       {{"timestamp", "timestamp_sample", "xyz[0]", "xyz[1]", "xyz[2]"}, &UlogReading::take_acceleration}},
-      {"gimbal_device_attitude_status",
-       {{"timestamp", "timestamp_sample", "q[0]", "q[1]", "q[2]", "q[3]", "device_flags"}, &UlogReading::take_gimbal}},
-      {"mount_orientation",
-       {{"timestamp", "timestamp_sample", "attitude_euler_angle[0]", "attitude_euler_angle[1]",
-         "attitude_euler_angle[2]"},
-        &UlogReading::take_mount}},
-      {"camera_capture", {{"timestamp", "timestamp_sample"}, &UlogReading::take_capture}},
-      {"camera_trigger", {{"timestamp", "timestamp_sample"}, &UlogReading::take_capture}},
+      {"sensor_combined", {kCombined, &UlogReading::take_sensor_combined}},
+      {"vehicle_angular_velocity", {"xyz[0] xyz[1] xyz[2]", &UlogReading::take_angular_velocity}},
+      {"vehicle_acceleration", {"xyz[0] xyz[1] xyz[2]", &UlogReading::take_acceleration}},
+      {"gimbal_device_attitude_status", {"q[0] q[1] q[2] q[3] device_flags", &UlogReading::take_gimbal}},
+      {"mount_orientation", {kMount, &UlogReading::take_mount}},
+      {"camera_capture", {"", &UlogReading::take_capture}},
+      {"camera_trigger", {"", &UlogReading::take_capture}},
   };
   return kTopics;
 }
@@ -311,13 +285,6 @@ void UlogReading::add_utc(Track& track, double zero_s) {
                                                    short_number_text(*utc_jump_s_ - zero_s) + " s on"});
 }
 
-void UlogReading::add_captures(Track& track, double zero_s) const {
-  if (captures_s_.empty()) return;
-  track.warnings.push_back(
-      {"camera_capture", count_text(static_cast<std::int64_t>(captures_s_.size()), "image") + " taken, the first at " +
-                             short_number_text(captures_s_.front() - zero_s) + " s; a track has no channel for them"});
-}
-
 void UlogReading::add_dropouts(Track& track, const UlogContents& log) {
   for (std::size_t i = 0; i < std::min(log.dropouts.size(), kMaxDropouts); ++i)
     track.warnings.push_back({"dropout", "the logger lost " + short_number_text(log.dropouts[i].duration_s) +
@@ -351,7 +318,7 @@ Track UlogReading::track(const UlogContents& log, const std::filesystem::path& f
       std::move(combined_force_.empty() ? force_ : combined_force_).on_axis(zero_s, track.warnings);
   track.ned_from_airframe = std::move(attitude_).on_axis(zero_s, track.warnings);
   add_utc(track, zero_s);
-  add_captures(track, zero_s);
+  warn_of_captures(captures_s_, "camera_capture", zero_s, track.warnings);
   return track;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -31,18 +32,14 @@ struct FieldType {
   std::string_view name;
   NumberType type;
 };
-constexpr std::array<FieldType, 12> kFieldTypes{{{"int8_t", NumberType::int8},
-                                                 {"uint8_t", NumberType::uint8},
-                                                 {"int16_t", NumberType::int16},
-                                                 {"uint16_t", NumberType::uint16},
-                                                 {"int32_t", NumberType::int32},
-                                                 {"uint32_t", NumberType::uint32},
-                                                 {"int64_t", NumberType::int64},
-                                                 {"uint64_t", NumberType::uint64},
-                                                 {"float", NumberType::float32},
-                                                 {"double", NumberType::float64},
-                                                 {"bool", NumberType::uint8},
-                                                 {"char", NumberType::uint8}}};
+constexpr FieldType kFieldTypes[] = {
+    {"int8_t", kNumberType<std::int8_t>},   {"uint8_t", kNumberType<std::uint8_t>},
+    {"int16_t", kNumberType<std::int16_t>}, {"uint16_t", kNumberType<std::uint16_t>},
+    {"int32_t", kNumberType<std::int32_t>}, {"uint32_t", kNumberType<std::uint32_t>},
+    {"int64_t", kNumberType<std::int64_t>}, {"uint64_t", kNumberType<std::uint64_t>},
+    {"float", kNumberType<float>},          {"double", kNumberType<double>},
+    {"bool", kNumberType<std::uint8_t>},    {"char", kNumberType<std::uint8_t>},
+};
 
 std::optional<NumberType> number_type(std::string_view name) {
   for (const FieldType& field : kFieldTypes)
@@ -52,7 +49,7 @@ std::optional<NumberType> number_type(std::string_view name) {
 
 struct MessagePlace {
   std::size_t offset = 0;
-  NumberType type = NumberType::uint8;
+  NumberType type;
 };
 
 using Formats = std::map<std::string, std::string, std::less<>>;  // name -> "type name;type name;"
@@ -105,7 +102,7 @@ class Layout {
         continue;
       }
       note(element, *number);
-      size_ += size_of(*number);
+      size_ += number->bytes;
       if (size_ > kMaxTopic_bytes) return false;
     }
     return true;
@@ -136,7 +133,7 @@ class MessageWalk {
     if (!has_ulog_magic(bytes_) || bytes_.size() < kUlogHeader_bytes) return fail(name, "is no ULog");
     const int version = static_cast<unsigned char>(bytes_[7]);
     if (version > 1) return fail(name + ": byte 7", "ULog version " + std::to_string(version) + ", known are 0 and 1");
-    contents_.start_s = number_at(bytes_, 8, NumberType::uint64) * 1e-6;
+    contents_.start_s = number_at(bytes_, 8, kNumberType<std::uint64_t>) * 1e-6;
     at_ = kUlogHeader_bytes;
     while (at_ < bytes_.size()) {
       if (!next_message()) break;
@@ -186,8 +183,7 @@ class MessageWalk {
       return false;
     }
     if (++skips_ <= kMaxNamedTopics)
-      contents_.warnings.push_back({where, "is no message; " +
-                                               count_text(static_cast<std::int64_t>(found - at_), "byte") +
+      contents_.warnings.push_back({where, "is no message; " + count_text(found - at_, "byte") +
                                                " skipped up to the next synchronisation message, after " +
                                                short_number_text(last_s_) + " s since boot"});
     at_ = found;
@@ -289,18 +285,18 @@ class MessageWalk {
     if (subscription.places.empty()) return;
     values_.clear();
     for (const std::optional<MessagePlace>& place : subscription.places)
-      values_.push_back(place ? number_at(body, place->offset, place->type) : number_at({}, 0, NumberType::uint8));
+      values_.push_back(place ? number_at(body, place->offset, place->type) : std::numeric_limits<double>::quiet_NaN());
     if (std::isfinite(values_.front())) last_s_ = values_.front() * 1e-6;
     reader_.take(subscription.topic, values_);
   }
 
   void finish() {
     if (skips_ > kMaxNamedTopics)
-      contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(skips_ - kMaxNamedTopics), "more place") +
-                                            " with bytes that are no message"});
+      contents_.warnings.push_back(
+          {"", count_text(skips_ - kMaxNamedTopics, "more place") + " with bytes that are no message"});
     if (without_subscription_ > 0)
-      contents_.warnings.push_back({"", count_text(static_cast<std::int64_t>(without_subscription_), "data message") +
-                                            " of no known topic left out"});
+      contents_.warnings.push_back(
+          {"", count_text(without_subscription_, "data message") + " of no known topic left out"});
   }
 
   static std::string printable(std::string_view text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/image_file.h"
+#include "base/image_codecs.h"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "base/nesting.h"
+#include "base/input_file.h"
 
 namespace sigs::test {
 

@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "base/csv.h"
 #include "base/text.h"
 #include "support/comma_locale.h"
 #include "support/death_test.h"

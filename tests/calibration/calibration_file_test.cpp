@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/calibration_file.h"
+#include "calibration/board_calibration.h"
 
 #include <doctest/doctest.h>
 

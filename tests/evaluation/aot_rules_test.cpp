@@ -8,7 +8,6 @@
 #include <set>
 #include <tuple>
 
-#include "base/csv.h"
 #include "base/input_file.h"
 #include "base/text.h"
 #include "evaluation/metrics/aot_rules.h"

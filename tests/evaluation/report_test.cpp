@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/staged_outputs.h"
-#include "base/xml_text.h"
+#include "base/text.h"
 #include "evaluation/synthetic_report.h"
 #include "support/files.h"
 #include "support/test_data.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/csv.h"
+#include "base/text.h"
 #include "export/export_project.h"
 #include "export/raw_video.h"
 #include "frame/synthetic_scenes.h"

@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 #include <map>
 
-#include "base/nesting.h"
+#include "base/input_file.h"
 #include "base/staged_outputs.h"
 #include "project/fields.h"
 #include "project/json.h"

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/csv.h"
 #include "base/input_file.h"
 #include "base/paths.h"
 #include "base/text.h"

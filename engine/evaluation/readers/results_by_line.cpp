@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/csv.h"
 #include "base/text.h"
 #include "evaluation/readers/results_formats.h"
 #include "evaluation/readers/text_parsing.h"

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <optional>
 
-#include "base/csv.h"
 #include "base/input_file.h"
 #include "base/text.h"
 #include "evaluation/readers/json_reading.h"

@@ -12,7 +12,7 @@
 
 namespace sigs {
 
-// Lines, fields and numbers of text files. base/csv.h has the fields of comma-separated values.
+// Lines, fields and numbers of text files. base/text.h has the fields of comma-separated values.
 
 struct TextLine {
   int number = 0;         // in the file, from 1

@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "base/csv.h"
 #include "base/json.h"
 #include "base/text.h"
 #include "evaluation/reports/report_files.h"

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/json.h"
 #include "base/text.h"
 #include "evaluation/reports/report_files.h"

@@ -6,8 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/csv.h"
-#include "base/nesting.h"
+#include "base/input_file.h"
 #include "base/text.h"
 #include "geo/recorded/path_draft.h"
 
@@ -308,27 +307,16 @@ bool is_opensky_csv(std::string_view text) {
 Result<std::vector<PathDraft>> drafts_of_opensky_csv(std::string_view text, const std::string& where) {
   const StateColumns columns = columns_of_states(next_line(text));
   if (!has_needed(columns)) return fail(where, "its first line has not the columns time, icao24, lat and lon");
-  std::unordered_map<std::string, std::size_t> index;
-  std::vector<PathDraft> drafts;
+  Aircraft aircraft;
   while (!text.empty()) {
     const CsvFields fields = csv_fields(next_line(text));
-    const std::string address = lower_case(file_name_text(field_at(fields, columns.address)));
+    const std::string address = file_name_text(field_at(fields, columns.address));
     const std::string_view latitude = field_at(fields, columns.latitude);
     if (address.empty() || latitude.empty() || lower_case(latitude) == "null") continue;  // no position yet
-    const auto [found, is_first] = index.try_emplace(address, drafts.size());
-    if (is_first) {
-      drafts.emplace_back();
-      drafts.back().icao24 = address;
-      drafts.back().height = HeightReference::ellipsoid;
-    }
-    PathDraft& draft = drafts[found->second];
-    if (draft.name.empty()) draft.name = file_name_text(csv_text(field_at(fields, columns.callsign)));
-    const DraftPoint point = point_of_state(fields, columns);
-    if (!is_repeated(draft, point)) draft.points.push_back(point);
+    PathDraft& draft = aircraft.of(address, file_name_text(csv_text(field_at(fields, columns.callsign))));
+    aircraft.add(draft, point_of_state(fields, columns));
   }
-  for (PathDraft& draft : drafts)
-    if (draft.name.empty()) draft.name = draft.icao24;
-  return drafts;
+  return aircraft.take();
 }
 
 }  // namespace sigs

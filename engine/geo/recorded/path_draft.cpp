@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -11,7 +12,6 @@
 #include <utility>
 
 #include "base/text.h"
-#include "base/xml_text.h"
 #include "geo/utc_time.h"
 
 namespace sigs {
@@ -52,11 +52,10 @@ void drop_unusable_places(Repair& repair) {
   const double latitude_deg = first->latitude_deg;
   const double longitude_deg = first->longitude_deg;
   const std::size_t dropped = std::erase_if(points, [](const DraftPoint& point) { return !is_usable_place(point); });
-  repair.note(
-      fmt::format("{} left out for a place that cannot be: unreadable, out of range or exactly 0/0; the first is "
-                  "number {} (latitude {}, longitude {})",
-                  count_text(static_cast<std::int64_t>(dropped), "point"), number, short_number_text(latitude_deg),
-                  short_number_text(longitude_deg)));
+  repair.note(fmt::format(
+      "{} left out for a place that cannot be: unreadable, out of range or exactly 0/0; the first is "
+      "number {} (latitude {}, longitude {})",
+      count_text(dropped, "point"), number, short_number_text(latitude_deg), short_number_text(longitude_deg)));
 }
 
 bool has_usable_time(const DraftPoint& point) {
@@ -73,8 +72,7 @@ bool settle_times(Repair& repair) {
     return false;
   }
   const std::size_t dropped = std::erase_if(points, [](const DraftPoint& point) { return !has_usable_time(point); });
-  if (dropped > 0)
-    repair.note(fmt::format("{} left out for want of a time", count_text(static_cast<std::int64_t>(dropped), "point")));
+  if (dropped > 0) repair.note(fmt::format("{} left out for want of a time", count_text(dropped, "point")));
   return true;
 }
 
@@ -165,23 +163,14 @@ void take_from_pressure(Repair& repair, OptionalNumbers& heights) {
 }
 
 std::string_view warning_of(HeightReference reference) {
-  switch (reference) {
-    case HeightReference::ellipsoid:
-      return "";
-    case HeightReference::sea_level:
-      return "heights count from the sea (the geoid, or what the recorder took for it), which lies up to 107 m from "
-             "the "
-             "ellipsoid; they are not converted";
-    case HeightReference::pressure:
-      return "heights are those of the pressure in the standard atmosphere; without the QNH they cannot be compared "
-             "with "
-             "heights of GPS";
-    case HeightReference::ground:
-      return "heights count from the ground, whose own height is not in the file";
-    case HeightReference::unknown:
-      return "has no heights; all are 0";
-  }
-  return "";
+  static constexpr std::array<std::string_view, 5> kWarnings{
+      "",
+      "heights count from the sea (the geoid, or what the recorder took for it), which lies up to 107 m from the "
+      "ellipsoid; they are not converted",
+      "heights are those of the pressure in the standard atmosphere; without the QNH they cannot be compared with "
+      "heights of GPS",
+      "heights count from the ground, whose own height is not in the file", "has no heights; all are 0"};
+  return kWarnings.at(static_cast<std::size_t>(reference));
 }
 
 // The height of each point, and what they count from.
@@ -288,10 +277,7 @@ void drop_lines_of_timed_paths(std::vector<RecordedPath>& paths) {
 }  // namespace
 
 std::optional<double> file_number_of(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == std::string_view::npos) return std::nullopt;
-  return parsed_number(text.substr(first, text.find_last_not_of(kSpace) - first + 1));
+  return parsed_number(trimmed(text, " \t\r\n"));
 }
 
 double file_number_or_nan(std::string_view text) {
@@ -300,10 +286,7 @@ double file_number_or_nan(std::string_view text) {
 
 std::string file_name_text(std::string_view text) {
   constexpr std::size_t kMaxBytes = 200;
-  const std::string line = line_text(text.substr(0, kMaxBytes));
-  const std::size_t first = line.find_first_not_of(' ');
-  if (first == std::string::npos) return "";
-  return line.substr(first, line.find_last_not_of(' ') - first + 1);
+  return std::string(trimmed(line_text(text.substr(0, kMaxBytes)), " "));
 }
 
 bool is_repeated(const PathDraft& draft, const DraftPoint& point) {

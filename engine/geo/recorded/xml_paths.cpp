@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/nesting.h"
+#include "base/input_file.h"
 #include "base/text.h"
 #include "geo/recorded/path_draft.h"
 #include "geo/utc_time.h"

@@ -18,7 +18,7 @@ extern "C" {
 }
 
 #include "base/ensure.h"
-#include "base/image_file.h"
+#include "base/image_codecs.h"
 #include "base/input_file.h"
 
 namespace sigs::libav {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "base/image_file.h"
+#include "base/image_codecs.h"
 #include "video/libav/stream_info.h"
 
 namespace sigs::libav {

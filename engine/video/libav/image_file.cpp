@@ -14,7 +14,7 @@ extern "C" {
 }
 
 #include "base/image.h"
-#include "base/image_file.h"
+#include "base/image_codecs.h"
 #include "base/input_file.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/planes.h"
