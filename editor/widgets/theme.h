@@ -21,9 +21,8 @@ namespace color {
 // What is selected, the playhead.
 inline constexpr ImU32 kAccent = IM_COL32(88, 166, 255, 255);
 inline constexpr ImU32 kAccentSoft = IM_COL32(88, 166, 255, 70);
-// Over the footage: the truth's box, a trajectory, its waypoints, the simulated horizon, the own body, the light.
+// Over the footage: the truth's box, a trajectory's waypoints, the simulated horizon, the own body, the light.
 inline constexpr ImU32 kBox = IM_COL32(255, 214, 64, 255);
-inline constexpr ImU32 kPath = IM_COL32(255, 140, 90, 255);
 inline constexpr ImU32 kWaypoint = IM_COL32(255, 255, 255, 255);
 inline constexpr ImU32 kHorizon = IM_COL32(120, 220, 200, 200);
 inline constexpr ImU32 kOwnBody = IM_COL32(210, 90, 220, 90);

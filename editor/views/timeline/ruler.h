@@ -49,9 +49,6 @@ class RulerRow {
   // At the cursor's height.
   void draw(const ViewContext& context, const TimelineStrip& strip);
 
-  // The mouse holds the playhead.
-  [[nodiscard]] bool scrubbing() const { return held_ == Held::playhead; }
-
   // The playhead follows the mouse on the item that was drawn last (a row that has no other use for it); with Shift ten
   // times finer.
   void scrub_on_item(const ViewContext& context, const TimelineStrip& strip);

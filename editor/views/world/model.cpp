@@ -99,8 +99,7 @@ WorldCurve curve_of(const OpenedScene& opened, int intruder, const SceneIntruder
           .samples = sampled_curve(position, first, last, knots, tolerance_m, kMaxPoints),
           .range_first = static_cast<double>(counted.first_frame),
           .range_last = static_cast<double>(counted.last_frame),
-          .ticks = ticks_along(flown.trajectory, first_s, last_s, step_s),
-          .tick_step_s = step_s};
+          .ticks = ticks_along(flown.trajectory, first_s, last_s, step_s)};
 }
 
 double farthest_from_camera_m(const Scene& scene, const WorldCurve& curve) {

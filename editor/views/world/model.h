@@ -48,9 +48,7 @@ struct WorldCurve {
   CurveSamples samples;  // by frame
   double range_first = 0;
   double range_last = 0;
-  // One each tick_step_s of the range.
-  std::vector<WorldTick> ticks;
-  double tick_step_s = 1;
+  std::vector<WorldTick> ticks;  // at even steps of time over the range
 };
 
 // The edge of the image as rays of the camera frame, once around; rays of length 1, or that reach X = 1 where the
