@@ -374,8 +374,10 @@ void App::update(double now_s, bool something_happened) {
   show_title();
   ask_preview();
   done_ = shell_.is_done();
-  if (done_) {
-    window_.remember_in(settings_);
+  if (done_) window_.remember_in(settings_);
+  // Recent projects are kept at once: the program may be ended from outside.
+  if (done_ || settings_.recent != kept_recent_) {
+    kept_recent_ = settings_.recent;
     (void)write_settings(settings_, settings_file());
   }
 }

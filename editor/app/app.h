@@ -126,6 +126,7 @@ class App {
 
   Window& window_;
   Settings settings_;
+  std::vector<std::filesystem::path> kept_recent_;  // those of the settings' file
   Textures textures_;
   Document document_;
   Edits edits_;

@@ -107,6 +107,7 @@ void StartPage::draw_head(const ViewContext& context, const StartPageContent& co
   if (context.ui_probe.noted(dialog_button("Open..."), "start/open",
                              "Open a project file (Ctrl+O); or drop one onto this window"))
     context.edits.ask(OpenProject{});
+  quiet_text("or drop a video, a folder of images or a project onto this window");
   if (content.loading.empty()) return;
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();

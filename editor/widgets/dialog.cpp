@@ -71,7 +71,11 @@ bool begin_dialog(const char* title, double width, double height, bool& closed) 
     closed = closed || !open;
     return false;
   }
-  if (!open || (pressed(Key::escape) && !ImGui::IsAnyItemActive())) closed = true;
+  // Escape first takes back what is being typed, dragged or chosen; in a text that was not changed it closes at once.
+  const ImGuiContext& gui = *ImGui::GetCurrentContext();
+  const bool is_at_work = ImGui::IsAnyItemActive() && (gui.ActiveIdHasBeenEditedBefore || gui.TempInputId != 0 ||
+                                                       gui.ActiveId != gui.InputTextState.ID);
+  if (!open || (pressed(Key::escape) && !is_at_work)) closed = true;
   return true;
 }
 

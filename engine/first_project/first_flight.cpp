@@ -29,7 +29,8 @@ constexpr double kGood = 0.75;  // from here on, no flight that is nearest at th
 constexpr double kTurning_rad = rad_of_deg(10);
 constexpr double kSteep_rad = rad_of_deg(60);  // from here on an azimuth says little of what is in view
 constexpr double kGround_m = 30;               // the least height of a flight
-constexpr int kSamples = 25;                   // frames at which a flight is judged
+constexpr double kWholeFrames = 20;
+constexpr int kSamples = 25;  // frames at which a flight is judged
 constexpr int kTurnWaypoints = 5;
 constexpr int kSizeSteps = 4;
 
@@ -163,7 +164,9 @@ std::vector<WaypointSettings> waypoints_of(const Scene& scene, const CameraView&
   for (int i = 0; i < count; ++i) {
     const double share = double(i) / (count - 1);
     const double span = is_moment ? 1 : scene.last_frame - scene.first_frame;
-    const double frame = std::round((scene.first_frame + share * span) * 100) / 100;
+    // Whole frames can be gone to; where there are few, hundredths keep the waypoints apart.
+    const double parts = span >= kWholeFrames ? 1 : 100;
+    const double frame = std::round((scene.first_frame + share * span) * parts) / parts;
     const double time_s = time_of_frame_s(scene.footage, frame) - view.middle_s;
     glm::dvec3 place = world_point(view, shape, nearest_m, time_s);
     for (int k = 0; k < 3; ++k) place[k] = std::round(place[k] * 100) / 100;

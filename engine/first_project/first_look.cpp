@@ -50,6 +50,11 @@ class Levels {
   void add(const Frame& frame, const Camera& camera) {
     ++frames_;
     const ReducedLuma reduced = reduced_luma(luma_of(frame));
+    if (is_gray(frame)) {
+      if (const auto warm_rad = skyline_pitch_rad(sky_above_warm_ground(reduced.luma), reduced.scale, camera))
+        warm_pitches_rad_.push_back(*warm_rad);
+      may_be_thermal_ = may_be_thermal_ || is_as_small_as_thermal(frame.size_px());
+    }
     const SkyMap sky = sky_map_of(reduced.luma);
     const bool is_sky = has_colors_of_sky(frame, sky);
     if (sky.share < kNoSky || !is_sky) ++grounds_;
@@ -65,14 +70,20 @@ class Levels {
   }
 
   void set(FirstLook& look) const {
-    if (frames_ == 0 || set_horizon(look)) return;
+    if (frames_ == 0) return;
+    if (2 * warm_pitches_rad_.size() >= frames_) {
+      look.level_by = LevelBy::skyline;
+      look.pitch_rad = median(warm_pitches_rad_);
+      return;
+    }
+    if (set_horizon(look)) return;
     if (2 * skyline_pitches_rad_.size() >= frames_) {
       look.level_by = LevelBy::skyline;
       look.pitch_rad = median(skyline_pitches_rad_);
     } else if (2 * (skies_ + skyline_pitches_rad_.size()) >= frames_) {
       look.level_by = LevelBy::sky;
       look.pitch_rad = rad_of_deg(kGuessedUp_deg);
-    } else if (2 * grounds_ >= frames_) {
+    } else if (2 * grounds_ >= frames_ && !may_be_thermal_) {  // clouds are rough to a thermal camera, as ground is
       look.level_by = LevelBy::ground;
       look.pitch_rad = rad_of_deg(kGuessedDown_deg);
     }
@@ -103,7 +114,19 @@ class Levels {
     return light[2] >= kMinBlue * light[1];
   }
 
+  // Without colours, but for what a codec leaves of them.
+  static bool is_gray(const Frame& frame) {
+    constexpr double kGray_codes = 1;
+    cv::Mat bgr = bgr_of(frame), planes[3];
+    cv::split(bgr, planes);
+    const double pixels = static_cast<double>(bgr.total());
+    return std::max(cv::norm(planes[0], planes[1], cv::NORM_L1), cv::norm(planes[2], planes[1], cv::NORM_L1)) <=
+           kGray_codes * pixels;
+  }
+
   std::vector<double> line_rolls_rad_, line_pitches_rad_, skyline_pitches_rad_;
+  std::vector<double> warm_pitches_rad_;  // of skylines above which it is darker
+  bool may_be_thermal_ = false;
   std::size_t frames_ = 0, skies_ = 0, grounds_ = 0;
 };
 

@@ -126,8 +126,7 @@ namespace {
 
 constexpr int kSpectrumFrames = 5;
 constexpr double kWarmGround_codes = 5;  // by so much
-constexpr int kThermalWidth_px = 640, kThermalHeight_px = 512;
-constexpr double kNight_code = 25;  // of 8 bits: half of the footage is darker by night
+constexpr double kNight_code = 25;       // of 8 bits: half of the footage is darker by night
 constexpr double kNightExposure_s = 1.0 / 30;
 constexpr double kNightWhite_cdpm2 = 5;  // f/2, 1/30 s, ISO 3200: 120 N^2 / (S t)
 constexpr double kWhiteOverNight = 3;    // light of a white surface over that of what is there
@@ -264,8 +263,8 @@ Result<std::optional<FirstProjectNote>> set_dark_or_thermal(FrameSource& footage
   if (!seen) return fail(seen.error());
   if (seen->all.empty()) return std::nullopt;
   const cv::Size& size_px = scene.footage.size_px;
-  const bool is_small = size_px.width <= kThermalWidth_px && size_px.height <= kThermalHeight_px;
-  const bool is_warm = seen->has_both() ? median(seen->differences) >= kWarmGround_codes : is_small;
+  const bool is_warm =
+      seen->has_both() ? median(seen->differences) >= kWarmGround_codes : is_as_small_as_thermal(size_px);
   if (has_palette || (may_be_thermal && is_warm)) return set_thermal(*seen, size_px.width, project);
   const double code = median(seen->all);
   return code < kNight_code ? std::optional(set_night(code, scene, project)) : std::nullopt;

@@ -38,10 +38,16 @@ struct FirstLook {
   double cloud_cover = 0;              // share of the sky, 0..1
 };
 
+// Whether an image is as small as those of most thermal cameras: 640 by 512 px.
+[[nodiscard]] inline bool is_as_small_as_thermal(const cv::Size& size_px) {
+  return size_px.width <= 640 && size_px.height <= 512;
+}
+
 // Looks at up to 7 frames of the scene's range. Damaged ones are left out. The level is sought only where the scene
-// does not know it. A horizon (horizon/horizon.h) is taken where it lies within 4 degrees of the median in at least
-// half of the frames; else a skyline in at least half of them; else sky, or ground, that fills at least half of them.
-// Errors: those of FrameSource::read().
+// does not know it. In gray footage with warm ground below a darker sky it is that of the skyline between them. A
+// horizon (horizon/horizon.h) is taken where it lies within 4 degrees of the median in at least half of the frames;
+// else a skyline in at least half of them; else sky, or ground, that fills at least half of them. Errors: those of
+// FrameSource::read().
 [[nodiscard]] Result<FirstLook> first_look(FrameSource& footage, const Scene& scene, const std::atomic<bool>* cancel);
 
 // Sets the camera's attitude by what was seen; one note for camera.attitude_deg. A camera that looks up by more than 5

@@ -6,6 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "base/statistics.h"
+
 namespace sigs {
 
 namespace {
@@ -174,6 +176,54 @@ SkyMap sky_map_of(const cv::Mat& reduced, const cv::Mat& own_body) {
       }
   }
   map.columns = static_cast<double>(tops) / map.sky.cols;
+  return map;
+}
+
+namespace {
+
+constexpr int kWarmRows = 8;
+constexpr double kWarmStep_codes = 40, kWarmer_codes = 25;
+constexpr double kWarmColumns = 0.55, kWarmNear = 0.06;
+
+// The row in which warm ground begins in a column of cells; 0: in none.
+int warm_row(const cv::Mat& reduced, int column) {
+  cv::Mat mean;
+  cv::reduce(reduced.colRange(column * SkyMap::kCell_px, (column + 1) * SkyMap::kCell_px), mean, 1, cv::REDUCE_AVG,
+             CV_64F);
+  std::vector<double> sums{0};
+  for (int y = 0; y < mean.rows; ++y) sums.push_back(sums.back() + mean.at<double>(y));
+  double most = kWarmStep_codes * kWarmRows;
+  int row = 0;
+  for (auto y = static_cast<std::size_t>(kWarmRows); y + kWarmRows < sums.size(); ++y) {
+    const double step = sums[y + kWarmRows] - 2 * sums[y] + sums[y - kWarmRows];
+    if (step >= most) most = step, row = static_cast<int>(y);
+  }
+  return row;
+}
+
+}  // namespace
+
+SkyMap sky_above_warm_ground(const cv::Mat& reduced) {
+  const int columns = reduced.cols / SkyMap::kCell_px;
+  std::vector<double> rows;
+  std::vector<int> begins;
+  for (int x = 0; x < columns; ++x) {
+    begins.push_back(warm_row(reduced, x));
+    if (begins.back() > 0) rows.push_back(begins.back());
+  }
+  if (rows.empty()) return {};
+  const double middle = median(rows);
+  for (int& row : begins)
+    if (std::abs(row - middle) > kWarmNear * reduced.rows) row = 0;
+  const auto near = static_cast<double>(columns - std::count(begins.begin(), begins.end(), 0));
+  const int split = static_cast<int>(middle);
+  if (near < kWarmColumns * columns ||
+      cv::mean(reduced.rowRange(split, reduced.rows))[0] - cv::mean(reduced.rowRange(0, split))[0] < kWarmer_codes)
+    return {};
+  SkyMap map{.sky = cv::Mat_<uchar>(reduced.rows / SkyMap::kCell_px, columns, uchar{0}), .columns = near / columns};
+  for (int x = 0; x < columns; ++x)
+    map.sky.col(x).rowRange(0, begins[static_cast<std::size_t>(x)] / SkyMap::kCell_px).setTo(kSky);
+  map.share = static_cast<double>(cv::countNonZero(map.sky)) / static_cast<double>(map.sky.total());
   return map;
 }
 

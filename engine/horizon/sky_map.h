@@ -36,6 +36,12 @@ struct SkyMap {
 //   own_body  CV_8UC1 of any size, above 127 where the own body is, which a column passes over; may be empty
 [[nodiscard]] SkyMap sky_map_of(const cv::Mat& reduced, const cv::Mat& own_body = {});
 
+// The sky of a thermal image, whose clouds are too rough for sky_map_of(): what lies above the warm ground. In each
+// column the ground begins where the mean of the 8 rows below is brighter than that of the 8 rows above by the most, 40
+// codes at least. Empty where 55 % of the columns do not agree on it within 6 % of the height, or where the image below
+// is not brighter by 25 codes than that above.
+[[nodiscard]] SkyMap sky_above_warm_ground(const cv::Mat& reduced);
+
 // A straight edge below sky, as horizon_in() tries them.
 struct SkyEdge {
   glm::dvec3 up;                   // as HorizonLine::up

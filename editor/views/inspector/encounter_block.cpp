@@ -45,13 +45,13 @@ constexpr std::array<ApproachNumber, 6> kNumbers{{
      "Time of the closest approach, from the footage's first frame on"},
 }};
 
-bool draw_number(const ApproachNumber& number, PlannedApproach& approach, float width) {
+bool draw_number(const ApproachNumber& number, PlannedApproach& approach, float width, Typing& typing) {
   double& value = approach.*number.value;
   double on_screen = value * number.scale;
   ImGui::SetNextItemWidth(width);
-  if (!ImGui::DragScalar("##number", ImGuiDataType_Double, &on_screen, number.step, nullptr, nullptr,
-                         on_screen < 0 ? number.negative : number.format))
-    return false;
+  const bool is_changed = ImGui::DragScalar("##number", ImGuiDataType_Double, &on_screen, number.step, nullptr, nullptr,
+                                            on_screen < 0 ? number.negative : number.format);
+  if (!takes_effect(is_changed, on_screen, typing)) return false;
   value = on_screen / number.scale;
   if (number.value == &PlannedApproach::bearing_rad) value = std::remainder(value, 2 * std::numbers::pi);
   return true;
@@ -128,22 +128,23 @@ std::optional<PlannedApproach> EncounterBlock::draw_numbers(const ViewContext& c
     ImGui::PushID(number.id);
     const float width = rows.begin_row(number.label);
     PlannedApproach approach = shown;
-    if (draw_number(number, approach, width)) edited = approach;
+    const bool is_edited = draw_number(number, approach, width, rows.typing());
+    if (is_edited) edited = approach;
     context.ui_probe.note_item(fmt::format("inspector/encounter/{}", number.id), number.help);
-    follow_hold(context);
+    follow_hold(context, is_edited);
     ImGui::PopID();
   }
   if (edited) wished_distance_m_.reset();
   return edited;
 }
 
-void EncounterBlock::follow_hold(const ViewContext& context) {
+void EncounterBlock::follow_hold(const ViewContext& context, bool is_edited) {
   if (ImGui::IsItemActivated()) {
     is_held_ = true;
     start_.reset();
     revision_before_ = context.document.revision().number;
   }
-  if (ImGui::IsItemDeactivated()) is_held_ = false;
+  if (ImGui::IsItemDeactivated() || (is_edited && !ImGui::IsItemActive())) is_held_ = false;
 }
 
 std::optional<PlannedApproach> EncounterBlock::draw_distance(const ViewContext& context, FieldRows& rows, int intruder,
@@ -151,16 +152,17 @@ std::optional<PlannedApproach> EncounterBlock::draw_distance(const ViewContext& 
   ImGui::PushID("distance");
   double distance_m = wished_distance_m_.value_or(present.nearest_3d.range_m);
   ImGui::SetNextItemWidth(rows.begin_row("Closest, 3-D"));
-  const bool is_changed =
-      ImGui::DragScalar("##number", ImGuiDataType_Double, &distance_m, 0.5F, nullptr, nullptr, "%.2f m");
+  const bool is_edited =
+      takes_effect(ImGui::DragScalar("##number", ImGuiDataType_Double, &distance_m, 0.5F, nullptr, nullptr, "%.2f m"),
+                   distance_m, rows.typing());
   context.ui_probe.note_item(
       "inspector/encounter/distance",
       fmt::format("Least distance in space, at {:.3f} s. A change makes both misses larger or smaller in "
                   "the same proportion",
                   present.nearest_3d.time_s));
-  follow_hold(context);
+  follow_hold(context, is_edited);
   ImGui::PopID();
-  if (!is_changed) return std::nullopt;
+  if (!is_edited) return std::nullopt;
   if (!start_) start_ = approach_start(context, intruder);
   if (!start_) return std::nullopt;
   distance_m = std::max(0.0, distance_m);

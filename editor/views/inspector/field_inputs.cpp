@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "editor/views/inspector/field_rows.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,20 +48,24 @@ std::string format_of(double value, const Field& field) {
   return is_whole ? "%.0f" : number_format(value, field.unit);
 }
 
-bool whole_number_input(const char* id, int& value, const Field& field, float width) {
+bool whole_number_input(const char* id, int& value, const Field& field, float width, Typing& typing) {
   const auto low = static_cast<int>(std::max(field.minimum, -1e9));
   const auto high = static_cast<int>(std::min(field.maximum, 1e9));
   ImGui::SetNextItemWidth(width);
   const auto step = static_cast<float>(std::min(drag_step(value, field), 1.0));
-  return ImGui::DragInt(id, &value, step, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
+  const bool is_changed = ImGui::DragInt(id, &value, step, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
+  double number = value;
+  const bool is_new = takes_effect(is_changed, number, typing);
+  value = static_cast<int>(number);
+  return is_new;
 }
 
-bool any_number_input(double& value, const Field& field, float width) {
-  return number_input("##number", value, field, width);
+bool any_number_input(double& value, const Field& field, float width, Typing& typing) {
+  return number_input("##number", value, field, width, typing);
 }
 
-bool any_number_input(int& value, const Field& field, float width) {
-  return whole_number_input("##number", value, field, width);
+bool any_number_input(int& value, const Field& field, float width, Typing& typing) {
+  return whole_number_input("##number", value, field, width, typing);
 }
 
 // Over a number that is 0 and means something else, while it is not changed.
@@ -88,16 +94,16 @@ void cover_with_end_of(const std::string& path) {
   list.AddText({low.x + padding.x, low.y + padding.y}, ImGui::GetColorU32(ImGuiCol_Text), shown.c_str());
 }
 
-std::optional<Edited> typed_text_input(const std::string& value, const Field& field, float width, TypedText& typed) {
-  const bool was_typed = typed.key == field.key;
-  std::string text = was_typed ? typed.text : value;
+std::optional<Edited> typed_text_input(const std::string& value, const Field& field, float width, Typing& typing) {
+  const bool was_typed = typing.key == field.key;
+  std::string text = was_typed ? typing.text : value;
   ImGui::SetNextItemWidth(width);
   text_input("##text", text, field.required ? "required" : "none");
   // The keyboard can be taken away between two updates too: by the window that is to be closed.
   const bool is_left = ImGui::IsItemDeactivated() || (was_typed && !ImGui::IsItemActive());
   const bool is_finished = is_left && (was_typed || ImGui::IsItemDeactivatedAfterEdit());
-  if (ImGui::IsItemActive()) typed = {field.key, text};
-  if (is_left) typed = {};
+  if (ImGui::IsItemActive()) typing = {field.key, text};
+  if (is_left) typing = {};
   if (field.is_path && !ImGui::IsItemActive()) cover_with_end_of(text);
   if (is_finished && text != value) return Edited{text, true};
   return std::nullopt;
@@ -162,12 +168,12 @@ struct Input {
   const Field& field;
   const RowOptions& look;
   float width;
-  TypedText& typed;
+  Typing& typing;
 
   template <class Number>
   std::optional<Edited> number(Number value) const {
     const std::string word = value == 0 ? word_for_zero(field.key) : "";
-    const bool is_changed = any_number_input(value, field, width);
+    const bool is_changed = any_number_input(value, field, width, typing);
     if (!word.empty() && !ImGui::IsItemActive()) cover_with_word(word);
     if (!is_changed) return std::nullopt;
     return Edited{value};
@@ -189,16 +195,16 @@ struct Input {
       ImGui::TextDisabled("%s", value_text(field, PlainValue(std::optional<Number>())).c_str());
       return std::nullopt;
     }
-    if (!any_number_input(*value, field, room)) return std::nullopt;
+    if (!any_number_input(*value, field, room, typing)) return std::nullopt;
     return Edited{value};
   }
 
   std::optional<Edited> operator()(std::string* place) const {
-    return look.names.empty() ? typed_text_input(*place, field, width, typed) : named_text_input(*place, look, width);
+    return look.names.empty() ? typed_text_input(*place, field, width, typing) : named_text_input(*place, look, width);
   }
   std::optional<Edited> operator()(glm::dvec3* place) const {
     glm::dvec3 value = *place;
-    if (!(look.is_color ? color_input(value, width) : vector_input(value, field, width))) return std::nullopt;
+    if (!(look.is_color ? color_input(value, width) : vector_input(value, field, width, typing))) return std::nullopt;
     return Edited{value};
   }
   std::optional<Edited> operator()(std::vector<std::string>* place) const { return list_input(*place, look); }
@@ -212,20 +218,35 @@ struct Input {
 
 }  // namespace
 
-std::optional<Edited> field_input(const Field& field, const RowOptions& look, float width, TypedText& typed) {
-  return std::visit(Input{field, look, width, typed}, field.value);
+std::optional<Edited> field_input(const Field& field, const RowOptions& look, float width, Typing& typing) {
+  return std::visit(Input{field, look, width, typing}, field.value);
 }
 
-bool number_input(const char* id, double& value, const Field& field, float width) {
+bool takes_effect(bool is_changed, double& value, Typing& typing) {
+  const ImGuiID item = ImGui::GetItemID();
+  const bool was_typed = typing.item == item;
+  if (ImGui::TempInputIsActive(item)) {
+    if (is_changed || was_typed)
+      typing = is_changed ? Typing{.key = {}, .text = {}, .item = item, .number = value} : Typing();
+    return false;
+  }
+  if (!was_typed) return is_changed;
+  if (!is_changed) value = typing.number;  // the keyboard went elsewhere between two updates
+  typing = {};
+  return !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+}
+
+bool number_input(const char* id, double& value, const Field& field, float width, Typing& typing) {
   const std::string format = format_of(value, field);
   ImGui::SetNextItemWidth(width);
-  return ImGui::DragScalar(id, ImGuiDataType_Double, &value, static_cast<float>(drag_step(value, field)),
-                           std::isfinite(field.minimum) ? &field.minimum : nullptr,
-                           std::isfinite(field.maximum) ? &field.maximum : nullptr, format.c_str(),
-                           ImGuiSliderFlags_AlwaysClamp);
+  const bool is_changed = ImGui::DragScalar(
+      id, ImGuiDataType_Double, &value, static_cast<float>(drag_step(value, field)),
+      std::isfinite(field.minimum) ? &field.minimum : nullptr, std::isfinite(field.maximum) ? &field.maximum : nullptr,
+      format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+  return takes_effect(is_changed, value, typing);
 }
 
-bool vector_input(glm::dvec3& value, const Field& field, float width) {
+bool vector_input(glm::dvec3& value, const Field& field, float width, Typing& typing) {
   constexpr std::array<const char*, 3> kIds{"##X", "##Y", "##Z"};
   const float gap = scaled(4);
   const bool side_by_side = (width - 2 * gap) / 3 >= scaled(64);
@@ -236,7 +257,7 @@ bool vector_input(glm::dvec3& value, const Field& field, float width) {
   for (int i = 0; i < 3; ++i) {
     if (side_by_side && i > 0) ImGui::SameLine(0, gap);
     const auto axis = static_cast<std::size_t>(i);
-    has_changed |= number_input(kIds[axis], value[i], part, each);
+    has_changed |= number_input(kIds[axis], value[i], part, each, typing);
     const ImVec2 low = ImGui::GetItemRectMin();
     const ImVec2 high = ImGui::GetItemRectMax();
     ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + scaled(3), high.y}, color::kAxes[axis], scaled(2),

@@ -61,7 +61,7 @@ bool ButtonFlow::button(const char* label, const char* tooltip, bool enabled) {
 }
 
 void RowMemory::refresh(const ViewContext& context) {
-  if (std::exchange(document, context.document.first_number()) != document) typed = {};
+  if (std::exchange(document, context.document.first_number()) != document) typing = {};
   if (sheet && sheet_revision == context.document.revision().number) return;
   sheet.emplace(context.project());
   sheet_revision = context.document.revision().number;
@@ -140,7 +140,7 @@ void FieldRows::change(const Field& field, const Edited& edited) {
 
 bool FieldRows::is_left_out(std::string_view key) const {
   if (!leaves_out_uncommon_ || is_common(key) || problems_.find(key) != problems_.end()) return false;
-  if (memory_.wanted_key == key || memory_.typed.key == key) return false;
+  if (memory_.wanted_key == key || memory_.typing.key == key) return false;
   return context_.guesses == nullptr || std::none_of(context_.guesses->begin(), context_.guesses->end(),
                                                      [&](const Problem& guess) { return guess.field == key; });
 }
@@ -169,9 +169,9 @@ void FieldRows::row(std::string_view key, const RowOptions& look) {
   if (is_wrong) ImGui::PushStyleColor(ImGuiCol_Border, color::kBad);
   ImGui::BeginDisabled(!look.off_because.empty());
   ImGui::BeginGroup();
-  const std::optional<Edited> edited = field_input(*field, look, width, memory_.typed);
+  const std::optional<Edited> edited = field_input(*field, look, width, memory_.typing);
   ImGui::EndGroup();
-  const bool is_left = ImGui::IsItemDeactivated();
+  const bool is_left = ImGui::IsItemDeactivated() || (edited && !ImGui::IsItemActive());
   ImGui::EndDisabled();
   if (is_wrong) ImGui::PopStyleColor();
   ImGui::PopStyleVar();

@@ -28,10 +28,12 @@ struct RowOptions {
   bool is_hidden = false;  // rows() passes over it
 };
 
-// A text that is being typed becomes the field's value when it is finished.
-struct TypedText {
-  std::string key;
+// What is being typed: it becomes the value when it is finished, and is forgotten by Escape.
+struct Typing {
+  std::string key;  // of the field that a text is for
   std::string text;
+  unsigned int item = 0;  // ImGui's id of the number
+  double number = 0;
 };
 
 // A value that the person has given. One that is still being dragged or typed is not yet finished: it is part of a
@@ -44,20 +46,24 @@ struct Edited {
 // The editor of a field by its type, from the cursor on, `width` screen pixels wide. None: nothing was edited in this
 // update.
 [[nodiscard]] std::optional<Edited> field_input(const Field& field, const RowOptions& look, float width,
-                                                TypedText& typed);
+                                                Typing& typing);
 
-// A number with its unit: dragged, or typed after a click; true in updates in which it has changed. Stays in the range.
-[[nodiscard]] bool number_input(const char* id, double& value, const Field& field, float width);
+// To be called after a number that is dragged, or typed after a click (ImGui::DragScalar), with what that returned and
+// left. True in updates in which the number takes effect: while it is dragged, and once it is typed.
+[[nodiscard]] bool takes_effect(bool is_changed, double& value, Typing& typing);
 
-// X, Y, Z side by side, or below each other where there is no room; true in updates in which one has changed.
-[[nodiscard]] bool vector_input(glm::dvec3& value, const Field& field, float width);
+// A number with its unit; true in updates in which it takes effect. Stays in the range.
+[[nodiscard]] bool number_input(const char* id, double& value, const Field& field, float width, Typing& typing);
+
+// X, Y, Z side by side, or below each other where there is no room; true in updates in which one takes effect.
+[[nodiscard]] bool vector_input(glm::dvec3& value, const Field& field, float width, Typing& typing);
 
 // What is wrong, by the key of the field that it is in: "intruders[0].model.file".
 using ProblemsByField = std::multimap<std::string, Problem, std::less<>>;
 
 // What rows remember from one update to the next; the view that makes FieldRows owns it.
 struct RowMemory {
-  TypedText typed;
+  Typing typing;
   // A row to be scrolled to and given the keyboard, once it is drawn; "": none.
   std::string wanted_key;
   int wanted_updates = 0;  // for how many updates it is still waited for
@@ -102,6 +108,7 @@ class FieldRows {
   [[nodiscard]] float begin_row(const std::string& label, bool below = false);
 
   [[nodiscard]] const FieldSheet& sheet() const { return sheet_; }
+  [[nodiscard]] Typing& typing() const { return memory_.typing; }
   [[nodiscard]] const ProblemsByField& problems() const { return problems_; }
 
   // To be called when all rows of the update are drawn: a gesture whose editor has gone away is finished.

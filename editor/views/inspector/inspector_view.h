@@ -116,16 +116,16 @@ class WaypointTable {
  public:
   WaypointTable();
   // At the cursor, once per update. intruder: an index of the project that is there. Rows with problems are marked.
-  void draw(const ViewContext& context, const ProblemsByField& problems, int intruder);
+  void draw(const ViewContext& context, const FieldRows& rows, int intruder);
 
  private:
   // Finds the frames of the waypoints anew where the project or its range is another one.
   void refresh(const ViewContext& context, int intruder);
-  void draw_rows(const ViewContext& context, const ProblemsByField& problems, int intruder);
-  void draw_row(const ViewContext& context, int intruder, int waypoint, bool is_wrong);
-  void draw_frame(const ViewContext& context, int intruder, int waypoint);
-  void draw_position(const ViewContext& context, int intruder, int waypoint);
-  void draw_heading(const ViewContext& context, int intruder, int waypoint);
+  void draw_rows(const ViewContext& context, const FieldRows& rows, int intruder);
+  void draw_row(const ViewContext& context, Typing& typing, int intruder, int waypoint, bool is_wrong);
+  void draw_frame(const ViewContext& context, Typing& typing, int intruder, int waypoint);
+  void draw_position(const ViewContext& context, Typing& typing, int intruder, int waypoint);
+  void draw_heading(const ViewContext& context, Typing& typing, int intruder, int waypoint);
   // Add, insert, duplicate and delete, below the table.
   void draw_buttons(const ViewContext& context, int intruder) const;
   // A waypoint between this one and the next.
@@ -206,7 +206,7 @@ class EncounterBlock {
   [[nodiscard]] std::optional<PlannedApproach> draw_distance(const ViewContext& context, FieldRows& rows, int intruder,
                                                              const PresentApproach& present);
   // Whether the number that was drawn last is held.
-  void follow_hold(const ViewContext& context);
+  void follow_hold(const ViewContext& context, bool is_edited);
   void change(const ViewContext& context, int intruder, const PlannedApproach& wanted);
   void draw_straight(const ViewContext& context, int intruder);
 

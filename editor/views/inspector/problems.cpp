@@ -47,16 +47,21 @@ std::string line_of(const ViewContext& context, const Problem& problem) {
   return shortened(place_of(context.project(), problem.field) + ": " + problem.what, kMaxLine);
 }
 
+// How long texts are shown: guesses stand in whole at their fields.
+enum class Lines { wrapped, cut };
+
 // The field whose line was clicked.
 std::optional<std::string> draw_lines(const ViewContext& context, const std::vector<Problem>& problems,
-                                      const std::string& name) {
+                                      const std::string& name, Lines lines) {
   std::optional<std::string> clicked;
   int shown = 0;
   for (const Problem& problem : problems) {
     if (++shown > kMaxShown) break;
     ImGui::PushID(shown);
-    if (wrapped_line(line_of(context, problem))) clicked = problem.field;
-    context.ui_probe.note_item(fmt::format("inspector/{}/{}", name, problem.field));
+    const std::string whole = line_of(context, problem);
+    const std::string line = lines == Lines::cut ? elided(whole, ImGui::GetContentRegionAvail().x) : whole;
+    if (wrapped_line(line)) clicked = problem.field;
+    context.ui_probe.note_item(fmt::format("inspector/{}/{}", name, problem.field), line == whole ? "" : whole);
     ImGui::PopID();
   }
   if (problems.size() > kMaxShown) note(fmt::format("{} more", problems.size() - kMaxShown), true);
@@ -64,17 +69,20 @@ std::optional<std::string> draw_lines(const ViewContext& context, const std::vec
 }
 
 // Of all lines, or as much of the panel as a list may take; the rest is scrolled to.
-float height_of_lines(const ViewContext& context, const std::vector<Problem>& problems) {
+float height_of_lines(const ViewContext& context, const std::vector<Problem>& problems, Lines lines) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float width = ImGui::GetContentRegionAvail().x - style.ScrollbarSize;
   float height = style.ItemSpacing.y;
   for (const Problem& problem : problems)
-    height += ImGui::CalcTextSize(line_of(context, problem).c_str(), nullptr, false, width).y + style.ItemSpacing.y;
+    height += style.ItemSpacing.y +
+              (lines == Lines::cut ? ImGui::GetTextLineHeight()
+                                   : ImGui::CalcTextSize(line_of(context, problem).c_str(), nullptr, false, width).y);
   return std::min(height, ImGui::GetContentRegionAvail().y * kMaxShareOfPanel);
 }
 
 std::optional<std::string> draw_list(const ViewContext& context, const std::vector<Problem>& problems,
-                                     const std::string& name, ImU32 shade, bool opens_first = false) {
+                                     const std::string& name, ImU32 shade, Lines lines = Lines::wrapped,
+                                     bool opens_first = false) {
   if (problems.empty()) return std::nullopt;
   const std::string title = count_text(static_cast<std::int64_t>(problems.size()), name);
   ImGui::PushStyleColor(ImGuiCol_Text, shade);
@@ -85,8 +93,8 @@ std::optional<std::string> draw_list(const ViewContext& context, const std::vect
   ImGui::PopStyleColor();
   if (!is_open) return std::nullopt;
   ImGui::PushFont(font(Font::small));
-  ImGui::BeginChild(id.c_str(), {0, height_of_lines(context, problems)});
-  const std::optional<std::string> clicked = draw_lines(context, problems, name);
+  ImGui::BeginChild(id.c_str(), {0, height_of_lines(context, problems, lines)});
+  const std::optional<std::string> clicked = draw_lines(context, problems, name, lines);
   ImGui::EndChild();
   ImGui::PopFont();
   ImGui::TreePop();
@@ -98,7 +106,7 @@ Problem in_field(const std::string& field, const Warning& warning) {
   return {field, Warning{std::filesystem::path(warning.where).filename().string(), warning.what}.text()};
 }
 
-// Of footage and models.
+// Of footage, models and the camera's log.
 std::vector<Problem> warnings_of_files(const OpenedScene& opened) {
   std::vector<Problem> found;
   if (opened.footage && opened.footage->video)
@@ -113,6 +121,12 @@ std::vector<Problem> warnings_of_files(const OpenedScene& opened) {
     for (const Warning& warning : model->mesh.warnings)
       found.push_back(in_field(fmt::format("intruders[{}].model.file", i), warning));
   }
+  // Those of models are among the scene's too.
+  std::set<std::string> told;
+  for (const Problem& problem : found) told.insert(problem.what);
+  for (const Warning& warning : opened.draft.scene.warnings)
+    if (Problem of_log = in_field("camera.track.file", warning); told.insert(of_log.what).second)
+      found.push_back(std::move(of_log));
   return found;
 }
 
@@ -124,6 +138,11 @@ std::optional<Visibility> whole_visibility(const OpenedScene& opened, const Surv
   const bool is_whole =
       survey != nullptr && survey->revision == opened.revision && static_cast<int>(survey->estimates.size()) == frames;
   return is_whole ? std::optional(visibility_of(*survey, frames)) : std::nullopt;
+}
+
+// What is wrong with these by the placeholder's frames may be right by the footage's own frames and log.
+bool hangs_on_footage(std::string_view field) {
+  return field.starts_with("light.sun.") || (field.starts_with("camera.track.") && field != "camera.track.file");
 }
 
 std::vector<Problem> lines_of(const ProblemsByField& problems) {
@@ -203,7 +222,9 @@ void ProblemList::refresh(const ViewContext& context) {
   by_field_.clear();
   counts_.clear();
   if (!scene_) return;
-  for (const Problem& problem : scene_->draft.problems) by_field_.emplace(problem.field, problem);
+  const bool has_footage = scene_->footage && scene_->footage->video;
+  for (const Problem& problem : scene_->draft.problems)
+    if (has_footage || !hangs_on_footage(problem.field)) by_field_.emplace(problem.field, problem);
   if (scene_->footage && !scene_->footage->problem.empty() && !by_field_.contains("footage.video"))
     by_field_.emplace("footage.video", Problem{"footage.video", scene_->footage->problem, ErrorKind::bad_data});
   for (const auto& [field, problem] : by_field_) ++counts_[block_of(field)];
@@ -249,7 +270,8 @@ std::optional<std::string> ProblemList::draw(const ViewContext& context) const {
   std::ranges::stable_sort(guesses, [](const Problem& a, const Problem& b) {
     return std::pair(weight_of(a.field), a.field) < std::pair(weight_of(b.field), b.field);
   });
-  const std::optional<std::string> guess = draw_list(context, guesses, "guessed setting", color::kAccent, true);
+  const std::optional<std::string> guess =
+      draw_list(context, guesses, "guessed setting", color::kAccent, Lines::cut, true);
   return problem ? problem : warning ? warning : guess;
 }
 

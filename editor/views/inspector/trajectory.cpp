@@ -115,12 +115,12 @@ void WaypointTable::refresh(const ViewContext& context, int intruder) {
   frames_ = frames_of_waypoints(context, intruder);
 }
 
-void WaypointTable::draw_frame(const ViewContext& context, int intruder, int waypoint) {
+void WaypointTable::draw_frame(const ViewContext& context, Typing& typing, int intruder, int waypoint) {
   const auto index = static_cast<std::size_t>(waypoint);
   const bool is_own = waypoints_of(context, intruder)[index].frame.has_value();
   double frame = frames_[index];
   if (!is_own) ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
-  const bool has_changed = number_input("##frame", frame, *frame_field_, ImGui::GetContentRegionAvail().x);
+  const bool has_changed = number_input("##frame", frame, *frame_field_, ImGui::GetContentRegionAvail().x, typing);
   if (!is_own) ImGui::PopStyleColor();
   tooltip_for_item(is_own ? "Frame in which it is passed; drag, or click to type"
                           : "Spread evenly between its neighbours; give it a frame by dragging or typing");
@@ -133,10 +133,10 @@ void WaypointTable::draw_frame(const ViewContext& context, int intruder, int way
           move_waypoint_in_time(plan, waypoint, frame, frames);
         },
         "inspector frame " + waypoint_key(intruder, waypoint));
-  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  if (ImGui::IsItemDeactivated() || (has_changed && !ImGui::IsItemActive())) context.edits.end_gesture();
 }
 
-void WaypointTable::draw_position(const ViewContext& context, int intruder, int waypoint) {
+void WaypointTable::draw_position(const ViewContext& context, Typing& typing, int intruder, int waypoint) {
   constexpr std::array<const char*, 3> kIds{"##x", "##y", "##z"};
   Field part = *position_field_;
   part.unit = "";  // in the title
@@ -144,14 +144,15 @@ void WaypointTable::draw_position(const ViewContext& context, int intruder, int 
   for (int axis = 0; axis < 3; ++axis) {
     ImGui::TableSetColumnIndex(2 + axis);
     const char* const id = kIds[static_cast<std::size_t>(axis)];
-    if (number_input(id, position_m[axis], part, ImGui::GetContentRegionAvail().x))
+    const bool has_changed = number_input(id, position_m[axis], part, ImGui::GetContentRegionAvail().x, typing);
+    if (has_changed)
       context.edits.move_waypoint(intruder, waypoint, position_m, gesture_of_waypoint(intruder, waypoint));
     if (ImGui::IsItemActivated()) context.edits.select({Selected::waypoint, intruder, waypoint});
-    if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+    if (ImGui::IsItemDeactivated() || (has_changed && !ImGui::IsItemActive())) context.edits.end_gesture();
   }
 }
 
-void WaypointTable::draw_heading(const ViewContext& context, int intruder, int waypoint) {
+void WaypointTable::draw_heading(const ViewContext& context, Typing& typing, int intruder, int waypoint) {
   const std::optional<double> given = waypoints_of(context, intruder)[static_cast<std::size_t>(waypoint)].heading_deg;
   const auto turn = [&](std::optional<double> heading_deg) {
     turn_waypoint(context, intruder, waypoint, heading_deg, "inspector heading " + waypoint_key(intruder, waypoint));
@@ -161,18 +162,19 @@ void WaypointTable::draw_heading(const ViewContext& context, int intruder, int w
   field.unit = "";  // in the title
   double heading_deg = given.value_or(0);
   if (!given) ImGui::PushStyleColor(ImGuiCol_Text, color::kQuiet);
-  if (number_input("##heading", heading_deg, field, ImGui::GetContentRegionAvail().x)) turn(heading_deg);
+  const bool has_changed = number_input("##heading", heading_deg, field, ImGui::GetContentRegionAvail().x, typing);
+  if (has_changed) turn(heading_deg);
   if (!given) ImGui::PopStyleColor();
   tooltip_for_item(given ? "Where the nose points, from world X to the right; a right click leaves it to the others"
                          : "By the other waypoints' headings, else the path's; give it one by dragging or typing");
   if (ImGui::IsItemActivated()) context.edits.select({Selected::waypoint, intruder, waypoint});
-  if (ImGui::IsItemDeactivated()) context.edits.end_gesture();
+  if (ImGui::IsItemDeactivated() || (has_changed && !ImGui::IsItemActive())) context.edits.end_gesture();
   if (!given || !ImGui::IsItemClicked(ImGuiMouseButton_Right)) return;
   turn(std::nullopt);
   context.edits.end_gesture();
 }
 
-void WaypointTable::draw_row(const ViewContext& context, int intruder, int waypoint, bool is_wrong) {
+void WaypointTable::draw_row(const ViewContext& context, Typing& typing, int intruder, int waypoint, bool is_wrong) {
   const bool is_selected = selected_waypoint(context, intruder) == waypoint;
   ImGui::TableNextRow();
   if (is_selected) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, color::kAccentSoft);
@@ -189,11 +191,11 @@ void WaypointTable::draw_row(const ViewContext& context, int intruder, int waypo
   if (is_wrong) ImGui::PopStyleColor();
   context.ui_probe.note_item("inspector/waypoint " + number, "Click selects, double click goes to its frame");
   ImGui::TableSetColumnIndex(1);
-  draw_frame(context, intruder, waypoint);
+  draw_frame(context, typing, intruder, waypoint);
   context.ui_probe.note_item(fmt::format("inspector/waypoint {}/frame", number));
-  draw_position(context, intruder, waypoint);
+  draw_position(context, typing, intruder, waypoint);
   if (!has_headings(context, intruder)) return;
-  draw_heading(context, intruder, waypoint);
+  draw_heading(context, typing, intruder, waypoint);
   context.ui_probe.note_item(fmt::format("inspector/waypoint {}/heading", number));
 }
 
@@ -210,7 +212,7 @@ void WaypointTable::scroll_to_selected(const ViewContext& context, int intruder,
   if (top < scroll || top > scroll + room) ImGui::SetScrollY(std::max(0.0F, top - room / 2));
 }
 
-void WaypointTable::draw_rows(const ViewContext& context, const ProblemsByField& problems, int intruder) {
+void WaypointTable::draw_rows(const ViewContext& context, const FieldRows& rows, int intruder) {
   const auto count = static_cast<int>(waypoints_of(context, intruder).size());
   const float row_height = ImGui::GetFrameHeight() + 2 * scaled(1);
   const float room = ImGui::GetContentRegionAvail().x;
@@ -220,9 +222,8 @@ void WaypointTable::draw_rows(const ViewContext& context, const ProblemsByField&
   const float short_width = scaled(42);
   const float minimum =
       columns == 6 ? number_width + 2 * short_width + 3 * scaled(54) + 6 * scaled(4) : scaled(34) + 4 * scaled(58);
-  const int rows = std::min(count, kMaxRows);
-  const float height = row_height * static_cast<float>(rows) + ImGui::GetTextLineHeight() + scaled(8) +
-                       (room < minimum ? ImGui::GetStyle().ScrollbarSize : 0);
+  const float height = row_height * static_cast<float>(std::min(count, kMaxRows)) + ImGui::GetTextLineHeight() +
+                       scaled(8) + (room < minimum ? ImGui::GetStyle().ScrollbarSize : 0);
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_RowBg |
                                      ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoSavedSettings;
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {scaled(2), scaled(1)});
@@ -245,7 +246,7 @@ void WaypointTable::draw_rows(const ViewContext& context, const ProblemsByField&
     while (clipper.Step())
       for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
         ImGui::PushID(i);
-        draw_row(context, intruder, i, has_problem(problems, waypoint_key(intruder, i)));
+        draw_row(context, rows.typing(), intruder, i, has_problem(rows.problems(), waypoint_key(intruder, i)));
         ImGui::PopID();
       }
     scroll_to_selected(context, intruder, row_height);
@@ -284,9 +285,9 @@ void WaypointTable::draw_buttons(const ViewContext& context, int intruder) const
     delete_selected(context);
 }
 
-void WaypointTable::draw(const ViewContext& context, const ProblemsByField& problems, int intruder) {
+void WaypointTable::draw(const ViewContext& context, const FieldRows& rows, int intruder) {
   refresh(context, intruder);
-  if (!frames_.empty()) draw_rows(context, problems, intruder);
+  if (!frames_.empty()) draw_rows(context, rows, intruder);
   draw_buttons(context, intruder);
 }
 
@@ -309,7 +310,7 @@ void TrajectoryBlock::draw(const ViewContext& context, FieldRows& rows) {
   draw_problems(rows, key);
   rows.guess_lines(key.substr(0, key.size() - 1));
   rows.guess_lines(key + "waypoints");
-  waypoints_.draw(context, rows.problems(), *intruder);
+  waypoints_.draw(context, rows, *intruder);
   ImGui::Spacing();
   note("Flight");
   flight_.draw(context, rows, *intruder);
@@ -333,7 +334,10 @@ void FlightSummary::measure(const std::shared_ptr<const Survey>& survey) {
     return Span{value(*minimum), value(*maximum)};
   };
   speed_mps_ = span([](const FlightState& state) { return state.speed_mps; });
-  load_ = span([](const FlightState& state) { return state.load_factor; });
+  // The largest one is that of the whole force, as the faults have it: across the wings too.
+  load_ = {
+      span([](const FlightState& state) { return state.load_factor; }).minimum,
+      span([](const FlightState& state) { return std::hypot(state.load_factor, state.side_load_factor); }).maximum};
   climb_mps_ = span([](const FlightState& state) { return state.climb_rate_mps; });
 }
 
@@ -345,7 +349,7 @@ void FlightSummary::draw(const ViewContext& context, FieldRows& rows, int intrud
   note_row(rows, "Speed", fmt::format("{} to {} m/s", tenths(speed_mps_.minimum), tenths(speed_mps_.maximum)),
            "Minimum and maximum");
   note_row(rows, "Load factor", fmt::format("{} to {} g", tenths(load_.minimum, 0.01), tenths(load_.maximum, 0.01)),
-           "Lift by weight; 1 in level flight");
+           "Force by weight; 1 in level flight, negative where it pushes down");
   note_row(rows, "Climb", fmt::format("{} to {} m/s", tenths(climb_mps_.minimum), tenths(climb_mps_.maximum)),
            "Up is positive");
   note_row(rows, "Seen", visibility_, "Estimated without drawing; size: the longer side of its silhouette");
