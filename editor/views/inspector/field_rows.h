@@ -49,9 +49,6 @@ struct Edited {
 // A number with its unit: dragged, or typed after a click; true in updates in which it has changed. Stays in the range.
 [[nodiscard]] bool number_input(const char* id, double& value, const Field& field, float width);
 
-// X, Y, Z side by side, or below each other where there is no room; true in updates in which one has changed.
-[[nodiscard]] bool vector_input(glm::dvec3& value, const Field& field, float width);
-
 // What is wrong, by the key of the field that it is in: "intruders[0].model.file".
 using ProblemsByField = std::multimap<std::string, Problem, std::less<>>;
 
