@@ -47,8 +47,8 @@ void quiet_text(const std::string& text) {
   draw_text(text, color::kQuiet);
 }
 
-}  // namespace
-
+// The text's first sentence below its headings, without line breaks and backquotes. A semicolon or colon before a space
+// ends it too, and becomes a full stop.
 std::string first_sentence(const std::string& markdown) {
   std::string text;
   std::size_t begin = 0;
@@ -66,6 +66,8 @@ std::string first_sentence(const std::string& markdown) {
     if ((text[i] == '.' || text[i] == ';' || text[i] == ':') && text[i + 1] == ' ') return text.substr(0, i) + ".";
   return text;
 }
+
+}  // namespace
 
 StartPage::StartPage(const fs::path& samples, std::function<void()> wake)
     : samples_(samples_in(samples)),

@@ -70,10 +70,6 @@ class StartPage {
   Thumbnails images_;
 };
 
-// The text's first sentence below its headings, without line breaks and backquotes. A semicolon or colon before a space
-// ends it too, and becomes a full stop.
-[[nodiscard]] std::string first_sentence(const std::string& markdown);
-
 // What a project needs before there is anything to see, in the order in which it is usually chosen: a card over the
 // image, until all of it is there or the person puts the card away. Then where the horizon lies, at the image's
 // lower edge, so that its line can be dragged.

@@ -40,6 +40,38 @@ void draw_face(const ToolButton& button, ImVec2 low, ImVec2 size, bool hovered, 
   if (button.label[0] != 0) draw.AddText({std::round(x), std::round(low.y + (size.y - side) / 2)}, ink, button.label);
 }
 
+float tool_button_width(const ToolButton& button) {
+  const float icon = button.icon ? ImGui::GetFontSize() : 0;
+  const float label = button.label[0] != 0 ? ImGui::CalcTextSize(button.label).x : 0;
+  const float gap = icon > 0 && label > 0 ? scaled(5) : 0;
+  return std::ceil(icon + gap + label + 2 * padding());
+}
+
+bool tool_button(const ToolButton& button) {
+  const ImVec2 size(tool_button_width(button), ImGui::GetFrameHeight());
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  if (!button.enabled) ImGui::BeginDisabled();
+  const bool clicked = ImGui::InvisibleButton(button.id, size);
+  const bool hovered = button.enabled && ImGui::IsItemHovered();
+  const bool held = ImGui::IsItemActive();
+  if (!button.enabled) ImGui::EndDisabled();
+  draw_face(button, low, size, hovered, held);
+  if (!held) tooltip_for_item(button.tooltip);
+  return clicked;
+}
+
+float toolbar_gap_width() {
+  return scaled(13);
+}
+
+void toolbar_gap() {
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetFrameHeight();
+  const float x = std::round(low.x + toolbar_gap_width() / 2);
+  ImGui::GetWindowDrawList()->AddRectFilled({x, low.y + height * 0.2F}, {x + 1, low.y + height * 0.8F}, color::kFaint);
+  ImGui::Dummy({toolbar_gap_width(), height});
+}
+
 float spacing() {
   return scaled(2);
 }
@@ -97,38 +129,6 @@ void draw_rest(std::span<const ToolbarItem> rest) {
 }
 
 }  // namespace
-
-float tool_button_width(const ToolButton& button) {
-  const float icon = button.icon ? ImGui::GetFontSize() : 0;
-  const float label = button.label[0] != 0 ? ImGui::CalcTextSize(button.label).x : 0;
-  const float gap = icon > 0 && label > 0 ? scaled(5) : 0;
-  return std::ceil(icon + gap + label + 2 * padding());
-}
-
-bool tool_button(const ToolButton& button) {
-  const ImVec2 size(tool_button_width(button), ImGui::GetFrameHeight());
-  const ImVec2 low = ImGui::GetCursorScreenPos();
-  if (!button.enabled) ImGui::BeginDisabled();
-  const bool clicked = ImGui::InvisibleButton(button.id, size);
-  const bool hovered = button.enabled && ImGui::IsItemHovered();
-  const bool held = ImGui::IsItemActive();
-  if (!button.enabled) ImGui::EndDisabled();
-  draw_face(button, low, size, hovered, held);
-  if (!held) tooltip_for_item(button.tooltip);
-  return clicked;
-}
-
-float toolbar_gap_width() {
-  return scaled(13);
-}
-
-void toolbar_gap() {
-  const ImVec2 low = ImGui::GetCursorScreenPos();
-  const float height = ImGui::GetFrameHeight();
-  const float x = std::round(low.x + toolbar_gap_width() / 2);
-  ImGui::GetWindowDrawList()->AddRectFilled({x, low.y + height * 0.2F}, {x + 1, low.y + height * 0.8F}, color::kFaint);
-  ImGui::Dummy({toolbar_gap_width(), height});
-}
 
 void add_zoom_items(std::vector<ToolbarItem>& items, const ZoomChoice& zoom) {
   items.push_back({.button = {.id = "fit",

@@ -23,15 +23,6 @@ struct ToolButton {
   bool enabled = true;
 };
 
-// Draws it at the cursor, as high as a line of text in its frame; true when it is clicked.
-bool tool_button(const ToolButton& button);
-// All widths and heights here are in screen pixels.
-[[nodiscard]] float tool_button_width(const ToolButton& button);
-
-// A thin upright line between groups of buttons.
-void toolbar_gap();
-[[nodiscard]] float toolbar_gap_width();
-
 // One item of a toolbar: a button, a gap (a thin line between groups of buttons), or any other content of a given
 // width. A toolbar is a list of items that is made anew in each update.
 struct ToolbarItem {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <imgui.h>
+
 #include <map>
 #include <string>
 
 #include "editor/geometry/image_view.h"
+#include "editor/widgets/icons.h"
 
 namespace sigs::editor {
 
@@ -18,7 +21,12 @@ class UiProbe {
     if (wanted_) ui_probe_[name] = rect;
   }
   // The item that ImGui drew last; with a tooltip, as tooltip_for_item().
-  void note_item(const std::string& name, const std::string& tooltip = "");
+  void note_item(const std::string& name, const std::string& tooltip = "") {
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    note(name, {{low.x, low.y}, {high.x, high.y}});
+    tooltip_for_item(tooltip.c_str());
+  }
   // The same for a widget in a condition: passes on whether it was clicked or changed.
   [[nodiscard]] bool noted(bool clicked, const std::string& name, const std::string& tooltip = "") {
     note_item(name, tooltip);

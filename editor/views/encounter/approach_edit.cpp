@@ -163,6 +163,23 @@ std::string put_waypoints(const ViewContext& context, const char* name, const Ap
   return {};
 }
 
+// The waypoints of the flight that has this closest approach. Where only the misses differ from what is there, all
+// waypoints move together. Otherwise a straight flight gets two waypoints, in the first frame and in the last one, and
+// a curve stays a curve with its waypoints: the flight is moved in time with its closest approach, turned about the
+// vertical as its course there is, and has a constant velocity added, so that its turns keep their accelerations.
+// Where there is no such flight: the reason in one line that begins with the quantity.
+tl::expected<std::vector<WaypointSettings>, std::string> waypoints_for(const ApproachStart& start,
+                                                                       const PlannedApproach& wanted) {
+  const PresentApproach& present = start.present;
+  const bool has_direction = present.is_within && present.approach.closing_speed_mps > 0;
+  if (has_direction && keeps_motion(present.approach, wanted)) return curved(start, wanted);
+  // The flight as planned by numbers alone says why there can be none at all.
+  tl::expected<std::vector<WaypointSettings>, std::string> plain = straight(start, wanted);
+  const bool is_curve = !present.is_straight && start.plan.waypoints.size() > 2 &&
+                        start.plan.timing == Timing::frames && start.plan.spline == SplineKind::interpolating;
+  return plain && is_curve ? curved(start, wanted) : plain;
+}
+
 }  // namespace
 
 std::optional<PresentApproach> present_approach(const ViewContext& context, int intruder) {
@@ -204,18 +221,6 @@ std::optional<ApproachStart> approach_start(const ViewContext& context, int intr
   if (!present || start.plan.waypoints.empty() || !(start.last_s > start.first_s)) return std::nullopt;
   start.present = *present;
   return start;
-}
-
-tl::expected<std::vector<WaypointSettings>, std::string> waypoints_for(const ApproachStart& start,
-                                                                       const PlannedApproach& wanted) {
-  const PresentApproach& present = start.present;
-  const bool has_direction = present.is_within && present.approach.closing_speed_mps > 0;
-  if (has_direction && keeps_motion(present.approach, wanted)) return curved(start, wanted);
-  // The flight as planned by numbers alone says why there can be none at all.
-  tl::expected<std::vector<WaypointSettings>, std::string> plain = straight(start, wanted);
-  const bool is_curve = !present.is_straight && start.plan.waypoints.size() > 2 &&
-                        start.plan.timing == Timing::frames && start.plan.spline == SplineKind::interpolating;
-  return plain && is_curve ? curved(start, wanted) : plain;
 }
 
 tl::expected<PlannedApproach, std::string> approach_at_distance(const ApproachStart& start, double distance_m) {

@@ -61,14 +61,6 @@ struct ApproachStart {
 // None as of present_approach(), and while the open scene is not the document's present state.
 [[nodiscard]] std::optional<ApproachStart> approach_start(const ViewContext& context, int intruder);
 
-// The waypoints of the flight that has this closest approach. Where only the misses differ from what is there, all
-// waypoints move together. Otherwise a straight flight gets two waypoints, in the first frame and in the last one, and
-// a curve stays a curve with its waypoints: the flight is moved in time with its closest approach, turned about the
-// vertical as its course there is, and has a constant velocity added, so that its turns keep their accelerations.
-// Where there is no such flight: the reason in one line that begins with the quantity.
-[[nodiscard]] tl::expected<std::vector<WaypointSettings>, std::string> waypoints_for(const ApproachStart& start,
-                                                                                     const PlannedApproach& wanted);
-
 // The approach whose misses are those of the start, both in the same proportion larger or smaller, so that the least
 // slant range becomes distance_m >= 0; equal misses of 0 become horizontal. Where no proportion does: the reason.
 [[nodiscard]] tl::expected<PlannedApproach, std::string> approach_at_distance(const ApproachStart& start,

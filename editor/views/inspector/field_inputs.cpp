@@ -164,6 +164,27 @@ std::optional<Edited> list_input(const std::vector<std::string>& values, const R
   return edited;
 }
 
+// Below each other where there is no room side by side.
+bool vector_input(glm::dvec3& value, const Field& field, float width, Typing& typing) {
+  constexpr std::array<const char*, 3> kIds{"##X", "##Y", "##Z"};
+  const float gap = scaled(4);
+  const bool side_by_side = (width - 2 * gap) / 3 >= scaled(64);
+  const float each = side_by_side ? std::floor((width - 2 * gap) / 3) : width;
+  Field part = field;
+  if (side_by_side && each < scaled(110)) part.unit = field.unit == "m" ? "" : field.unit;  // the label has it
+  bool has_changed = false;
+  for (int i = 0; i < 3; ++i) {
+    if (side_by_side && i > 0) ImGui::SameLine(0, gap);
+    const auto axis = static_cast<std::size_t>(i);
+    has_changed |= number_input(kIds[axis], value[i], part, each, typing);
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + scaled(3), high.y}, color::kAxes[axis], scaled(2),
+                                              ImDrawFlags_RoundCornersLeft);
+  }
+  return has_changed;
+}
+
 struct Input {
   const Field& field;
   const RowOptions& look;
@@ -244,26 +265,6 @@ bool number_input(const char* id, double& value, const Field& field, float width
       std::isfinite(field.minimum) ? &field.minimum : nullptr, std::isfinite(field.maximum) ? &field.maximum : nullptr,
       format.c_str(), ImGuiSliderFlags_AlwaysClamp);
   return takes_effect(is_changed, value, typing);
-}
-
-bool vector_input(glm::dvec3& value, const Field& field, float width, Typing& typing) {
-  constexpr std::array<const char*, 3> kIds{"##X", "##Y", "##Z"};
-  const float gap = scaled(4);
-  const bool side_by_side = (width - 2 * gap) / 3 >= scaled(64);
-  const float each = side_by_side ? std::floor((width - 2 * gap) / 3) : width;
-  Field part = field;
-  if (side_by_side && each < scaled(110)) part.unit = field.unit == "m" ? "" : field.unit;  // the label has it
-  bool has_changed = false;
-  for (int i = 0; i < 3; ++i) {
-    if (side_by_side && i > 0) ImGui::SameLine(0, gap);
-    const auto axis = static_cast<std::size_t>(i);
-    has_changed |= number_input(kIds[axis], value[i], part, each, typing);
-    const ImVec2 low = ImGui::GetItemRectMin();
-    const ImVec2 high = ImGui::GetItemRectMax();
-    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + scaled(3), high.y}, color::kAxes[axis], scaled(2),
-                                              ImDrawFlags_RoundCornersLeft);
-  }
-  return has_changed;
 }
 
 }  // namespace sigs::editor

@@ -55,9 +55,6 @@ struct Edited {
 // A number with its unit; true in updates in which it takes effect. Stays in the range.
 [[nodiscard]] bool number_input(const char* id, double& value, const Field& field, float width, Typing& typing);
 
-// X, Y, Z side by side, or below each other where there is no room; true in updates in which one takes effect.
-[[nodiscard]] bool vector_input(glm::dvec3& value, const Field& field, float width, Typing& typing);
-
 // What is wrong, by the key of the field that it is in: "intruders[0].model.file".
 using ProblemsByField = std::multimap<std::string, Problem, std::less<>>;
 

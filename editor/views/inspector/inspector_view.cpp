@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 
 #include "base/pose.h"
 #include "base/text.h"

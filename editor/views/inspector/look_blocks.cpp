@@ -202,14 +202,55 @@ void note_sun(const ViewContext& context) {
                    bearing_deg, elevation_deg, sun.visible_share > 0 ? "." : ": it has set."));
 }
 
-}  // namespace
+// The camera in the playhead's frame.
+struct Viewpoint {
+  glm::dvec3 camera_m{0, 0, 0};   // in the world
+  double camera_bearing_rad = 0;  // from world X to the right
+};
 
-LightBlock::Viewpoint LightBlock::viewpoint_of(const ViewContext& context) {
+Viewpoint viewpoint_of(const ViewContext& context) {
   const CameraPose camera = camera_pose_at(context, time_of(context, context.document.playhead()));
   return {camera.translation_m, attitude_of(camera.rotation).yaw_rad};
 }
 
-void LightBlock::draw_direction(const ViewContext& context, FieldRows& rows, const Viewpoint& viewpoint) {
+// Buttons that put the light behind, above or beside the camera: the sun's direction, or a point light at the
+// distance that it has.
+void draw_presets(const ViewContext& context) {
+  const Viewpoint viewpoint = viewpoint_of(context);
+  const double now_m = direction_of(context.project().light.position_m, viewpoint.camera_m).distance_m;
+  const bool is_sun = context.project().light.kind == LightKind::sun;
+  ButtonFlow flow;
+  for (const Preset& preset : kPresets) {
+    const bool is_pressed = flow.button(preset.label, preset.tooltip);
+    if (is_pressed && is_sun)
+      put_sun(context, deg_of_rad(viewpoint.camera_bearing_rad) + preset.bearing_deg, preset.elevation_deg);
+    else if (is_pressed)
+      put_light(context,
+                {.bearing_rad = viewpoint.camera_bearing_rad + rad_of_deg(preset.bearing_deg),
+                 .elevation_rad = rad_of_deg(preset.elevation_deg),
+                 .distance_m = now_m >= kMinDistance_m ? now_m : kUsualDistance_m},
+                viewpoint.camera_m, "");
+    context.ui_probe.note_item(std::string("inspector/light preset ") + preset.label);
+  }
+}
+
+// The button with which something lit is boxed in the footage; what is found while it is looked at.
+void draw_lit_like(const ViewContext& context) {
+  if (context.light != nullptr && context.light->is_running()) {
+    if (draw_job_progress(*context.light)) context.edits.ask(StopLightLike{});
+    context.ui_probe.note_item("inspector/stop lit like");
+    return;
+  }
+  if (context.ui_probe.noted(ImGui::Button("Lit like..."), "inspector/lit like",
+                             "Draw a box around a real aircraft in the footage, or another thing that the sun lights: "
+                             "the exposure is set so that the intruder is as bright as it."))
+    context.edits.ask(ShowLightLike{});
+}
+
+}  // namespace
+
+void LightBlock::draw_direction(const ViewContext& context, FieldRows& rows) {
+  const Viewpoint viewpoint = viewpoint_of(context);
   LightDirection light = dragged_.value_or(direction_of(context.project().light.position_m, viewpoint.camera_m));
   double bearing_deg = wrapped_deg(deg_of_rad(light.bearing_rad - viewpoint.camera_bearing_rad));
   double elevation_deg = deg_of_rad(light.elevation_rad);
@@ -237,38 +278,6 @@ void LightBlock::draw_direction(const ViewContext& context, FieldRows& rows, con
   dragged_ = is_held ? std::optional(light) : std::nullopt;
 }
 
-void LightBlock::draw_presets(const ViewContext& context, const Viewpoint& viewpoint) const {
-  const double now_m = direction_of(context.project().light.position_m, viewpoint.camera_m).distance_m;
-  const bool is_sun = context.project().light.kind == LightKind::sun;
-  ButtonFlow flow;
-  for (const Preset& preset : kPresets) {
-    const bool is_pressed = flow.button(preset.label, preset.tooltip);
-    if (is_pressed && is_sun)
-      put_sun(context, deg_of_rad(viewpoint.camera_bearing_rad) + preset.bearing_deg, preset.elevation_deg);
-    else if (is_pressed)
-      put_light(context,
-                {.bearing_rad = viewpoint.camera_bearing_rad + rad_of_deg(preset.bearing_deg),
-                 .elevation_rad = rad_of_deg(preset.elevation_deg),
-                 .distance_m = now_m >= kMinDistance_m ? now_m : kUsualDistance_m},
-                viewpoint.camera_m, "");
-    context.ui_probe.note_item(std::string("inspector/light preset ") + preset.label);
-  }
-}
-
-void LightBlock::draw_lit_like(const ViewContext& context) {
-  if (context.light != nullptr && context.light->is_running()) {
-    if (draw_job_progress(*context.light)) context.edits.ask(StopLightLike{});
-    context.ui_probe.note_item("inspector/stop lit like");
-    return;
-  }
-  if (context.ui_probe.noted(ImGui::Button("Lit like..."), "inspector/lit like",
-                             "Draw a box around a real aircraft in the footage, or another thing that the sun lights: "
-                             "the exposure is set so "
-                             "that "
-                             "the intruder is as bright as it."))
-    context.edits.ask(ShowLightLike{});
-}
-
 void LightBlock::draw(const ViewContext& context, FieldRows& rows) {
   if (context.project().footage.spectrum == Spectrum::thermal)
     return note(
@@ -278,7 +287,7 @@ void LightBlock::draw(const ViewContext& context, FieldRows& rows) {
     for (const char* const key : kSunKeys) rows.row(key, look_of_light(key));
     note_sun(context);
     note("As seen from the camera");
-    draw_presets(context, viewpoint_of(context));
+    draw_presets(context);
     ImGui::Spacing();
     for (const char* const key : kSunColorKeys) rows.row(key, look_of_light(key));
     return;
@@ -286,9 +295,8 @@ void LightBlock::draw(const ViewContext& context, FieldRows& rows) {
   for (const char* const key : kPointKeys) rows.row(key, look_of_light(key));
   ImGui::Spacing();
   note("As seen from the camera");
-  const Viewpoint viewpoint = viewpoint_of(context);
-  draw_direction(context, rows, viewpoint);
-  draw_presets(context, viewpoint);
+  draw_direction(context, rows);
+  draw_presets(context);
 }
 
 }  // namespace sigs::editor

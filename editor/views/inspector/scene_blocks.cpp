@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <numbers>
 
 #include "base/pose.h"
 #include "base/text.h"

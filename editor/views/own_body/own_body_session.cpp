@@ -48,11 +48,11 @@ cv::Mat with_edge(const cv::Mat& mask, double has_px, double wanted_px) {
 // Where a painting comes from.
 constexpr const char* kOfClouds = "clouds of a frame";
 
-}  // namespace
-
 fs::path new_mask_file(const Project& project) {
   return new_file_beside(project, kMaskEnding, ".png");
 }
+
+}  // namespace
 
 fs::path usual_mask_file(const Project& project) {
   const fs::path named = project_mask_file(project);

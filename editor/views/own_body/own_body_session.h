@@ -140,7 +140,4 @@ class OwnBodySession {
 // Where the mask of a project would lie: the file that it names, else one beside it.
 [[nodiscard]] std::filesystem::path usual_mask_file(const Project& project);
 
-// One beside the project that is not there yet: NAME_own_body.png, NAME_own_body_2.png, ...
-[[nodiscard]] std::filesystem::path new_mask_file(const Project& project);
-
 }  // namespace sigs::editor

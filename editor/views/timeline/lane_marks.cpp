@@ -11,6 +11,10 @@
 
 namespace sigs::editor {
 
+namespace {
+
+// One standard deviation to both sides of a lane's curve, where it is known, as a pale band; no finer than the screen.
+// first_frame: that of the lane's first value, as a frame of the footage.
 void draw_deviation_band(ImDrawList& list, const TimelineStrip& strip, const LaneValues& lane, int first_frame,
                          const LaneBox& box, ImU32 shade) {
   if (lane.deviations.empty()) return;
@@ -31,8 +35,6 @@ void draw_deviation_band(ImDrawList& list, const TimelineStrip& strip, const Lan
                        {strip.edge_x(first + i + stride), y_of(value - sd)}, shade);
   }
 }
-
-namespace {
 
 // Room between the curve and the lane's edges.
 LaneBox box_of(const LaneMarks& marks) {

@@ -150,11 +150,6 @@ void draw_visibility_strip(ImDrawList& list, const TimelineStrip& strip, const S
 // For a tooltip: what the colours mean, a line each.
 void list_visibility_colors();
 
-// One standard deviation to both sides of a lane's curve, where it is known, as a pale band; no finer than the screen.
-// first_frame: that of the lane's first value, as a frame of the footage.
-void draw_deviation_band(ImDrawList& list, const TimelineStrip& strip, const LaneValues& lane, int first_frame,
-                         const LaneBox& box, ImU32 shade);
-
 // From one moment to another, both in the middle of frames, cut to the strip and at least 2 px wide.
 void draw_stretch(ImDrawList& list, const TimelineStrip& strip, double first_frame, double last_frame, float top_y,
                   float bottom_y, ImU32 shade);

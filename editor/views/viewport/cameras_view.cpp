@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -32,6 +31,32 @@ double zoom_in_columns(const std::vector<glm::dvec2>& sizes_px, const glm::dvec2
   double zoom = 1e9;
   for (const glm::dvec2& size : sizes_px) zoom = std::min({zoom, cell_px.x / size.x, cell_px.y / size.y});
   return zoom;
+}
+
+// Where images lie side by side, in as many columns as leave each the most room; by index. Places that share a row are
+// equally high. Sizes are in pixels of the images; rect is on the screen.
+std::vector<ScreenRect> mosaic_places(const std::vector<glm::dvec2>& sizes_px, const ScreenRect& rect, double gap_px) {
+  const std::size_t count = sizes_px.size();
+  std::size_t best = 1;
+  double best_zoom = -1;
+  glm::dvec2 cell{1, 1};
+  for (std::size_t columns = 1; columns <= count; ++columns) {
+    const std::size_t rows = (count + columns - 1) / columns;
+    const glm::dvec2 grid(static_cast<double>(columns), static_cast<double>(rows));
+    const glm::dvec2 room = glm::max((rect.size() - (grid - 1.0) * gap_px) / grid, 1.0);
+    const double zoom = zoom_in_columns(sizes_px, room);
+    if (zoom <= best_zoom) continue;
+    best = columns;
+    best_zoom = zoom;
+    cell = room;
+  }
+  std::vector<ScreenRect> places;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec2 at(static_cast<double>(i % best), static_cast<double>(i / best));
+    const glm::dvec2 low = glm::floor(rect.low + at * (cell + gap_px));
+    places.push_back({low, glm::floor(low + cell)});
+  }
+  return places;
 }
 
 void draw_name(const ImageCanvas& canvas, const std::string& name, const std::string& why_still, bool is_active) {
@@ -77,30 +102,6 @@ void CameraTabs::draw(const ViewContext& context) {
     active_ = open;
     context.edits.activate_camera(open);
   }
-}
-
-std::vector<ScreenRect> mosaic_places(const std::vector<glm::dvec2>& sizes_px, const ScreenRect& rect, double gap_px) {
-  const std::size_t count = sizes_px.size();
-  std::size_t best = 1;
-  double best_zoom = -1;
-  glm::dvec2 cell{1, 1};
-  for (std::size_t columns = 1; columns <= count; ++columns) {
-    const std::size_t rows = (count + columns - 1) / columns;
-    const glm::dvec2 grid(static_cast<double>(columns), static_cast<double>(rows));
-    const glm::dvec2 room = glm::max((rect.size() - (grid - 1.0) * gap_px) / grid, 1.0);
-    const double zoom = zoom_in_columns(sizes_px, room);
-    if (zoom <= best_zoom) continue;
-    best = columns;
-    best_zoom = zoom;
-    cell = room;
-  }
-  std::vector<ScreenRect> places;
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec2 at(static_cast<double>(i % best), static_cast<double>(i / best));
-    const glm::dvec2 low = glm::floor(rect.low + at * (cell + gap_px));
-    places.push_back({low, glm::floor(low + cell)});
-  }
-  return places;
 }
 
 void Mosaic::handle_mouse(const ViewContext& context, std::size_t camera, const ToolContext* tool, CameraTabs& tabs) {

@@ -29,11 +29,6 @@ class CameraTabs {
   int updates_to_select_ = 2;  // until ImGui has brought the wanted tab to the front
 };
 
-// Where images lie side by side, in as many columns as leave each the most room; by index. Places that share a row are
-// equally high. Sizes are in pixels of the images; rect is on the screen.
-[[nodiscard]] std::vector<ScreenRect> mosaic_places(const std::vector<glm::dvec2>& sizes_px, const ScreenRect& rect,
-                                                    double gap_px);
-
 // The composited images of all cameras side by side, at the playhead, with the cameras' names and the intruders' boxes,
 // paths and waypoints, which are dragged in any of them. A click on one asks for its tab.
 class Mosaic {

@@ -192,6 +192,14 @@ std::string heading_text(double heading_deg, bool from_north) {
   return fmt::format("{:03}", whole);
 }
 
+namespace {
+
+// What headings count from: true north where the scene knows it.
+struct HeadingReference {
+  double heading_of_x_rad = 0;
+  bool is_north = false;
+};
+
 HeadingReference heading_reference(const ViewContext& context) {
   if (!context.shown.scene || !context.shown.scene->project) return {};
   const Scene& scene = context.shown.scene->draft.scene;
@@ -202,6 +210,7 @@ HeadingReference heading_reference(const ViewContext& context) {
   return {.heading_of_x_rad = scene.earth->heading_rad(), .is_north = true};
 }
 
+// As a direction of the world; none where the camera hangs in the air.
 std::optional<glm::dvec3> flight_direction(const ViewContext& context, int frame) {
   const double time_s = time_of(context, frame);
   const glm::dvec3 before_m = camera_pose_at(context, time_s - kSpeedSpan_s / 2).translation_m;
@@ -210,6 +219,7 @@ std::optional<glm::dvec3> flight_direction(const ViewContext& context, int frame
   return glm::normalize(way_m);
 }
 
+// Along the horizon, and a circle with wings in the direction of flight.
 void draw_heading_marks(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye,
                         LabelPlacer& labels) {
   const glm::dvec2 image_px{canvas.image_px.width, canvas.image_px.height};
@@ -226,6 +236,8 @@ void draw_heading_marks(const ImageCanvas& canvas, const ViewContext& context, c
       draw_flight_mark(canvas, *pixel);
   canvas.draw.PopClipRect();
 }
+
+}  // namespace
 
 void keep_horizon(const ViewContext& context) {
   put_tilt(context, tilt_of(context.project()), {});

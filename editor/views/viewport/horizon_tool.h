@@ -29,20 +29,6 @@ struct HeadingMark {
 // "0", "45", "350" against world X; "N", "045", "350" against true north.
 [[nodiscard]] std::string heading_text(double heading_deg, bool from_north);
 
-// What headings count from: true north where the scene knows it.
-struct HeadingReference {
-  double heading_of_x_rad = 0;
-  bool is_north = false;
-};
-[[nodiscard]] HeadingReference heading_reference(const ViewContext& context);
-
-// Where the camera flies to, as a direction of the world; none where it hangs in the air, below 0.5 m/s.
-[[nodiscard]] std::optional<glm::dvec3> flight_direction(const ViewContext& context, int frame);
-
-// Marks with numbers along the horizon, and a circle with wings in the direction of flight.
-void draw_heading_marks(const ImageCanvas& canvas, const ViewContext& context, const FootageCamera& eye,
-                        LabelPlacer& labels);
-
 // Accepts the line where it lies: writes the camera's present roll and pitch into the project.
 void keep_horizon(const ViewContext& context);
 

@@ -28,6 +28,15 @@ const RealAircraftBox* box_in_frame(const RealAircraftBoxes& boxes, const std::s
   return nullptr;
 }
 
+// The straight line between two boxes of an aircraft, at a frame between theirs: each of the four numbers by itself.
+Box box_between(const RealAircraftBox& before, const RealAircraftBox& after, int frame) {
+  const double share = static_cast<double>(frame - before.frame) / (after.frame - before.frame);
+  const Box& a = before.box;
+  const Box& b = after.box;
+  return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share), std::lerp(a.width, b.width, share),
+          std::lerp(a.height, b.height, share)};
+}
+
 bool are_near(const Box& a, const Box& b) {
   const auto is_near = [](double one, double other) { return std::abs(one - other) <= kRounding_px; };
   return is_near(a.x, b.x) && is_near(a.y, b.y) && is_near(a.width, b.width) && is_near(a.height, b.height);
@@ -54,14 +63,6 @@ std::span<const RealAircraftBox> boxes_of_frame(const RealAircraftBoxes& boxes, 
   const auto first = std::ranges::lower_bound(boxes, frame, {}, &RealAircraftBox::frame);
   const auto end = std::ranges::upper_bound(boxes, frame, {}, &RealAircraftBox::frame);
   return {first, end};
-}
-
-Box box_between(const RealAircraftBox& before, const RealAircraftBox& after, int frame) {
-  const double share = static_cast<double>(frame - before.frame) / (after.frame - before.frame);
-  const Box& a = before.box;
-  const Box& b = after.box;
-  return {std::lerp(a.x, b.x, share), std::lerp(a.y, b.y, share), std::lerp(a.width, b.width, share),
-          std::lerp(a.height, b.height, share)};
 }
 
 bool is_filled(const RealAircraftBoxes& boxes, std::size_t index) {

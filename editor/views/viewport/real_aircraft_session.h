@@ -30,9 +30,6 @@ using RealAircraftBoxes = std::vector<RealAircraftBox>;
 // Those of one frame; valid for as long as the boxes do not change.
 [[nodiscard]] std::span<const RealAircraftBox> boxes_of_frame(const RealAircraftBoxes& boxes, int frame);
 
-// The straight line between two boxes of an aircraft, at a frame between theirs: each of the four numbers by itself.
-[[nodiscard]] Box box_between(const RealAircraftBox& before, const RealAircraftBox& after, int frame);
-
 // Whether the box of this index was filled in between others: it lies on the straight line between those of its
 // aircraft in the frames before and after, and its line reads as with_box() writes it.
 [[nodiscard]] bool is_filled(const RealAircraftBoxes& boxes, std::size_t index);

@@ -31,7 +31,7 @@ void ViewportView::draw(const ViewContext& context) {
   if (boxes_.is_marking()) overlays_.real_aircraft = true;
   const ImVec2 all = ImGui::GetContentRegionAvail();
   const glm::dvec2 room(all.x, std::max(1.0F, all.y - toolbar_height() - readout_height()));
-  draw_viewport_toolbar({overlays_, wipe_, look_});
+  draw_toolbar_row();
   const glm::dvec2 low = glm::round(dv(ImGui::GetCursorScreenPos()));
   draw_canvas(context, {low, low + glm::max(glm::floor(room), 1.0)});
   ImGui::SetCursorScreenPos(im({low.x, low.y + std::max(1.0, std::floor(room.y))}));
@@ -314,63 +314,61 @@ void ViewportWipe::draw_line(const ImageCanvas& canvas, bool highlighted) const 
     draw_label(canvas, {x + scaled(8), bottom}, "composite", color::kText);
 }
 
-void draw_viewport_toolbar(const ViewportSwitches& switches) {
-  OverlayChoice& overlays = switches.overlays;
+void ViewportView::draw_toolbar_row() {
   std::vector<ToolbarItem> items{
       toggle_item(
           {"box", Icon::box, "Box",
            "Boxes of the truth: what is visible solid, the whole silhouette dashed; and those of trackers, where "
            "results are loaded"},
-          overlays.box),
+          overlays_.box),
       toggle_item({"path", Icon::path, "Path", "The path of each intruder, as seen from here through the lens"},
-                  overlays.path),
+                  overlays_.path),
       toggle_item(
           {"waypoints", Icon::waypoints, "Waypoints",
            "Waypoints with their frames. Drag: move at constant distance; with Shift or Alt: nearer and farther. "
            "Double click on the image: add one"},
-          overlays.waypoints),
+          overlays_.waypoints),
       toggle_item(
           {"horizon", Icon::horizon, "Horizon",
            "Where the world is level. Drag the line onto the footage's own horizon: its middle up and down, its "
            "ends to tilt it. Numbers: headings against true north where it is known, else against world X; the "
            "circle with wings: where the camera flies to"},
-          overlays.horizon),
+          overlays_.horizon),
       toggle_item({"own body", Icon::own_body, "Own body",
                    "What hides intruders: the mask of the aircraft that carries the camera, and clouds where the "
                    "project says how far they are"},
-                  overlays.own_body),
+                  overlays_.own_body),
       toggle_item(
           {"real aircraft", Icon::aircraft, "Real aircraft",
            "Boxes of aircraft that the footage itself shows: solid where they were drawn, dashed where they are "
            "filled in between. The right button marks and deletes them"},
-          overlays.real_aircraft),
+          overlays_.real_aircraft),
       {.button = {.id = "grid",
                   .icon = Icon::grid,
-                  .label = label_of(overlays.grid),
+                  .label = label_of(overlays_.grid),
                   .tooltip = "Lines across the image: thirds, 8 x 6, none",
-                  .on = overlays.grid != ImageGrid::none},
-       .clicked = [&overlays] { overlays.grid = next(overlays.grid); }},
+                  .on = overlays_.grid != ImageGrid::none},
+       .clicked = [this] { overlays_.grid = next(overlays_.grid); }},
       {.button = {.id = "gain",
-                  .label = kGains[static_cast<std::size_t>(overlays.doublings)],
+                  .label = kGains[static_cast<std::size_t>(overlays_.doublings)],
                   .tooltip =
                       "Shows dark footage brighter: twice, 4, 8 and 16 times. For the eye alone: nothing that is "
                       "exported changes",
-                  .on = overlays.doublings > 0},
-       .clicked = [&overlays] { overlays.doublings = (overlays.doublings + 1) % (OverlayChoice::kMaxDoublings + 1); }},
+                  .on = overlays_.doublings > 0},
+       .clicked = [this] { overlays_.doublings = (overlays_.doublings + 1) % (OverlayChoice::kMaxDoublings + 1); }},
       {.is_gap = true},
       {.button = {.id = "wipe",
                   .icon = Icon::wipe,
                   .label = "Wipe",
                   .tooltip = "Untouched footage left of a line that can be dragged. Hold \\: footage alone",
-                  .on = switches.wipe.is_on()},
-       .clicked = [&switches] { switches.wipe.toggle(); }},
+                  .on = wipe_.is_on()},
+       .clicked = [this] { wipe_.toggle(); }},
       {.is_gap = true},
   };
-  ZoomableImage& look = switches.look;
-  add_zoom_items(items, {.is_fitted = look.is_fitted(),
-                         .zoom = look.zoom(),
-                         .fit = [&look] { look.fit(); },
-                         .to_exact = [&look] { look.zoom_to(1, look.room_px() / 2.0); }});
+  add_zoom_items(items, {.is_fitted = look_.is_fitted(),
+                         .zoom = look_.zoom(),
+                         .fit = [this] { look_.fit(); },
+                         .to_exact = [this] { look_.zoom_to(1, look_.room_px() / 2.0); }});
   draw_toolbar(items);
 }
 

@@ -40,16 +40,6 @@ class ViewportWipe {
   double share_ = 0.5;
 };
 
-// What the toolbar above the image switches; it is changed while drawing.
-struct ViewportSwitches {
-  OverlayChoice& overlays;
-  ViewportWipe& wipe;
-  ZoomableImage& look;
-};
-
-// One row: labels where they have room, else icons alone; what still has no room is in a popup at the end of the row.
-void draw_viewport_toolbar(const ViewportSwitches& switches);
-
 // The line below the image: what the mouse is over, and what the image is.
 struct ViewportReadout {
   std::optional<cv::Point> pixel;  // the pixel under the mouse; none: beside the image
@@ -113,6 +103,7 @@ class ViewportView {
   // box, or the image itself, which is panned.
   enum class Grip { nothing, line, waypoint, horizon, box, ground };
 
+  void draw_toolbar_row();
   // The image and all over it, in `rect` of the screen. `tool` below is null while no scene is open.
   void draw_canvas(const ViewContext& context, const ScreenRect& rect);
   // A line of text while there is no image yet.

@@ -22,22 +22,6 @@ ScreenRect canvas_rect() {
   return {{low.x, low.y}, {low.x + room.x, low.y + room.y}};
 }
 
-WorldViewTargets targets_of(const WorldContext& world, const std::vector<glm::dvec3>& points_m) {
-  return {.points_m = points_m,
-          .world_from_camera = world.moment.world_from_camera,
-          .view_depth_m = view_depth_m(world.model)};
-}
-
-void frame_all(const WorldContext& world, const ScreenRect& rect, WorldViewState& look) {
-  const std::vector<glm::dvec3> points_m = points_of_interest(world.context, world.model);
-  look = with_all_in_view(look, targets_of(world, points_m), rect);
-}
-
-void preset(const WorldContext& world, const ScreenRect& rect, WorldViewPreset wanted, WorldViewState& look) {
-  const std::vector<glm::dvec3> points_m = points_of_interest(world.context, world.model);
-  look = with_preset(look, wanted, targets_of(world, points_m), rect);
-}
-
 // Over an empty world: what to do next.
 void offer_intruder(const ViewContext& context, const ScreenRect& rect) {
   if (!context.project().intruders.empty()) return;
@@ -51,12 +35,86 @@ void offer_intruder(const ViewContext& context, const ScreenRect& rect) {
 constexpr double kPi = std::numbers::pi;
 
 // A little behind and above the camera.
-OrbitCamera behind_camera(const WorldViewTargets& targets) {
-  const glm::dvec3 axis = targets.world_from_camera.rotation * glm::dvec3(1, 0, 0);
-  OrbitCamera eye{.distance_m = std::clamp(targets.view_depth_m * 0.18, 12.0, 400.0), .elevation_rad = 0.16};
+OrbitCamera behind_camera(const WorldContext& world) {
+  const CameraPose& camera = world.moment.world_from_camera;
+  const glm::dvec3 axis = camera.rotation * glm::dvec3(1, 0, 0);
+  OrbitCamera eye{.distance_m = std::clamp(view_depth_m(world.model) * 0.18, 12.0, 400.0), .elevation_rad = 0.16};
   eye.bearing_rad = std::atan2(axis.y, axis.x);
-  eye.target_m = targets.world_from_camera.translation_m + axis * (eye.distance_m * 0.4);
+  eye.target_m = camera.translation_m + axis * (eye.distance_m * 0.4);
   return eye;
+}
+
+// All points of interest in sight, or from behind the camera.
+void preset(const WorldContext& world, const ScreenRect& rect, WorldViewPreset wanted, WorldViewState& look) {
+  look.preset = wanted;
+  look.eye = {};
+  switch (wanted) {
+    case WorldViewPreset::orbit:
+      look.eye.bearing_rad = -0.7;
+      look.eye.elevation_rad = 0.5;
+      break;
+    case WorldViewPreset::top:
+      look.eye.elevation_rad = kPi / 2;
+      look.eye.projection = Projection::parallel;
+      break;
+    case WorldViewPreset::side:  // flying to the right
+      look.eye.bearing_rad = -kPi / 2;
+      look.eye.projection = Projection::parallel;
+      break;
+    case WorldViewPreset::camera:
+      look.eye = behind_camera(world);
+      return;
+  }
+  look.eye = framing(look.eye, points_of_interest(world.context, world.model), rect);
+}
+
+// The same direction, all points of interest in sight; behind the camera, that preset again.
+void frame_all(const WorldContext& world, const ScreenRect& rect, WorldViewState& look) {
+  if (look.preset == WorldViewPreset::camera) return preset(world, rect, look.preset, look);
+  look.eye = framing(look.eye, points_of_interest(world.context, world.model), rect);
+}
+
+// What the user asked for with a button in this update. Projection and snapping are switched in the state itself.
+struct WorldToolbarResult {
+  std::optional<WorldViewPreset> preset;
+  bool frame_all = false;
+};
+
+WorldToolbarResult draw_world_toolbar(WorldViewState& look, UiProbe& ui_probe) {
+  WorldToolbarResult answer;
+  const auto preset = [&](ToolButton button, WorldViewPreset wanted) {
+    button.on = look.preset == wanted;
+    ToolbarItem item{.button = button, .clicked = [&answer, wanted] { answer.preset = wanted; }};
+    item.drawn = [&ui_probe, id = std::string(button.id)] { ui_probe.note_item("world/" + id); };
+    return item;
+  };
+  ToolbarItem volumes = toggle_item(
+      {"volumes", Icon::cylinder, "", "Volumes of well clear around the camera: export.encounter, else small-uas"},
+      look.volumes);
+  volumes.drawn = [&] { ui_probe.note_item("world/volumes"); };
+  const std::vector<ToolbarItem> items{
+      preset(
+          {"orbit", Icon::orbit, "Orbit", "From behind and above; left drag turns, middle drag or Shift + left moves"},
+          WorldViewPreset::orbit),
+      preset({"top", Icon::view_from_top, "Top", "From above, the camera's way upwards"}, WorldViewPreset::top),
+      preset({"side", Icon::view_from_side, "Side", "From the right-hand side, the camera flying to the right"},
+             WorldViewPreset::side),
+      preset({"camera", Icon::camera, "Camera", "From behind the camera, going with it"}, WorldViewPreset::camera),
+      {.is_gap = true},
+      {.button = {"frame", Icon::fit_contents, "", "Everything in sight (F); the light too while it is selected"},
+       .clicked = [&] { answer.frame_all = true; }},
+      {.button = {"perspective", Icon::perspective, "", "Perspective; off: parallel, true to scale",
+                  look.eye.projection == Projection::perspective},
+       .clicked =
+           [&] {
+             const bool is_on = look.eye.projection == Projection::perspective;
+             look.eye.projection = is_on ? Projection::parallel : Projection::perspective;
+           }},
+      volumes,
+      toggle_item({"snap", Icon::snap, "", "Move in round steps (Ctrl: the other way for once)"}, look.snap),
+  };
+  draw_toolbar(items);
+  return answer;
 }
 
 }  // namespace
@@ -133,76 +191,6 @@ void WorldView::draw(const ViewContext& context) {
   tools_.draw(canvas, world, look_);
   offer_intruder(context, rect);
   ImGui::PopClipRect();
-}
-
-WorldViewState with_preset(const WorldViewState& look, WorldViewPreset preset, const WorldViewTargets& targets,
-                           const ScreenRect& rect) {
-  WorldViewState result = look;
-  result.preset = preset;
-  result.eye = {};
-  switch (preset) {
-    case WorldViewPreset::orbit:
-      result.eye.bearing_rad = -0.7;
-      result.eye.elevation_rad = 0.5;
-      break;
-    case WorldViewPreset::top:
-      result.eye.elevation_rad = kPi / 2;
-      result.eye.projection = Projection::parallel;
-      break;
-    case WorldViewPreset::side:  // flying to the right
-      result.eye.bearing_rad = -kPi / 2;
-      result.eye.projection = Projection::parallel;
-      break;
-    case WorldViewPreset::camera:
-      result.eye = behind_camera(targets);
-      return result;
-  }
-  result.eye = framing(result.eye, targets.points_m, rect);
-  return result;
-}
-
-WorldViewState with_all_in_view(const WorldViewState& look, const WorldViewTargets& targets, const ScreenRect& rect) {
-  if (look.preset == WorldViewPreset::camera) return with_preset(look, look.preset, targets, rect);
-  WorldViewState result = look;
-  result.eye = framing(look.eye, targets.points_m, rect);
-  return result;
-}
-
-WorldToolbarResult draw_world_toolbar(WorldViewState& look, UiProbe& ui_probe) {
-  WorldToolbarResult answer;
-  const auto preset = [&](ToolButton button, WorldViewPreset wanted) {
-    button.on = look.preset == wanted;
-    ToolbarItem item{.button = button, .clicked = [&answer, wanted] { answer.preset = wanted; }};
-    item.drawn = [&ui_probe, id = std::string(button.id)] { ui_probe.note_item("world/" + id); };
-    return item;
-  };
-  ToolbarItem volumes = toggle_item(
-      {"volumes", Icon::cylinder, "", "Volumes of well clear around the camera: export.encounter, else small-uas"},
-      look.volumes);
-  volumes.drawn = [&] { ui_probe.note_item("world/volumes"); };
-  const std::vector<ToolbarItem> items{
-      preset(
-          {"orbit", Icon::orbit, "Orbit", "From behind and above; left drag turns, middle drag or Shift + left moves"},
-          WorldViewPreset::orbit),
-      preset({"top", Icon::view_from_top, "Top", "From above, the camera's way upwards"}, WorldViewPreset::top),
-      preset({"side", Icon::view_from_side, "Side", "From the right-hand side, the camera flying to the right"},
-             WorldViewPreset::side),
-      preset({"camera", Icon::camera, "Camera", "From behind the camera, going with it"}, WorldViewPreset::camera),
-      {.is_gap = true},
-      {.button = {"frame", Icon::fit_contents, "", "Everything in sight (F); the light too while it is selected"},
-       .clicked = [&] { answer.frame_all = true; }},
-      {.button = {"perspective", Icon::perspective, "", "Perspective; off: parallel, true to scale",
-                  look.eye.projection == Projection::perspective},
-       .clicked =
-           [&] {
-             const bool is_on = look.eye.projection == Projection::perspective;
-             look.eye.projection = is_on ? Projection::parallel : Projection::perspective;
-           }},
-      volumes,
-      toggle_item({"snap", Icon::snap, "", "Move in round steps (Ctrl: the other way for once)"}, look.snap),
-  };
-  draw_toolbar(items);
-  return answer;
 }
 
 namespace {

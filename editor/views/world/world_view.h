@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -61,31 +60,6 @@ struct WorldViewState {
   // The user has moved the camera since the project was opened: it is not framed anew by itself.
   bool touched = false;
 };
-
-// What a preset is taken from.
-struct WorldViewTargets {
-  // What is to be in sight, in the world.
-  std::span<const glm::dvec3> points_m;
-  CameraPose world_from_camera;
-  double view_depth_m = 200;  // how far the camera's field of view is drawn
-};
-
-// From behind, above or the right-hand side with all points in sight; or from behind the camera, looking as it does.
-[[nodiscard]] WorldViewState with_preset(const WorldViewState& look, WorldViewPreset preset,
-                                         const WorldViewTargets& targets, const ScreenRect& rect);
-
-// The same direction, all points in sight; behind the camera, that preset again.
-[[nodiscard]] WorldViewState with_all_in_view(const WorldViewState& look, const WorldViewTargets& targets,
-                                              const ScreenRect& rect);
-
-// What the user asked for with a button in this update. Projection and snapping are switched in the state itself.
-struct WorldToolbarResult {
-  std::optional<WorldViewPreset> preset;
-  bool frame_all = false;
-};
-
-// One row over the world view, at the cursor.
-[[nodiscard]] WorldToolbarResult draw_world_toolbar(WorldViewState& look, UiProbe& ui_probe);
 
 // The handle of the closest approach, a diamond where the current intruder is then. Dragged, it moves the miss sideways
 // and in height, perpendicular to the horizontal relative motion: speed, bearing and time stay. One undo step; Escape
