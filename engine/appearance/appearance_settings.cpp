@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -33,17 +34,8 @@ double rounded(double value) {
 }
 
 const char* unit_of(QuantiserKind kind) {
-  switch (kind) {
-    case QuantiserKind::h264:
-      return "QP";
-    case QuantiserKind::mpeg:
-      return "codes a step";
-    case QuantiserKind::jpeg:
-      return "% quality";
-    case QuantiserKind::none:
-      break;
-  }
-  return "";
+  static constexpr std::array kUnits{"QP", "codes a step", "", "% quality"};
+  return kUnits.at(static_cast<std::size_t>(kind));
 }
 
 void add_color(std::vector<AppearanceQuantity>& list, const std::string& name, const std::array<Estimate, 3>& color,

@@ -2,6 +2,7 @@
 #include "appearance/sun.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -49,17 +50,8 @@ glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad) {
 }
 
 std::string how_found(SunEvidence evidence) {
-  switch (evidence) {
-    case SunEvidence::given:
-      return "by time and place";
-    case SunEvidence::shadows:
-      return "by shadows on the ground";
-    case SunEvidence::sky:
-      return "by the sky's brightness";
-    case SunEvidence::none:
-      break;
-  }
-  return "";
+  static constexpr std::array kWays{"", "by time and place", "by shadows on the ground", "by the sky's brightness"};
+  return kWays.at(static_cast<std::size_t>(evidence));
 }
 
 void Sun::add(const Frame& frame, const LightImage& image) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -188,19 +189,8 @@ ClockOffset clock_by_time_codes(const TimeCode& first, const TimeCode& second) {
 }
 
 const char* name_of(ClockSource source) {
-  switch (source) {
-    case ClockSource::turns:
-      return "turns";
-    case ClockSource::sound:
-      return "sound";
-    case ClockSource::log:
-      return "log";
-    case ClockSource::time_code:
-      return "time code";
-    case ClockSource::creation_time:
-      return "creation time";
-  }
-  return "";
+  static constexpr std::array kNames{"turns", "sound", "log", "time code", "creation time"};
+  return kNames.at(static_cast<std::size_t>(source));
 }
 
 namespace {
@@ -213,19 +203,9 @@ class ClockSearch {
       : first_(first), second_(second), settings_(settings), control_(control) {}
 
   [[nodiscard]] ClockFinding by(ClockSource source) const {
-    switch (source) {
-      case ClockSource::turns:
-        return by_turns();
-      case ClockSource::sound:
-        return by_sound();
-      case ClockSource::log:
-        return by_log();
-      case ClockSource::time_code:
-        return by_time_code();
-      case ClockSource::creation_time:
-        return by_creation_time();
-    }
-    return {};
+    static constexpr std::array kWays{&ClockSearch::by_turns, &ClockSearch::by_sound, &ClockSearch::by_log,
+                                      &ClockSearch::by_time_code, &ClockSearch::by_creation_time};
+    return (this->*kWays.at(static_cast<std::size_t>(source)))();
   }
 
  private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
+#include <array>
 #include <vector>
 
 #include "base/ensure.h"
@@ -22,20 +23,11 @@ struct LumaShares {
   double blue = 0;
 };
 
-LumaShares luma_shares(double red, double blue) {
-  return {red, 1 - red - blue, blue};
-}
-
 LumaShares luma_shares(ColorMatrix matrix) {
-  switch (matrix) {
-    case ColorMatrix::bt601:
-      return luma_shares(0.299, 0.114);
-    case ColorMatrix::bt709:
-      return luma_shares(0.2126, 0.0722);
-    case ColorMatrix::bt2020:
-      return luma_shares(0.2627, 0.0593);
-  }
-  ENSURE(false);
+  // Shares of red and blue, in the order of ColorMatrix.
+  static constexpr std::array<std::array<double, 2>, 3> kRedBlue{{{0.299, 0.114}, {0.2126, 0.0722}, {0.2627, 0.0593}}};
+  const auto& [red, blue] = kRedBlue.at(static_cast<std::size_t>(matrix));
+  return {red, 1 - red - blue, blue};
 }
 
 // How many code values luma 0..1 and a colour difference of -0.5..0.5 span: H.273, equations 20 to 31.
@@ -297,17 +289,8 @@ Frame blank_frame(PixelLayout layout, cv::Size size_px, const ColorInfo& color, 
 }
 
 cv::Size chroma_step(PixelLayout layout) {
-  switch (layout) {
-    case PixelLayout::yuv420:
-      return {2, 2};
-    case PixelLayout::yuv422:
-      return {2, 1};
-    case PixelLayout::gray:
-    case PixelLayout::yuv444:
-    case PixelLayout::rgb:
-      break;
-  }
-  return {1, 1};
+  return {layout == PixelLayout::yuv420 || layout == PixelLayout::yuv422 ? 2 : 1,
+          layout == PixelLayout::yuv420 ? 2 : 1};
 }
 
 cv::Mat bgr_of(const Frame& frame) {

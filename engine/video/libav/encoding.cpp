@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <string>
 
@@ -72,26 +73,11 @@ void make_jpeg(Encoding& encoding) {
 }
 
 const char* encoder_of(VideoCodec codec) {
-  switch (codec) {
-    case VideoCodec::ffv1:
-      return "ffv1";
-    case VideoCodec::h264:
-      return "libx264";
-    case VideoCodec::hevc:
-      return "libx265";
-    case VideoCodec::av1:
-      return "libaom-av1";
-    case VideoCodec::mjpeg:
-      return "mjpeg";
-    case VideoCodec::raw:
-      return "rawvideo";
-    case VideoCodec::png:
-    case VideoCodec::tiff:
-    case VideoCodec::jpeg:
-    case VideoCodec::source:
-      break;
-  }
-  ENSURE(false);
+  static constexpr std::array<const char*, 10> kEncoders{"ffv1",  "libx264", "libx265", "libaom-av1", "mjpeg",
+                                                         nullptr, nullptr,   nullptr,   "rawvideo",   nullptr};
+  const char* const name = kEncoders.at(static_cast<std::size_t>(codec));
+  ENSURE(name != nullptr);
+  return name;
 }
 
 AVPixelFormat jpeg_format(PixelLayout layout) {

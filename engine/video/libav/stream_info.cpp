@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -14,9 +15,6 @@ extern "C" {
 #include <libavutil/display.h>
 #include <libavutil/pixdesc.h>
 #include <libavutil/spherical.h>
-}
-extern "C" {
-#include <libavutil/pixdesc.h>
 }
 
 #include "video/chroma.h"
@@ -29,6 +27,10 @@ namespace {
 
 constexpr int kUnspecified = 2;  // ISO/IEC 23091-2
 constexpr int kHighDefinitionLines = 720;
+
+// In the order of ColorMatrix and of ChromaSite.
+constexpr std::array kSpaces{AVCOL_SPC_SMPTE170M, AVCOL_SPC_BT709, AVCOL_SPC_BT2020_NCL};
+constexpr std::array kSites{AVCHROMA_LOC_LEFT, AVCHROMA_LOC_CENTER, AVCHROMA_LOC_TOPLEFT};
 
 bool is_jpeg_format(AVPixelFormat format) {
   return format == AV_PIX_FMT_YUVJ420P || format == AV_PIX_FMT_YUVJ422P || format == AV_PIX_FMT_YUVJ444P ||
@@ -51,22 +53,14 @@ void read_range(ColorInfo& color, const AVFrame& image, AVCodecID codec, PixelLa
 }
 
 std::string read_matrix(ColorInfo& color, const AVFrame& image) {
-  color.matrix_stated = true;
-  switch (image.colorspace) {
-    case AVCOL_SPC_BT709:
-      color.matrix = ColorMatrix::bt709;
-      return {};
-    case AVCOL_SPC_BT470BG:
-    case AVCOL_SPC_SMPTE170M:
-      color.matrix = ColorMatrix::bt601;
-      return {};
-    case AVCOL_SPC_BT2020_NCL:
-      color.matrix = ColorMatrix::bt2020;
-      return {};
-    default:
-      break;
+  // BT.470 System B, G has BT.601's coefficients.
+  const AVColorSpace space = image.colorspace == AVCOL_SPC_BT470BG ? AVCOL_SPC_SMPTE170M : image.colorspace;
+  const auto* const known = std::ranges::find(kSpaces, space);
+  color.matrix_stated = known != kSpaces.end();
+  if (color.matrix_stated) {
+    color.matrix = static_cast<ColorMatrix>(known - kSpaces.begin());
+    return {};
   }
-  color.matrix_stated = false;
   color.matrix = image.height < kHighDefinitionLines ? ColorMatrix::bt601 : ColorMatrix::bt709;
   if (image.colorspace == AVCOL_SPC_UNSPECIFIED || image.colorspace == AVCOL_SPC_RGB) return {};
   const char* name = av_color_space_name(image.colorspace);
@@ -75,18 +69,9 @@ std::string read_matrix(ColorInfo& color, const AVFrame& image) {
 }
 
 std::string read_site(ColorInfo& color, const AVFrame& image, AVCodecID codec) {
-  switch (image.chroma_location) {
-    case AVCHROMA_LOC_LEFT:
-      color.chroma_site = ChromaSite::left;
-      return {};
-    case AVCHROMA_LOC_CENTER:
-      color.chroma_site = ChromaSite::center;
-      return {};
-    case AVCHROMA_LOC_TOPLEFT:
-      color.chroma_site = ChromaSite::top_left;
-      return {};
-    default:
-      break;
+  if (const auto* const known = std::ranges::find(kSites, image.chroma_location); known != kSites.end()) {
+    color.chroma_site = static_cast<ChromaSite>(known - kSites.begin());
+    return {};
   }
   // JFIF puts chroma midway; every video standard puts it at the left, full range or not.
   color.chroma_site = codec == AV_CODEC_ID_MJPEG ? ChromaSite::center : ChromaSite::left;
@@ -111,30 +96,6 @@ std::string remark_on_light(const ColorInfo& color) {
 
 int code_point(int stated) {
   return stated == 0 ? kUnspecified : stated;
-}
-
-AVColorSpace space_of(ColorMatrix matrix) {
-  switch (matrix) {
-    case ColorMatrix::bt601:
-      return AVCOL_SPC_SMPTE170M;
-    case ColorMatrix::bt709:
-      return AVCOL_SPC_BT709;
-    case ColorMatrix::bt2020:
-      return AVCOL_SPC_BT2020_NCL;
-  }
-  return AVCOL_SPC_UNSPECIFIED;
-}
-
-AVChromaLocation location_of(ChromaSite site) {
-  switch (site) {
-    case ChromaSite::left:
-      return AVCHROMA_LOC_LEFT;
-    case ChromaSite::center:
-      return AVCHROMA_LOC_CENTER;
-    case ChromaSite::top_left:
-      return AVCHROMA_LOC_TOPLEFT;
-  }
-  return AVCHROMA_LOC_UNSPECIFIED;
 }
 
 }  // namespace
@@ -163,10 +124,11 @@ void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
   }
   const bool full = color.range == ColorRange::full;
   if (full || color.range_stated) encoder.color_range = full ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
-  if (color.matrix_stated) encoder.colorspace = space_of(color.matrix);
+  if (color.matrix_stated) encoder.colorspace = kSpaces.at(static_cast<std::size_t>(color.matrix));
   // For 4:2:2 the standards know one site, the left; any other one must be stated.
   const bool is_odd_422 = layout == PixelLayout::yuv422 && color.chroma_site == ChromaSite::center;
-  if (layout == PixelLayout::yuv420 || is_odd_422) encoder.chroma_sample_location = location_of(color.chroma_site);
+  if (layout == PixelLayout::yuv420 || is_odd_422)
+    encoder.chroma_sample_location = kSites.at(static_cast<std::size_t>(color.chroma_site));
 }
 
 namespace {

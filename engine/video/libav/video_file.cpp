@@ -59,21 +59,8 @@ bool is_done_at_once(VideoCodec codec) {
 }  // namespace
 
 const char* muxer_of(Container container) {
-  switch (container) {
-    case Container::mkv:
-      return "matroska";
-    case Container::mp4:
-      return "mp4";
-    case Container::avi:
-      return "avi";
-    case Container::nut:
-      return "nut";
-    case Container::mov:
-      return "mov";
-    case Container::y4m:
-      break;  // VideoWriter writes it
-  }
-  return "";
+  if (container == Container::y4m) return "";  // VideoWriter writes it
+  return container == Container::mkv ? "matroska" : extension_of(container);
 }
 
 void OutputCloser::operator()(AVFormatContext* context) const {
