@@ -98,7 +98,11 @@ int code_point(int stated) {
   return stated == 0 ? kUnspecified : stated;
 }
 
-}  // namespace
+// The colours of an image as its file states them, with what is assumed.
+struct ColorReading {
+  ColorInfo color;
+  std::string remark;  // what the file states and SIGS does not support; empty: nothing
+};
 
 ColorReading color_of(const AVFrame& image, AVCodecID codec, PixelLayout layout) {
   ColorReading reading;
@@ -113,6 +117,8 @@ ColorReading color_of(const AVFrame& image, AVCodecID codec, PixelLayout layout)
   add_remark(reading.remark, remark_on_light(color));
   return reading;
 }
+
+}  // namespace
 
 void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
   encoder.color_primaries = static_cast<AVColorPrimaries>(color.primaries);
@@ -160,6 +166,40 @@ std::string projection_of(const AVStream& stream) {
 // the flip, also 1 or 1.5 after it.
 double flipped(double place, int luma_size, bool flip) {
   return flip ? std::fmod(luma_size + 1 - place, 2.0) : place;
+}
+
+// Where the chroma samples lie in the upright image. Positions without a name (on odd columns, on rows alone) are taken
+// as midway, which is half a pixel off; exact is then false.
+struct OrientedSite {
+  ChromaSite site = ChromaSite::left;
+  bool exact = true;
+};
+
+OrientedSite oriented_site(ChromaSite site, PixelLayout layout, cv::Size stored_px, const Orientation& orientation) {
+  const cv::Size step = chroma_step(layout);
+  if (step == cv::Size(1, 1) || orientation == Orientation{}) return {site, true};
+  double column = step.width == 1 || chroma_on_luma_column(site) ? 0 : 0.5;
+  double row = step.height == 1 || chroma_on_luma_row(site) ? 0 : 0.5;
+  if (orientation.transpose) std::swap(column, row);
+  const cv::Size size = oriented(stored_px, orientation);
+  if (step.width > 1) column = flipped(column, size.width, orientation.flip_columns);
+  if (step.height > 1) row = flipped(row, size.height, orientation.flip_rows);
+  for (const ChromaSite named : {ChromaSite::left, ChromaSite::center, ChromaSite::top_left}) {
+    const bool same_row = step.height == 1 || row == (chroma_on_luma_row(named) ? 0 : 0.5);
+    if (column == (chroma_on_luma_column(named) ? 0 : 0.5) && same_row) return {named, true};
+  }
+  return {ChromaSite::center, false};
+}
+
+// "rotated by 90 degrees clockwise", "mirrored left to right"; empty: as it is stored.
+std::string description_of(const Orientation& orientation) {
+  if (orientation == Orientation{}) return {};
+  if (!orientation.transpose && orientation.flip_columns && orientation.flip_rows) return "rotated by 180 degrees";
+  if (!orientation.transpose) return orientation.flip_columns ? "mirrored left to right" : "mirrored top to bottom";
+  if (orientation.flip_columns != orientation.flip_rows)
+    return std::string("rotated by 90 degrees ") + (orientation.flip_columns ? "clockwise" : "counterclockwise");
+  return orientation.flip_columns ? "mirrored and rotated by 90 degrees: about the other diagonal"
+                                  : "mirrored and rotated by 90 degrees: about the diagonal";
 }
 
 // Whether the times deviate from even spacing by more than the rounding of time stamps to the container's tick.
@@ -275,59 +315,39 @@ Frame oriented(const Frame& frame, const Orientation& orientation) {
   return upright;
 }
 
-OrientedSite oriented_site(ChromaSite site, PixelLayout layout, cv::Size stored_px, const Orientation& orientation) {
-  const cv::Size step = chroma_step(layout);
-  if (step == cv::Size(1, 1) || orientation == Orientation{}) return {site, true};
-  double column = step.width == 1 || chroma_on_luma_column(site) ? 0 : 0.5;
-  double row = step.height == 1 || chroma_on_luma_row(site) ? 0 : 0.5;
-  if (orientation.transpose) std::swap(column, row);
-  const cv::Size size = oriented(stored_px, orientation);
-  if (step.width > 1) column = flipped(column, size.width, orientation.flip_columns);
-  if (step.height > 1) row = flipped(row, size.height, orientation.flip_rows);
-  for (const ChromaSite named : {ChromaSite::left, ChromaSite::center, ChromaSite::top_left}) {
-    const bool same_row = step.height == 1 || row == (chroma_on_luma_row(named) ? 0 : 0.5);
-    if (column == (chroma_on_luma_column(named) ? 0 : 0.5) && same_row) return {named, true};
-  }
-  return {ChromaSite::center, false};
-}
-
-std::string description_of(const Orientation& orientation) {
-  if (orientation == Orientation{}) return {};
-  if (!orientation.transpose && orientation.flip_columns && orientation.flip_rows) return "rotated by 180 degrees";
-  if (!orientation.transpose) return orientation.flip_columns ? "mirrored left to right" : "mirrored top to bottom";
-  if (orientation.flip_columns != orientation.flip_rows)
-    return std::string("rotated by 90 degrees ") + (orientation.flip_columns ? "clockwise" : "counterclockwise");
-  return orientation.flip_columns ? "mirrored and rotated by 90 degrees: about the other diagonal"
-                                  : "mirrored and rotated by 90 degrees: about the diagonal";
-}
-
 AVRational frame_rate_of(const Demuxer& demuxer) {
   const AVRational rate = av_guess_frame_rate(&demuxer.format(), &demuxer.stream(), nullptr);
   return rate.num > 0 && rate.den > 0 ? rate : AVRational{25, 1};
 }
 
-void set_oriented(VideoInfo& info, cv::Size stored_px, const Orientation& orientation) {
-  if (orientation == Orientation{}) return;
-  const OrientedSite site = oriented_site(info.color.chroma_site, info.layout, stored_px, orientation);
-  info.color.chroma_site = site.site;
-  info.warnings.push_back(
-      {info.path.string(),
-       fmt::format("is {}, as the file asks{}", description_of(orientation),
-                   site.exact ? "" : "; its chroma is taken as midway between pixels, half a pixel beside")});
+void add_image(VideoInfo& info, const AVFrame& image, AVCodecID codec, const Orientation& orientation) {
+  const cv::Size stored_px(image.width, image.height);
+  const auto pixel_format = static_cast<AVPixelFormat>(image.format);
+  const Conversion conversion = conversion_of(pixel_format);
+  const ColorReading reading = color_of(image, codec, conversion.layout);
+  info.size_px = oriented(stored_px, orientation);
+  info.layout = conversion.layout;
+  info.bit_depth = conversion.bit_depth;
+  info.color = reading.color;
+  info.codec = avcodec_get_name(codec);
+  info.pixel_format = av_get_pix_fmt_name(pixel_format);
+  info.conversion = conversion.text;
+  if (orientation != Orientation{}) {
+    const OrientedSite site = oriented_site(info.color.chroma_site, info.layout, stored_px, orientation);
+    info.color.chroma_site = site.site;
+    info.warnings.push_back(
+        {info.path.string(),
+         fmt::format("is {}, as the file asks{}", description_of(orientation),
+                     site.exact ? "" : "; its chroma is taken as midway between pixels, half a pixel beside")});
+  }
+  if (!reading.remark.empty()) info.warnings.push_back({info.path.string(), reading.remark});
 }
 
 VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxer, const PacketTable& table,
                         const FrameOrder& order, const AVFrame& first, const Orientation& orientation) {
   const AVStream& stream = demuxer.stream();
-  const AVPixelFormat pixel_format = static_cast<AVPixelFormat>(first.format);
-  const Conversion conversion = conversion_of(pixel_format);
-  const ColorReading reading = color_of(first, stream.codecpar->codec_id, conversion.layout);
   VideoInfo info;
   info.path = path;
-  info.size_px = oriented(cv::Size(first.width, first.height), orientation);
-  info.layout = conversion.layout;
-  info.bit_depth = conversion.bit_depth;
-  info.color = reading.color;
   info.times_s = order.times_s;
   const AVRational rate = frame_rate_of(demuxer);
   info.frame_rate_num = rate.num;
@@ -340,15 +360,11 @@ VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxe
     if (orientation.transpose) std::swap(info.pixel_aspect_num, info.pixel_aspect_den);
   }
   info.variable_frame_rate = is_variable(order.times_s, stream.time_base);
-  info.codec = avcodec_get_name(stream.codecpar->codec_id);
-  info.pixel_format = av_get_pix_fmt_name(pixel_format);
-  info.conversion = conversion.text;
   info.container = demuxer.format().iformat->name;
   info.projection = projection_of(stream);
   info.declared_frames = stream.nb_frames;
   add_warnings(info, demuxer, table, order);
-  set_oriented(info, {first.width, first.height}, orientation);
-  if (!reading.remark.empty()) info.warnings.push_back({path.string(), reading.remark});
+  add_image(info, first, stream.codecpar->codec_id, orientation);
   return info;
 }
 

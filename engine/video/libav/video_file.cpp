@@ -145,12 +145,7 @@ Result<int64_t> VideoFile::next_stamp(double time_s) {
 }
 
 FramePtr VideoFile::av_frame_of(const Frame& frame) const {
-  FramePtr image = new_frame();
-  image->format = encoder_->pix_fmt;
-  image->width = encoder_->width;
-  image->height = encoder_->height;
-  image->color_range = encoder_->color_range;
-  image->colorspace = encoder_->colorspace;
+  FramePtr image = new_image(*encoder_);
   const Frame as_stored = stored(frame, encoding_);
   if (is_done_at_once(format_.codec) && can_wrap_planes(encoder_->pix_fmt)) {
     wrap_planes(*image, as_stored);
