@@ -169,6 +169,17 @@ void count_rendering(OpCounts& counts, const RenderCounts& before, const RenderC
   counts.bytes_uploaded += after.bytes_uploaded - before.bytes_uploaded;
 }
 
+// How far an intruder's reference point moves in the image while the shutter is open, px: from the first half of the
+// exposure to the second, by the camera's turn and by both flights. (0, 0) where it has no image at either end.
+glm::dvec2 motion_during_exposure(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
+                                  const Lens& lens) {
+  if (!(moment.exposure_s > 0)) return {0, 0};
+  const auto id = static_cast<std::size_t>(placed.id);
+  const std::optional<glm::dvec2> first = pixel_at(scene, moment, id, lens, -moment.exposure_s / 2);
+  const std::optional<glm::dvec2> last = pixel_at(scene, moment, id, lens, moment.exposure_s / 2);
+  return first && last ? lens.way(*first, *last) : glm::dvec2(0, 0);
+}
+
 }  // namespace
 
 std::optional<SeenInRow> seen_in_row(const Scene& scene,
@@ -183,15 +194,6 @@ std::optional<SeenInRow> seen_in_row(const Scene& scene,
       pixel = pixel_at(row_s);
     }
   return pixel ? std::optional(SeenInRow{*pixel, row_s}) : std::nullopt;
-}
-
-glm::dvec2 motion_during_exposure(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
-                                  const Lens& lens) {
-  if (!(moment.exposure_s > 0)) return {0, 0};
-  const auto id = static_cast<std::size_t>(placed.id);
-  const std::optional<glm::dvec2> first = pixel_at(scene, moment, id, lens, -moment.exposure_s / 2);
-  const std::optional<glm::dvec2> last = pixel_at(scene, moment, id, lens, moment.exposure_s / 2);
-  return first && last ? lens.way(*first, *last) : glm::dvec2(0, 0);
 }
 
 std::vector<cv::Point2d> earlier_places(const Scene& scene, int frame, const PlacedIntruder& placed, const Lens& lens,

@@ -18,6 +18,11 @@
 namespace sigs {
 namespace {
 
+// Whether two runs can be drawn by one call.
+bool is_drawn_alike(const Run& a, const Run& b) {
+  return a.texture == b.texture && a.surface == b.surface && a.hidden == b.hidden && a.rotor == b.rotor;
+}
+
 using TriangleIndices = std::array<std::uint32_t, 3>;
 
 // For each vertex the first one at the same position.

@@ -115,6 +115,27 @@ std::vector<int> parameters_of(const VideoFormat& format) {
   return {};
 }
 
+// As folder/frame_000123.png: gray for gray footage (as full range), else RGB; 16-bit for frames of more than 8 bits,
+// but JPEG. PNG and TIFF (LZW) keep every sample of it; JPEG is 4:2:0.
+Result<void> write_numbered_image(const fs::path& folder, const VideoFormat& format, const Frame& frame, int number) {
+  const char* const extension = image_extension_of(format.codec);
+  const int depth = std::min({frame.bit_depth, format.max_bit_depth, max_bit_depth(format.codec)});
+  const fs::path path = folder / fmt::format("frame_{:06}{}", number, extension);
+  std::vector<uchar> bytes;
+  try {
+    image_codecs::imencode(extension, stored_image(frame, depth), bytes, parameters_of(format));
+  } catch (const cv::Exception& problem) {
+    return fail(path.string(), fmt::format("cannot be written as an image ({}): {}", extension, problem.err),
+                ErrorKind::write_failed);
+  }
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out)
+    return fail(path.string(), fmt::format("could not be written: {}", std::strerror(errno)), ErrorKind::write_failed);
+  return {};
+}
+
 }  // namespace
 
 Result<Y4mFile> Y4mFile::begin(OutputStream out, const VideoFormat& format) {
@@ -135,29 +156,6 @@ Result<void> Y4mFile::write(const Frame& frame) {
       bytes_.append(plane.ptr<char>(y), static_cast<std::size_t>(plane.cols) * plane.elemSize());
   }
   return out_.write(bytes_);
-}
-
-const char* image_extension_of(VideoCodec codec) {
-  return traits_of(codec).image_extension;
-}
-
-Result<void> write_numbered_image(const fs::path& folder, const VideoFormat& format, const Frame& frame, int number) {
-  const char* const extension = image_extension_of(format.codec);
-  const int depth = std::min({frame.bit_depth, format.max_bit_depth, max_bit_depth(format.codec)});
-  const fs::path path = folder / fmt::format("frame_{:06}{}", number, extension);
-  std::vector<uchar> bytes;
-  try {
-    image_codecs::imencode(extension, stored_image(frame, depth), bytes, parameters_of(format));
-  } catch (const cv::Exception& problem) {
-    return fail(path.string(), fmt::format("cannot be written as an image ({}): {}", extension, problem.err),
-                ErrorKind::write_failed);
-  }
-  std::ofstream out(path, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    return fail(path.string(), fmt::format("could not be written: {}", std::strerror(errno)), ErrorKind::write_failed);
-  return {};
 }
 
 struct VideoWriter::State {
@@ -261,6 +259,10 @@ Result<void> VideoWriter::finish() {
     if (state_->splice) return state_->splice->finish();
     return state_->file ? state_->file->finish() : Result<void>();
   });
+}
+
+const char* image_extension_of(VideoCodec codec) {
+  return traits_of(codec).image_extension;
 }
 
 int max_bit_depth(VideoCodec codec) {
