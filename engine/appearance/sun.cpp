@@ -42,6 +42,104 @@ std::optional<glm::dquat> level_of(const LightImage& image) {
   return glm::conjugate(glm::quat_cast(camera_from_level));
 }
 
+// The deviations are those of a log's attitude, against which the sun stands in the image, and of the sun's movement.
+SunEstimate by_time_and_place(const GivenSun& given) {
+  constexpr double kLogSd_rad = rad_of_deg(1);
+  const auto sd_with = [](double range_rad) { return std::hypot(kLogSd_rad, range_rad / std::sqrt(12)); };
+  const glm::dvec3 to_sun = glm::normalize(given.to_sun_in_world);
+  return {.azimuth_rad = {std::atan2(to_sun.y, to_sun.x), sd_with(given.azimuth_range_rad), true, ""},
+          .elevation_rad = {std::asin(std::clamp(-to_sun.z, -1.0, 1.0)), sd_with(given.elevation_range_rad), true, ""},
+          .evidence = SunEvidence::given};
+}
+
+// Lengths on the ground are in parts of the camera's height above it.
+constexpr double kNearest = 0.55, kFarthest = 2.25, kHalfWidth = 1.5;
+constexpr double kMinCell = 0.0032;
+constexpr double kPixelsPerCell = 1.6;  // at the image's middle, seen squarely
+constexpr int kMiddle_cells = 41;       // window of the median that is the ground's own brightness
+constexpr double kShadowDark = 0.76;    // of that, as displayed: a shadow has half of the light or less
+constexpr int kNode = 8;                // cells
+constexpr int kMinArea = 14;            // cells
+constexpr double kMinRatio = 1.7;       // of length to width
+constexpr double kLongest_cells = 60;
+constexpr double kMinEnd = 0.06;  // by which the brightness beyond an end differs from the ground's
+
+// The ground laid flat: rows ahead (farther ones lower in the matrix), columns to the right. 0 where nothing is seen.
+struct FlatGround {
+  cv::Mat_<uchar> luma;
+  double heading_rad = 0;  // of the rows, from world X to the right
+};
+
+// Where the lens shows each cell: computed for each eighth row and column, linear between. Far outside where it shows
+// nothing.
+cv::Mat cell_pixels(const Camera& camera, const glm::dquat& camera_from_level, cv::Size size, double cell) {
+  const cv::Size nodes(size.width / kNode + 3, size.height / kNode + 3);  // one more on each side
+  cv::Mat_<cv::Vec2f> coarse(nodes, cv::Vec2f(-1e5F, -1e5F));
+  const auto middle = [&](int node) { return (node - 0.5) * kNode - 0.5; };
+  for (int row = 0; row < nodes.height; ++row)
+    for (int column = 0; column < nodes.width; ++column) {
+      const glm::dvec3 spot(kNearest + middle(row) * cell, -kHalfWidth + middle(column) * cell, 1);
+      if (const auto pixel = camera.lens.pixel(camera_from_level * spot))
+        coarse(row, column) = {static_cast<float>(pixel->x), static_cast<float>(pixel->y)};
+    }
+  cv::Mat fine;
+  cv::resize(coarse, fine, {}, kNode, kNode, cv::INTER_LINEAR);
+  return fine(cv::Rect({kNode, kNode}, size));
+}
+
+FlatGround flat_ground(const cv::Mat& luma, const Camera& camera, const glm::dquat& world_from_camera,
+                       const cv::Mat& own_body) {
+  FlatGround ground;
+  const glm::dvec3 axis = world_from_camera * glm::dvec3(1, 0, 0);
+  ground.heading_rad = std::atan2(axis.y, axis.x);
+  const double pixel_rad = 1 / std::max(camera.lens.pixels_per_radian({1, 0, 0}), 1.0);
+  const double cell = std::max(kMinCell, kPixelsPerCell * pixel_rad);
+  const cv::Size size(static_cast<int>(2 * kHalfWidth / cell), static_cast<int>((kFarthest - kNearest) / cell));
+  if (size.width < kMiddle_cells || size.height < kMiddle_cells) return ground;
+  const glm::dquat camera_from_level =
+      glm::conjugate(world_from_camera) * glm::angleAxis(ground.heading_rad, glm::dvec3(0, 0, 1));
+  cv::Mat visible = cv::max(luma, 1);
+  if (own_body.size() == luma.size() && own_body.type() == CV_8UC1) visible.setTo(0, own_body > 127);
+  cv::remap(visible, ground.luma, cell_pixels(camera, camera_from_level, size, cell), cv::noArray(), cv::INTER_LINEAR,
+            cv::BORDER_CONSTANT, cv::Scalar(0));
+  return ground;
+}
+
+// Mean brightness of the 3 x 3 cells around a place, in parts of the ground's own; 1 outside.
+double brightness_at(const FlatGround& ground, const cv::Mat_<uchar>& middle, double x, double y) {
+  const int column = cvRound(x), row = cvRound(y);
+  if (column < 1 || row < 1 || column + 1 >= middle.cols || row + 1 >= middle.rows) return 1;
+  const cv::Rect window(column - 1, row - 1, 3, 3);
+  return cv::mean(ground.luma(window))[0] / std::max(1.0, cv::mean(middle(window))[0]);
+}
+
+struct Shape {
+  double x = 0, y = 0;   // centre, cells
+  double angle_rad = 0;  // of the long axis, from the columns' direction to the rows'
+  double length = 0, ratio = 0;
+};
+
+Shape shape_of(const cv::Mat& mask, const cv::Rect& box) {
+  const cv::Moments m = cv::moments(mask, true);
+  Shape shape{.x = box.x + m.m10 / m.m00, .y = box.y + m.m01 / m.m00};
+  const double xx = m.mu20 / m.m00, yy = m.mu02 / m.m00, xy = m.mu11 / m.m00;
+  const double half = 0.5 * (xx + yy), off = std::hypot(0.5 * (xx - yy), xy);
+  shape.angle_rad = 0.5 * std::atan2(2 * xy, xx - yy);
+  shape.length = std::sqrt(12 * (half + off));
+  shape.ratio = std::sqrt((half + off) / std::max(half - off, 1.0 / 12));
+  return shape;
+}
+
+// What stands at the one end and not at the other: above 0 at the beginning of the axis.
+double sense_of(const FlatGround& ground, const cv::Mat_<uchar>& middle, const Shape& shape) {
+  const double reach = 0.5 * shape.length + 2.5;
+  const double dx = reach * std::cos(shape.angle_rad), dy = reach * std::sin(shape.angle_rad);
+  const double begin = std::abs(brightness_at(ground, middle, shape.x - dx, shape.y - dy) - 1);
+  const double end = std::abs(brightness_at(ground, middle, shape.x + dx, shape.y + dy) - 1);
+  if (std::max(begin, end) < kMinEnd || std::max(begin, end) < 2 * std::min(begin, end)) return 0;
+  return begin > end ? 1 : -1;
+}
+
 }  // namespace
 
 glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad) {
@@ -138,20 +236,6 @@ void Sun::set_by_sky(SunEstimate& sun) const {
   sun.evidence = SunEvidence::sky;
 }
 
-namespace {
-
-// The deviations are those of a log's attitude, against which the sun stands in the image, and of the sun's movement.
-SunEstimate by_time_and_place(const GivenSun& given) {
-  constexpr double kLogSd_rad = rad_of_deg(1);
-  const auto sd_with = [](double range_rad) { return std::hypot(kLogSd_rad, range_rad / std::sqrt(12)); };
-  const glm::dvec3 to_sun = glm::normalize(given.to_sun_in_world);
-  return {.azimuth_rad = {std::atan2(to_sun.y, to_sun.x), sd_with(given.azimuth_range_rad), true, ""},
-          .elevation_rad = {std::asin(std::clamp(-to_sun.z, -1.0, 1.0)), sd_with(given.elevation_range_rad), true, ""},
-          .evidence = SunEvidence::given};
-}
-
-}  // namespace
-
 SunEstimate Sun::finish(const std::optional<GivenSun>& given) const {
   if (given) {
     const double length = glm::length(given->to_sun_in_world);
@@ -175,98 +259,6 @@ void apply(const SunEstimate& sun, LightSettings& settings) {
   settings.sun.azimuth_deg = deg_of_rad(sun.azimuth_rad.value);
   settings.sun.elevation_deg = deg_of_rad(sun.elevation_rad.value);
 }
-
-namespace {
-
-// Lengths on the ground are in parts of the camera's height above it.
-constexpr double kNearest = 0.55, kFarthest = 2.25, kHalfWidth = 1.5;
-constexpr double kMinCell = 0.0032;
-constexpr double kPixelsPerCell = 1.6;  // at the image's middle, seen squarely
-constexpr int kMiddle_cells = 41;       // window of the median that is the ground's own brightness
-constexpr double kShadowDark = 0.76;    // of that, as displayed: a shadow has half of the light or less
-constexpr int kNode = 8;                // cells
-constexpr int kMinArea = 14;            // cells
-constexpr double kMinRatio = 1.7;       // of length to width
-constexpr double kLongest_cells = 60;
-constexpr double kMinEnd = 0.06;  // by which the brightness beyond an end differs from the ground's
-
-// The ground laid flat: rows ahead (farther ones lower in the matrix), columns to the right. 0 where nothing is seen.
-struct FlatGround {
-  cv::Mat_<uchar> luma;
-  double heading_rad = 0;  // of the rows, from world X to the right
-};
-
-// Where the lens shows each cell: computed for each eighth row and column, linear between. Far outside where it shows
-// nothing.
-cv::Mat cell_pixels(const Camera& camera, const glm::dquat& camera_from_level, cv::Size size, double cell) {
-  const cv::Size nodes(size.width / kNode + 3, size.height / kNode + 3);  // one more on each side
-  cv::Mat_<cv::Vec2f> coarse(nodes, cv::Vec2f(-1e5F, -1e5F));
-  const auto middle = [&](int node) { return (node - 0.5) * kNode - 0.5; };
-  for (int row = 0; row < nodes.height; ++row)
-    for (int column = 0; column < nodes.width; ++column) {
-      const glm::dvec3 spot(kNearest + middle(row) * cell, -kHalfWidth + middle(column) * cell, 1);
-      if (const auto pixel = camera.lens.pixel(camera_from_level * spot))
-        coarse(row, column) = {static_cast<float>(pixel->x), static_cast<float>(pixel->y)};
-    }
-  cv::Mat fine;
-  cv::resize(coarse, fine, {}, kNode, kNode, cv::INTER_LINEAR);
-  return fine(cv::Rect({kNode, kNode}, size));
-}
-
-FlatGround flat_ground(const cv::Mat& luma, const Camera& camera, const glm::dquat& world_from_camera,
-                       const cv::Mat& own_body) {
-  FlatGround ground;
-  const glm::dvec3 axis = world_from_camera * glm::dvec3(1, 0, 0);
-  ground.heading_rad = std::atan2(axis.y, axis.x);
-  const double pixel_rad = 1 / std::max(camera.lens.pixels_per_radian({1, 0, 0}), 1.0);
-  const double cell = std::max(kMinCell, kPixelsPerCell * pixel_rad);
-  const cv::Size size(static_cast<int>(2 * kHalfWidth / cell), static_cast<int>((kFarthest - kNearest) / cell));
-  if (size.width < kMiddle_cells || size.height < kMiddle_cells) return ground;
-  const glm::dquat camera_from_level =
-      glm::conjugate(world_from_camera) * glm::angleAxis(ground.heading_rad, glm::dvec3(0, 0, 1));
-  cv::Mat visible = cv::max(luma, 1);
-  if (own_body.size() == luma.size() && own_body.type() == CV_8UC1) visible.setTo(0, own_body > 127);
-  cv::remap(visible, ground.luma, cell_pixels(camera, camera_from_level, size, cell), cv::noArray(), cv::INTER_LINEAR,
-            cv::BORDER_CONSTANT, cv::Scalar(0));
-  return ground;
-}
-
-// Mean brightness of the 3 x 3 cells around a place, in parts of the ground's own; 1 outside.
-double brightness_at(const FlatGround& ground, const cv::Mat_<uchar>& middle, double x, double y) {
-  const int column = cvRound(x), row = cvRound(y);
-  if (column < 1 || row < 1 || column + 1 >= middle.cols || row + 1 >= middle.rows) return 1;
-  const cv::Rect window(column - 1, row - 1, 3, 3);
-  return cv::mean(ground.luma(window))[0] / std::max(1.0, cv::mean(middle(window))[0]);
-}
-
-struct Shape {
-  double x = 0, y = 0;   // centre, cells
-  double angle_rad = 0;  // of the long axis, from the columns' direction to the rows'
-  double length = 0, ratio = 0;
-};
-
-Shape shape_of(const cv::Mat& mask, const cv::Rect& box) {
-  const cv::Moments m = cv::moments(mask, true);
-  Shape shape{.x = box.x + m.m10 / m.m00, .y = box.y + m.m01 / m.m00};
-  const double xx = m.mu20 / m.m00, yy = m.mu02 / m.m00, xy = m.mu11 / m.m00;
-  const double half = 0.5 * (xx + yy), off = std::hypot(0.5 * (xx - yy), xy);
-  shape.angle_rad = 0.5 * std::atan2(2 * xy, xx - yy);
-  shape.length = std::sqrt(12 * (half + off));
-  shape.ratio = std::sqrt((half + off) / std::max(half - off, 1.0 / 12));
-  return shape;
-}
-
-// What stands at the one end and not at the other: above 0 at the beginning of the axis.
-double sense_of(const FlatGround& ground, const cv::Mat_<uchar>& middle, const Shape& shape) {
-  const double reach = 0.5 * shape.length + 2.5;
-  const double dx = reach * std::cos(shape.angle_rad), dy = reach * std::sin(shape.angle_rad);
-  const double begin = std::abs(brightness_at(ground, middle, shape.x - dx, shape.y - dy) - 1);
-  const double end = std::abs(brightness_at(ground, middle, shape.x + dx, shape.y + dy) - 1);
-  if (std::max(begin, end) < kMinEnd || std::max(begin, end) < 2 * std::min(begin, end)) return 0;
-  return begin > end ? 1 : -1;
-}
-
-}  // namespace
 
 std::vector<Sun::Patch> shadow_patches(const cv::Mat& luma, const Camera& camera, const glm::dquat& world_from_camera,
                                        const cv::Mat& own_body) {

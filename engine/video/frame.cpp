@@ -2,8 +2,8 @@
 #include "video/frame.h"
 
 #include <algorithm>
-#include <opencv2/core.hpp>
 #include <array>
+#include <opencv2/core.hpp>
 #include <vector>
 
 #include "base/ensure.h"
@@ -250,6 +250,40 @@ Frame rgb_frame_of(const cv::Mat& bgr, const ColorInfo& color, int bit_depth) {
   return with_bit_depth(frame, bit_depth);
 }
 
+// Codes of one depth by those of another.
+struct DepthChange {
+  int from = 8;
+  int to = 8;
+  bool is_full_range = false;
+  bool is_chroma = false;
+};
+
+template <class To>
+std::vector<To> code_table(const DepthChange& change) {
+  const double from_top = max_code(change.from);
+  const double to_top = max_code(change.to);
+  const double from_middle = change.is_chroma ? 1 << (change.from - 1) : 0;
+  const double to_middle = change.is_chroma ? 1 << (change.to - 1) : 0;
+  const double scale = change.is_full_range ? to_top / from_top : double(1 << change.to) / double(1 << change.from);
+  std::vector<To> table(std::size_t{1} << change.from);
+  for (std::size_t code = 0; code < table.size(); ++code) {
+    const double value = (static_cast<double>(code) - from_middle) * scale + to_middle;
+    table[code] = static_cast<To>(std::clamp(value + 0.5, 0.0, to_top));
+  }
+  return table;
+}
+
+template <class From, class To>
+cv::Mat replaced(const cv::Mat& plane, const DepthChange& change) {
+  const std::vector<To> table = code_table<To>(change);
+  const std::size_t mask = table.size() - 1;  // codes beyond the depth do not exist; nothing is read beyond the table
+  cv::Mat out(plane.size(), plane_type(change.to));
+  for (int y = 0; y < plane.rows; ++y)
+    std::transform(plane.ptr<From>(y), plane.ptr<From>(y) + plane.cols, out.ptr<To>(y),
+                   [&](From code) { return table[code & mask]; });
+  return out;
+}
+
 }  // namespace
 
 CodeToRgb code_to_rgb(PixelLayout layout, const ColorInfo& color, int bit_depth) {
@@ -313,44 +347,6 @@ Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& colo
         codes_of(shrunk_chroma(component_of(bgr, map, i), layout, color.chroma_site), bit_depth);
   return frame;
 }
-
-namespace {
-
-// Codes of one depth by those of another.
-struct DepthChange {
-  int from = 8;
-  int to = 8;
-  bool is_full_range = false;
-  bool is_chroma = false;
-};
-
-template <class To>
-std::vector<To> code_table(const DepthChange& change) {
-  const double from_top = max_code(change.from);
-  const double to_top = max_code(change.to);
-  const double from_middle = change.is_chroma ? 1 << (change.from - 1) : 0;
-  const double to_middle = change.is_chroma ? 1 << (change.to - 1) : 0;
-  const double scale = change.is_full_range ? to_top / from_top : double(1 << change.to) / double(1 << change.from);
-  std::vector<To> table(std::size_t{1} << change.from);
-  for (std::size_t code = 0; code < table.size(); ++code) {
-    const double value = (static_cast<double>(code) - from_middle) * scale + to_middle;
-    table[code] = static_cast<To>(std::clamp(value + 0.5, 0.0, to_top));
-  }
-  return table;
-}
-
-template <class From, class To>
-cv::Mat replaced(const cv::Mat& plane, const DepthChange& change) {
-  const std::vector<To> table = code_table<To>(change);
-  const std::size_t mask = table.size() - 1;  // codes beyond the depth do not exist; nothing is read beyond the table
-  cv::Mat out(plane.size(), plane_type(change.to));
-  for (int y = 0; y < plane.rows; ++y)
-    std::transform(plane.ptr<From>(y), plane.ptr<From>(y) + plane.cols, out.ptr<To>(y),
-                   [&](From code) { return table[code & mask]; });
-  return out;
-}
-
-}  // namespace
 
 Frame with_bit_depth(const Frame& frame, int bit_depth) {
   ENSURE(bit_depth >= 8 && bit_depth <= 16);

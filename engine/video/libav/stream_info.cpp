@@ -118,27 +118,6 @@ ColorReading color_of(const AVFrame& image, AVCodecID codec, PixelLayout layout)
   return reading;
 }
 
-}  // namespace
-
-void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
-  encoder.color_primaries = static_cast<AVColorPrimaries>(color.primaries);
-  encoder.color_trc = static_cast<AVColorTransferCharacteristic>(color.transfer);
-  if (layout == PixelLayout::rgb) {
-    encoder.color_range = AVCOL_RANGE_JPEG;
-    encoder.colorspace = AVCOL_SPC_RGB;
-    return;
-  }
-  const bool full = color.range == ColorRange::full;
-  if (full || color.range_stated) encoder.color_range = full ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
-  if (color.matrix_stated) encoder.colorspace = kSpaces.at(static_cast<std::size_t>(color.matrix));
-  // For 4:2:2 the standards know one site, the left; any other one must be stated.
-  const bool is_odd_422 = layout == PixelLayout::yuv422 && color.chroma_site == ChromaSite::center;
-  if (layout == PixelLayout::yuv420 || is_odd_422)
-    encoder.chroma_sample_location = kSites.at(static_cast<std::size_t>(color.chroma_site));
-}
-
-namespace {
-
 // Null where the container states none of that type, or less than so many bytes.
 const uint8_t* side_data(const AVStream& stream, AVPacketSideDataType type, size_t bytes) {
 #if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
@@ -253,6 +232,23 @@ void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& ta
 }
 
 }  // namespace
+
+void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
+  encoder.color_primaries = static_cast<AVColorPrimaries>(color.primaries);
+  encoder.color_trc = static_cast<AVColorTransferCharacteristic>(color.transfer);
+  if (layout == PixelLayout::rgb) {
+    encoder.color_range = AVCOL_RANGE_JPEG;
+    encoder.colorspace = AVCOL_SPC_RGB;
+    return;
+  }
+  const bool full = color.range == ColorRange::full;
+  if (full || color.range_stated) encoder.color_range = full ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+  if (color.matrix_stated) encoder.colorspace = kSpaces.at(static_cast<std::size_t>(color.matrix));
+  // For 4:2:2 the standards know one site, the left; any other one must be stated.
+  const bool is_odd_422 = layout == PixelLayout::yuv422 && color.chroma_site == ChromaSite::center;
+  if (layout == PixelLayout::yuv420 || is_odd_422)
+    encoder.chroma_sample_location = kSites.at(static_cast<std::size_t>(color.chroma_site));
+}
 
 Result<Orientation> orientation_of(const AVStream& stream) {
   return orientation_of(display_matrix(stream));
