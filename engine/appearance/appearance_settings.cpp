@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -33,17 +34,8 @@ double rounded(double value) {
 }
 
 const char* unit_of(QuantiserKind kind) {
-  switch (kind) {
-    case QuantiserKind::h264:
-      return "QP";
-    case QuantiserKind::mpeg:
-      return "codes a step";
-    case QuantiserKind::jpeg:
-      return "% quality";
-    case QuantiserKind::none:
-      break;
-  }
-  return "";
+  static constexpr std::array kUnits{"QP", "codes a step", "", "% quality"};
+  return kUnits.at(static_cast<std::size_t>(kind));
 }
 
 void add_color(std::vector<AppearanceQuantity>& list, const std::string& name, const std::array<Estimate, 3>& color,
@@ -119,6 +111,51 @@ Panel light_panel(const Appearance& appearance) {
     panel.series.push_back(std::move(series));
   }
   return panel;
+}
+
+// To a thermal camera nothing is lit or hazy, and where its blur or sky is not seen, that of other ones stays.
+void keep_thermal(const Project& before, const Appearance& appearance, Project& project) {
+  project.light = before.light;
+  project.appearance.black = before.appearance.black;
+  project.appearance.haze = before.appearance.haze;
+  const ThermalSettings& stated = before.appearance.thermal;
+  ThermalSettings& thermal = project.appearance.thermal;
+  if (!appearance.levels || !appearance.levels->sky.is_known) thermal.sky = stated.sky;
+  if (!appearance.levels || !appearance.levels->halo.is_known) thermal.halo = stated.halo;
+  if (!appearance.levels || !appearance.levels->halo_px.is_known) thermal.halo_px = stated.halo_px;
+  even_out_noise(project.appearance, appearance.levels ? appearance.levels->noise : Estimate());
+  if (appearance.point_spread.sigma_px.is_known) return;
+  project.appearance.psf_sigma_px = before.appearance.psf_sigma_px;
+  project.appearance.sharpening = before.appearance.sharpening;
+  project.appearance.sharpening_px = before.appearance.sharpening_px;
+}
+
+struct KnownCamera {
+  Scene scene;
+  bool has_calibration = false;
+  bool has_height = false;
+  cv::Mat own_body;  // CV_8UC1
+};
+
+View view_at(const KnownCamera& known, int frame) {
+  const double time_s = time_of_frame_s(known.scene.footage, frame);
+  const Pose<frame::World, frame::Camera> pose = camera_at(known.scene.motion, time_s);
+  View view{.camera = known.has_calibration ? &known.scene.camera : nullptr, .own_body = known.own_body};
+  if (known.scene.horizon_is_known) view.world_from_camera = pose.rotation;
+  if (known.has_height && pose.translation_m.z < 0)
+    view.height_m = -pose.translation_m.z;  // the ground is the world's plane z = 0
+  return view;
+}
+
+AppearanceHints hints_by(std::shared_ptr<KnownCamera> known) {
+  AppearanceHints hints{.view = [known](int frame) { return view_at(*known, frame); }};
+  hints.palette = known->scene.palette;
+  known->scene.light = {};  // the direction that the project states must not stand for the computed one
+  if (known->scene.earth && known->scene.utc_at_frame_0_s)
+    hints.to_sun_in_world = [known](int frame) {
+      return sunlight_at(known->scene, time_of_frame_s(known->scene.footage, frame)).to_sun;
+    };
+  return hints;
 }
 
 }  // namespace
@@ -221,27 +258,6 @@ std::vector<std::string> names_of_unknown(const Appearance& appearance) {
   return names;
 }
 
-namespace {
-
-// To a thermal camera nothing is lit or hazy, and where its blur or sky is not seen, that of other ones stays.
-void keep_thermal(const Project& before, const Appearance& appearance, Project& project) {
-  project.light = before.light;
-  project.appearance.black = before.appearance.black;
-  project.appearance.haze = before.appearance.haze;
-  const ThermalSettings& stated = before.appearance.thermal;
-  ThermalSettings& thermal = project.appearance.thermal;
-  if (!appearance.levels || !appearance.levels->sky.is_known) thermal.sky = stated.sky;
-  if (!appearance.levels || !appearance.levels->halo.is_known) thermal.halo = stated.halo;
-  if (!appearance.levels || !appearance.levels->halo_px.is_known) thermal.halo_px = stated.halo_px;
-  even_out_noise(project.appearance, appearance.levels ? appearance.levels->noise : Estimate());
-  if (appearance.point_spread.sigma_px.is_known) return;
-  project.appearance.psf_sigma_px = before.appearance.psf_sigma_px;
-  project.appearance.sharpening = before.appearance.sharpening;
-  project.appearance.sharpening_px = before.appearance.sharpening_px;
-}
-
-}  // namespace
-
 void apply(const Appearance& appearance, Project& project) {
   const Project before = project;
   project.compositing.blur_px_per_m = 0;
@@ -263,38 +279,6 @@ void apply(const Appearance& appearance, Project& project) {
   if (before.footage.spectrum == Spectrum::thermal) keep_thermal(before, appearance, project);
   hold_in_ranges(project);
 }
-
-namespace {
-
-struct KnownCamera {
-  Scene scene;
-  bool has_calibration = false;
-  bool has_height = false;
-  cv::Mat own_body;  // CV_8UC1
-};
-
-View view_at(const KnownCamera& known, int frame) {
-  const double time_s = time_of_frame_s(known.scene.footage, frame);
-  const Pose<frame::World, frame::Camera> pose = camera_at(known.scene.motion, time_s);
-  View view{.camera = known.has_calibration ? &known.scene.camera : nullptr, .own_body = known.own_body};
-  if (known.scene.horizon_is_known) view.world_from_camera = pose.rotation;
-  if (known.has_height && pose.translation_m.z < 0)
-    view.height_m = -pose.translation_m.z;  // the ground is the world's plane z = 0
-  return view;
-}
-
-AppearanceHints hints_by(std::shared_ptr<KnownCamera> known) {
-  AppearanceHints hints{.view = [known](int frame) { return view_at(*known, frame); }};
-  hints.palette = known->scene.palette;
-  known->scene.light = {};  // the direction that the project states must not stand for the computed one
-  if (known->scene.earth && known->scene.utc_at_frame_0_s)
-    hints.to_sun_in_world = [known](int frame) {
-      return sunlight_at(known->scene, time_of_frame_s(known->scene.footage, frame)).to_sun;
-    };
-  return hints;
-}
-
-}  // namespace
 
 AppearanceHints hints_of(const Scene& scene) {
   return hints_by(std::make_shared<KnownCamera>(KnownCamera{.scene = scene, .has_calibration = true}));

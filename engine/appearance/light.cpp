@@ -71,6 +71,36 @@ glm::dvec3 value_of(const std::array<Estimate, 3>& color) {
   return {color[0].value, color[1].value, color[2].value};
 }
 
+// Least share of what falls on the ground that comes from below. Chosen with the clips that are kept for tuning
+// (docs/research/realism.md).
+constexpr double kFromBelow = 0.2;
+constexpr double kUsualSunElevation_rad = 0.436;  // 25 degrees, where the direction is not known
+
+// Paint in the sun is that much brighter in footage than the estimate's card: cameras draw bright things with more
+// contrast than the transfer function of their footage says, and paint shines. Chosen likewise.
+constexpr double kSunlit = 1.8;
+
+// The footage's brightest things are white things in the sun where they are at least so bright, linear light. Blue sky,
+// land and hazy air stay below.
+constexpr double kWhiteThings = 0.6;
+constexpr double kWhitePaint = 0.8;  // reflects this share
+
+double exposure_of(const LightEstimate& light, const Estimate& white) {
+  if (!light.exposure.is_known) return light.exposure.value;
+  const double sunlit = kSunlit * light.exposure.value;
+  return white.is_known && white.value >= kWhiteThings ? std::min(sunlit, white.value / kWhitePaint) : sunlit;
+}
+
+// Light on a face that looks down: that of the land, but no less than kFromBelow of what the land receives.
+glm::dvec3 from_below(const LightEstimate& light, const SunSettings& sun) {
+  const double elevation_rad = sun.elevation_deg ? rad_of_deg(*sun.elevation_deg) : kUsualSunElevation_rad;
+  const double falls_on_it = luminance(value_of(light.sun_color)) * std::max(std::sin(elevation_rad), 0.0) +
+                             luminance(value_of(light.sky_color));
+  const glm::dvec3 land = value_of(light.ground_color);
+  const double bright = luminance(land);
+  return bright > 0 ? land * std::max(1.0, kFromBelow * falls_on_it / bright) : glm::dvec3(kFromBelow * falls_on_it);
+}
+
 }  // namespace
 
 void LightEstimator::add(const LightImage& image) {
@@ -169,40 +199,6 @@ LightEstimate LightEstimator::finish(std::optional<double> sun_elevation_rad) co
   set_ground(light, light.sun_share.value, luminance(value_of(light.sky_color)), sine);
   return light;
 }
-
-namespace {
-
-// Least share of what falls on the ground that comes from below. Chosen with the clips that are kept for tuning
-// (docs/research/realism.md).
-constexpr double kFromBelow = 0.2;
-constexpr double kUsualSunElevation_rad = 0.436;  // 25 degrees, where the direction is not known
-
-// Paint in the sun is that much brighter in footage than the estimate's card: cameras draw bright things with more
-// contrast than the transfer function of their footage says, and paint shines. Chosen likewise.
-constexpr double kSunlit = 1.8;
-
-// The footage's brightest things are white things in the sun where they are at least so bright, linear light. Blue sky,
-// land and hazy air stay below.
-constexpr double kWhiteThings = 0.6;
-constexpr double kWhitePaint = 0.8;  // reflects this share
-
-double exposure_of(const LightEstimate& light, const Estimate& white) {
-  if (!light.exposure.is_known) return light.exposure.value;
-  const double sunlit = kSunlit * light.exposure.value;
-  return white.is_known && white.value >= kWhiteThings ? std::min(sunlit, white.value / kWhitePaint) : sunlit;
-}
-
-// Light on a face that looks down: that of the land, but no less than kFromBelow of what the land receives.
-glm::dvec3 from_below(const LightEstimate& light, const SunSettings& sun) {
-  const double elevation_rad = sun.elevation_deg ? rad_of_deg(*sun.elevation_deg) : kUsualSunElevation_rad;
-  const double falls_on_it = luminance(value_of(light.sun_color)) * std::max(std::sin(elevation_rad), 0.0) +
-                             luminance(value_of(light.sky_color));
-  const glm::dvec3 land = value_of(light.ground_color);
-  const double bright = luminance(land);
-  return bright > 0 ? land * std::max(1.0, kFromBelow * falls_on_it / bright) : glm::dvec3(kFromBelow * falls_on_it);
-}
-
-}  // namespace
 
 void apply(const LightEstimate& light, const Estimate& white, LightSettings& settings) {
   settings.kind = LightKind::sun;

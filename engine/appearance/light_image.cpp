@@ -61,69 +61,6 @@ cv::Mat_<uchar> hidden_cells(const cv::Mat& own_body, cv::Size frame_px, cv::Siz
   return hidden;
 }
 
-}  // namespace
-
-glm::dvec2 LightGrid::pixel_of(double column, double row) const {
-  return {(column + 0.5) * frame_px.width / light.cols - 0.5, (row + 0.5) * frame_px.height / light.rows - 0.5};
-}
-
-LightGrid light_grid_of(const Frame& frame, const View& view) {
-  LightGrid grid;
-  grid.frame_px = frame.size_px();
-  if (frame.planes[0].empty()) return grid;
-  const cv::Size size = grid_size(grid.frame_px);
-  std::array<cv::Mat, 3> codes;
-  for (int k = 0; k < frame.plane_count(); ++k) {
-    if (frame.planes[k].empty()) return grid;
-    codes[k] = reduced(frame.planes[k], size);
-  }
-  const CodeToRgb map = code_to_rgb(frame.layout, frame.color, frame.bit_depth);
-  const cv::Matx33f bt709(cv::Matx33d(from_bt709(frame.color.primaries).value_or(cv::Matx33d::eye())).inv());
-  const LightTable linear(frame.color);
-  grid.light.create(size);
-  grid.luma.create(size);
-  grid.hidden = hidden_cells(view.own_body, grid.frame_px, size);
-  const bool is_bt709 = bt709 == cv::Matx33f::eye();
-  for (int y = 0; y < size.height; ++y) {
-    std::array<const float*, 3> rows{};
-    for (int k = 0; k < frame.plane_count(); ++k) rows[k] = codes[k].ptr<float>(y);
-    cv::Vec3f* const light_row = grid.light[y];
-    float* const luma_row = grid.luma[y];
-    for (int x = 0; x < size.width; ++x) {
-      cv::Vec3f code = map.offset;
-      for (int k = 0; k < frame.plane_count(); ++k) code[k] = rows[k][x];
-      const cv::Vec3f rgb = map.to_rgb * (code - map.offset);
-      cv::Vec3f light(linear(rgb[0]), linear(rgb[1]), linear(rgb[2]));
-      if (!is_bt709) light = bt709 * light;
-      for (int k = 0; k < 3; ++k) light_row[x][k] = std::max(light[k], 0.0F);
-      luma_row[x] = 0.2126F * rgb[0] + 0.7152F * rgb[1] + 0.0722F * rgb[2];
-    }
-  }
-  return grid;
-}
-
-void GridRays::fit(const LightGrid& grid, const Camera* camera) {
-  const Camera* usable = camera != nullptr && camera->size_px == grid.frame_px ? camera : nullptr;
-  if (rays_ != nullptr && usable == camera_ && grid.frame_px == frame_px_) return;
-  camera_ = usable;
-  frame_px_ = grid.frame_px;
-  size_ = grid.size();
-  angles_are_known_ = usable != nullptr;
-  std::vector<glm::dvec3> rays;
-  const double focal_px = 0.5 * frame_px_.width / std::tan(std::numbers::pi / 6);
-  const glm::dvec2 middle_px(0.5 * (frame_px_.width - 1), 0.5 * (frame_px_.height - 1));
-  for (int row = 0; row < size_.height; ++row)
-    for (int column = 0; column < size_.width; ++column) {
-      const glm::dvec2 pixel = grid.pixel_of(column, row);
-      const glm::dvec2 off = (pixel - middle_px) / focal_px;
-      rays.push_back(usable != nullptr ? usable->lens.ray(pixel).value_or(glm::dvec3(0))
-                                       : glm::normalize(glm::dvec3(1, off.x, off.y)));
-    }
-  rays_ = std::make_shared<const std::vector<glm::dvec3>>(std::move(rays));
-}
-
-namespace {
-
 constexpr int kBand = 3;              // cells above and below the edge, where the two are compared
 constexpr double kMinStep = 0.025;    // of luma, 6 codes of 8 bits
 constexpr double kMaxEdgeStep = 0.3;  // more does not count for more
@@ -291,7 +228,77 @@ bool is_skyline(const LightGrid& grid, const Columns& columns, const std::vector
   return above <= std::max(kRougher * below, kSmoothSky) && steepest > 2 * slope_alone;
 }
 
+cv::Mat_<float> elevations_of(const LightImage& image) {
+  cv::Mat_<float> elevations(image.grid.size(), std::numeric_limits<float>::quiet_NaN());
+  for (int y = 0; y < elevations.rows; ++y)
+    for (int x = 0; x < elevations.cols; ++x) {
+      const glm::dvec3& ray = image.rays.at(x, y);
+      if (image.grid.hidden(y, x) != 0 || glm::dot(ray, ray) <= 0) continue;
+      elevations(y, x) = static_cast<float>(std::asin(std::clamp(glm::dot(ray, image.skyline->up), -1.0, 1.0)));
+    }
+  return elevations;
+}
+
 }  // namespace
+
+glm::dvec2 LightGrid::pixel_of(double column, double row) const {
+  return {(column + 0.5) * frame_px.width / light.cols - 0.5, (row + 0.5) * frame_px.height / light.rows - 0.5};
+}
+
+LightGrid light_grid_of(const Frame& frame, const View& view) {
+  LightGrid grid;
+  grid.frame_px = frame.size_px();
+  if (frame.planes[0].empty()) return grid;
+  const cv::Size size = grid_size(grid.frame_px);
+  std::array<cv::Mat, 3> codes;
+  for (int k = 0; k < frame.plane_count(); ++k) {
+    if (frame.planes[k].empty()) return grid;
+    codes[k] = reduced(frame.planes[k], size);
+  }
+  const CodeToRgb map = code_to_rgb(frame.layout, frame.color, frame.bit_depth);
+  const cv::Matx33f bt709(cv::Matx33d(from_bt709(frame.color.primaries).value_or(cv::Matx33d::eye())).inv());
+  const LightTable linear(frame.color);
+  grid.light.create(size);
+  grid.luma.create(size);
+  grid.hidden = hidden_cells(view.own_body, grid.frame_px, size);
+  const bool is_bt709 = bt709 == cv::Matx33f::eye();
+  for (int y = 0; y < size.height; ++y) {
+    std::array<const float*, 3> rows{};
+    for (int k = 0; k < frame.plane_count(); ++k) rows[k] = codes[k].ptr<float>(y);
+    cv::Vec3f* const light_row = grid.light[y];
+    float* const luma_row = grid.luma[y];
+    for (int x = 0; x < size.width; ++x) {
+      cv::Vec3f code = map.offset;
+      for (int k = 0; k < frame.plane_count(); ++k) code[k] = rows[k][x];
+      const cv::Vec3f rgb = map.to_rgb * (code - map.offset);
+      cv::Vec3f light(linear(rgb[0]), linear(rgb[1]), linear(rgb[2]));
+      if (!is_bt709) light = bt709 * light;
+      for (int k = 0; k < 3; ++k) light_row[x][k] = std::max(light[k], 0.0F);
+      luma_row[x] = 0.2126F * rgb[0] + 0.7152F * rgb[1] + 0.0722F * rgb[2];
+    }
+  }
+  return grid;
+}
+
+void GridRays::fit(const LightGrid& grid, const Camera* camera) {
+  const Camera* usable = camera != nullptr && camera->size_px == grid.frame_px ? camera : nullptr;
+  if (rays_ != nullptr && usable == camera_ && grid.frame_px == frame_px_) return;
+  camera_ = usable;
+  frame_px_ = grid.frame_px;
+  size_ = grid.size();
+  angles_are_known_ = usable != nullptr;
+  std::vector<glm::dvec3> rays;
+  const double focal_px = 0.5 * frame_px_.width / std::tan(std::numbers::pi / 6);
+  const glm::dvec2 middle_px(0.5 * (frame_px_.width - 1), 0.5 * (frame_px_.height - 1));
+  for (int row = 0; row < size_.height; ++row)
+    for (int column = 0; column < size_.width; ++column) {
+      const glm::dvec2 pixel = grid.pixel_of(column, row);
+      const glm::dvec2 off = (pixel - middle_px) / focal_px;
+      rays.push_back(usable != nullptr ? usable->lens.ray(pixel).value_or(glm::dvec3(0))
+                                       : glm::normalize(glm::dvec3(1, off.x, off.y)));
+    }
+  rays_ = std::make_shared<const std::vector<glm::dvec3>>(std::move(rays));
+}
 
 void SkylineFinder::fit(const std::vector<int>& columns, int rows, const GridRays& rays) {
   if (rays.are_those_of(rays_) && columns == planes_.columns && rows == planes_.rows) return;
@@ -320,21 +327,6 @@ std::optional<Skyline> SkylineFinder::find(const LightGrid& grid, const GridRays
   if (points.size() < 8 || !is_skyline(grid, columns, points)) return std::nullopt;
   return Skyline{fitted_plane(points, coarse), std::hypot(kRefined_rad, kHills_rad), true};
 }
-
-namespace {
-
-cv::Mat_<float> elevations_of(const LightImage& image) {
-  cv::Mat_<float> elevations(image.grid.size(), std::numeric_limits<float>::quiet_NaN());
-  for (int y = 0; y < elevations.rows; ++y)
-    for (int x = 0; x < elevations.cols; ++x) {
-      const glm::dvec3& ray = image.rays.at(x, y);
-      if (image.grid.hidden(y, x) != 0 || glm::dot(ray, ray) <= 0) continue;
-      elevations(y, x) = static_cast<float>(std::asin(std::clamp(glm::dot(ray, image.skyline->up), -1.0, 1.0)));
-    }
-  return elevations;
-}
-
-}  // namespace
 
 std::optional<double> LightImage::elevation_rad(int column, int row) const {
   if (elevations_rad.data == nullptr) return std::nullopt;

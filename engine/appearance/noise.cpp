@@ -70,23 +70,6 @@ Estimate sd_estimate(double variance, double variance_sd) {
   return {sd, sd > root_of(variance_sd) ? variance_sd / (2 * sd) : root_of(variance_sd), true, ""};
 }
 
-}  // namespace
-
-void Noise::add(const Frame& frame, const Frame* next) {
-  ++frames_;
-  if (next != nullptr) ++pairs_;
-  layout_ = frame.layout;
-  const bool is_limited = frame.layout != PixelLayout::rgb && frame.color.range == ColorRange::limited;
-  black_ = is_limited ? 16 : 0;
-  white_ = is_limited ? 235 : 255;
-  const std::vector<NoiseBlock> found = noise_blocks(frame, next);
-  blocks_.insert(blocks_.end(), found.begin(), found.end());
-  const cv::Size size = frame.size_px();
-  blocks_looked_at_ += static_cast<double>(size.width / kNoiseBlock_px) * (size.height / kNoiseBlock_px);
-}
-
-namespace {
-
 // The work of Noise::finish(), step by step.
 class NoiseFit {
  public:
@@ -342,6 +325,19 @@ class NoiseFit {
 };
 
 }  // namespace
+
+void Noise::add(const Frame& frame, const Frame* next) {
+  ++frames_;
+  if (next != nullptr) ++pairs_;
+  layout_ = frame.layout;
+  const bool is_limited = frame.layout != PixelLayout::rgb && frame.color.range == ColorRange::limited;
+  black_ = is_limited ? 16 : 0;
+  white_ = is_limited ? 235 : 255;
+  const std::vector<NoiseBlock> found = noise_blocks(frame, next);
+  blocks_.insert(blocks_.end(), found.begin(), found.end());
+  const cv::Size size = frame.size_px();
+  blocks_looked_at_ += static_cast<double>(size.width / kNoiseBlock_px) * (size.height / kNoiseBlock_px);
+}
 
 NoiseFound Noise::finish() const {
   NoiseFound found;

@@ -141,6 +141,50 @@ std::array<NoiseBlock, kTogether> measured(const Frame& frame, const cv::Mat& lu
   return blocks;
 }
 
+using Vector = std::vector<double>;
+
+// Correlation of neighbours `apart` samples from each other: the Gaussian's with itself.
+Vector correlations(double correlation_length_px, int n) {
+  constexpr int kKernelReach = 40;
+  Vector kernel(2 * kKernelReach + 1);
+  for (int k = -kKernelReach; k <= kKernelReach; ++k)
+    kernel[k + kKernelReach] = correlation_length_px > 0
+                                   ? std::exp(-0.5 * k * k / (correlation_length_px * correlation_length_px))
+                                   : (k == 0 ? 1.0 : 0.0);
+  Vector found(n);
+  for (int apart = 0; apart < n; ++apart)
+    for (std::size_t k = 0; k + apart < kernel.size(); ++k) found[apart] += kernel[k] * kernel[k + apart];
+  for (int apart = n - 1; apart >= 0; --apart) found[apart] /= found[0];
+  return found;
+}
+
+double dot(const Vector& a, const Vector& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// The covariance of a row of noise, times a row.
+Vector blurred(const Vector& row, const Vector& correlation) {
+  const auto n = static_cast<int>(row.size());
+  Vector result(n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) result[i] += correlation[std::abs(i - j)] * row[j];
+  return result;
+}
+
+// Each sample replaced by the mean of its two neighbours: x' shifted(y) is half the sum of x(i) y(i + 1) + x(i + 1)
+// y(i).
+Vector shifted(const Vector& row) {
+  const std::size_t n = row.size();
+  Vector result(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0) result[i] += 0.5 * row[i - 1];
+    if (i + 1 < n) result[i] += 0.5 * row[i + 1];
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<NoiseBlock> noise_blocks(const Frame& frame, const Frame* next) {
@@ -239,54 +283,6 @@ double lasting_share(std::span<const NoiseBlock* const> blocks) {
     lasting_noise *= std::clamp((kOfTexture - (shared - shared_change) / lasting) / (kOfTexture - of_noise), 0.0, 1.0);
   return lasting_noise / (lasting_noise + change);
 }
-
-namespace {
-
-using Vector = std::vector<double>;
-
-// Correlation of neighbours `apart` samples from each other: the Gaussian's with itself.
-Vector correlations(double correlation_length_px, int n) {
-  constexpr int kKernelReach = 40;
-  Vector kernel(2 * kKernelReach + 1);
-  for (int k = -kKernelReach; k <= kKernelReach; ++k)
-    kernel[k + kKernelReach] = correlation_length_px > 0
-                                   ? std::exp(-0.5 * k * k / (correlation_length_px * correlation_length_px))
-                                   : (k == 0 ? 1.0 : 0.0);
-  Vector found(n);
-  for (int apart = 0; apart < n; ++apart)
-    for (std::size_t k = 0; k + apart < kernel.size(); ++k) found[apart] += kernel[k] * kernel[k + apart];
-  for (int apart = n - 1; apart >= 0; --apart) found[apart] /= found[0];
-  return found;
-}
-
-double dot(const Vector& a, const Vector& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-// The covariance of a row of noise, times a row.
-Vector blurred(const Vector& row, const Vector& correlation) {
-  const auto n = static_cast<int>(row.size());
-  Vector result(n);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) result[i] += correlation[std::abs(i - j)] * row[j];
-  return result;
-}
-
-// Each sample replaced by the mean of its two neighbours: x' shifted(y) is half the sum of x(i) y(i + 1) + x(i + 1)
-// y(i).
-Vector shifted(const Vector& row) {
-  const std::size_t n = row.size();
-  Vector result(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i > 0) result[i] += 0.5 * row[i - 1];
-    if (i + 1 < n) result[i] += 0.5 * row[i + 1];
-  }
-  return result;
-}
-
-}  // namespace
 
 // With C the covariance of the block's noise, P the projection on the plane (P = sum of p p' over three orthonormal p),
 // Q = 1 - P and S the shift along rows, the expected sums are tr(Q C) and tr(S Q C Q). All but Q are products of a

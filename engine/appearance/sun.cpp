@@ -2,6 +2,7 @@
 #include "appearance/sun.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -41,113 +42,6 @@ std::optional<glm::dquat> level_of(const LightImage& image) {
   return glm::conjugate(glm::quat_cast(camera_from_level));
 }
 
-}  // namespace
-
-glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad) {
-  return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
-          -std::sin(elevation_rad)};
-}
-
-std::string how_found(SunEvidence evidence) {
-  switch (evidence) {
-    case SunEvidence::given:
-      return "by time and place";
-    case SunEvidence::shadows:
-      return "by shadows on the ground";
-    case SunEvidence::sky:
-      return "by the sky's brightness";
-    case SunEvidence::none:
-      break;
-  }
-  return "";
-}
-
-void Sun::add(const Frame& frame, const LightImage& image) {
-  if (image.empty()) return;
-  ++frames_;
-  const std::optional<glm::dquat> level = level_of(image);
-  if (!level) return;
-  add_sky(image, *level);
-  // Shadows hardly change from one sampled frame to the next, and laying the ground flat is most of the work.
-  if (with_level_++ % kGroundEvery == 0) add_ground(frame, image, *level);
-}
-
-void Sun::add_sky(const LightImage& image, const glm::dquat& world_from_camera) {
-  for (int y = 0; y < image.grid.size().height; ++y)
-    for (int x = 0; x < image.grid.size().width; ++x) {
-      const auto up = image.elevation_rad(x, y);
-      if (!up || *up <= rad_of_deg(5)) continue;
-      const auto band = static_cast<std::size_t>((deg_of_rad(*up) - 5) / 5);
-      if (band >= kElevations) continue;
-      const glm::dvec3 ray = world_from_camera * image.rays.at(x, y);
-      const double share = std::atan2(ray.y, ray.x) / kTurn_rad;
-      const auto sector = static_cast<std::size_t>((share - std::floor(share)) * kAzimuths) % kAzimuths;
-      const glm::dvec3 light = color_of(image.grid.light(y, x));
-      ++sky_cells_;
-      if (light.r < kBlueRatio * light.b) ++blue_cells_;
-      sky_[band][sector].sum += luminance(light);
-      ++sky_[band][sector].count;
-      sky_[band][sector].from_axis += std::acos(std::clamp(image.rays.at(x, y).x, -1.0, 1.0));
-    }
-}
-
-void Sun::add_ground(const Frame& frame, const LightImage& image, const glm::dquat& world_from_camera) {
-  const cv::Mat luma = luma_of(frame);
-  const auto found = shadow_patches(luma, *image.view.camera, world_from_camera, image.view.own_body);
-  patches_.insert(patches_.end(), found.begin(), found.end());
-}
-
-void Sun::set_by_shadows(SunEstimate& sun) const {
-  std::complex<double> sum = 0;
-  double weight = 0;
-  for (const Patch& p : patches_) {
-    sum += std::polar(p.weight, 2 * p.direction_rad);
-    weight += p.weight;
-  }
-  const double agreement = weight > 0 ? std::abs(sum) / weight : 0;
-  const auto count = static_cast<double>(patches_.size());
-  if (count < kMinPatches || agreement < kMinAgreement) return;
-  const double axis = 0.5 * std::arg(sum);
-  double sense = 0, votes = 0;
-  for (const Patch& p : patches_) {
-    sense += std::cos(p.direction_rad - axis) > 0 ? p.sense : -p.sense;
-    votes += std::abs(p.sense);
-  }
-  if (votes < 0.25 * count || std::abs(sense) < kMinSense * votes) return;
-  const double away = sense > 0 ? axis : axis + std::numbers::pi;
-  // Each patch's own deviation follows from the agreement (Mardia 1972, for doubled angles). The patches of a clip are
-  // of the same few things, seen again.
-  const double each = 0.5 * std::sqrt(-2 * std::log(std::min(agreement, 0.9999)));
-  sun.azimuth_rad = {.value = between_half_turns(away + std::numbers::pi), .is_known = true};
-  sun.azimuth_rad.sd = std::hypot(
-      kShadowSd_rad, each / std::sqrt(std::max(1.0, count * kGroundEvery / std::max(kGroundEvery, with_level_))));
-  sun.evidence = SunEvidence::shadows;
-}
-
-void Sun::set_by_sky(SunEstimate& sun) const {
-  if (blue_cells_ < kMinBlueSky * sky_cells_) return;
-  std::vector<SkySample> samples;
-  for (std::size_t band = 0; band < kElevations; ++band)
-    for (std::size_t i = 0; i < kAzimuths; ++i) {
-      const SkyBin& bin = sky_[band][i];
-      if (bin.count < kMinSkyCells || bin.sum <= 0) continue;
-      const auto middle = [](std::size_t k, double step) { return (static_cast<double>(k) + 0.5) * step; };
-      samples.push_back({.azimuth_rad = middle(i, kTurn_rad / kAzimuths),
-                         .elevation_rad = rad_of_deg(5) + middle(band, rad_of_deg(5)),
-                         .luminance = bin.sum / bin.count,
-                         .from_axis_rad = bin.from_axis / bin.count,
-                         .band = static_cast<int>(band)});
-    }
-  const std::optional<SkySun> found = sun_of_sky(samples);
-  if (!found) return;
-  sun.elevation_rad = {.value = found->elevation_rad, .sd = found->elevation_sd_rad, .is_known = true};
-  if (sun.evidence == SunEvidence::shadows) return;
-  sun.azimuth_rad = {.value = between_half_turns(found->azimuth_rad), .sd = found->azimuth_sd_rad, .is_known = true};
-  sun.evidence = SunEvidence::sky;
-}
-
-namespace {
-
 // The deviations are those of a log's attitude, against which the sun stands in the image, and of the sun's movement.
 SunEstimate by_time_and_place(const GivenSun& given) {
   constexpr double kLogSd_rad = rad_of_deg(1);
@@ -157,34 +51,6 @@ SunEstimate by_time_and_place(const GivenSun& given) {
           .elevation_rad = {std::asin(std::clamp(-to_sun.z, -1.0, 1.0)), sd_with(given.elevation_range_rad), true, ""},
           .evidence = SunEvidence::given};
 }
-
-}  // namespace
-
-SunEstimate Sun::finish(const std::optional<GivenSun>& given) const {
-  if (given) {
-    const double length = glm::length(given->to_sun_in_world);
-    if (length > 0 && std::isfinite(length)) return by_time_and_place(*given);
-  }
-  SunEstimate sun{.azimuth_rad = {.value = kDefaultAzimuth_rad}, .elevation_rad = {.value = kDefaultElevation_rad}};
-  set_by_shadows(sun);
-  set_by_sky(sun);
-  std::string why = "neither shadows on the ground nor the sky's brightness show it";
-  if (frames_ == 0)
-    why = "there is no frame";
-  else if (with_level_ == 0)
-    why = "the camera's calibration or the horizon is not known";
-  if (!sun.azimuth_rad.is_known) sun.azimuth_rad.why = why;
-  if (!sun.elevation_rad.is_known) sun.elevation_rad.why = why;
-  return sun;
-}
-
-void apply(const SunEstimate& sun, LightSettings& settings) {
-  if (sun.evidence == SunEvidence::given) return;
-  settings.sun.azimuth_deg = deg_of_rad(sun.azimuth_rad.value);
-  settings.sun.elevation_deg = deg_of_rad(sun.elevation_rad.value);
-}
-
-namespace {
 
 // Lengths on the ground are in parts of the camera's height above it.
 constexpr double kNearest = 0.55, kFarthest = 2.25, kHalfWidth = 1.5;
@@ -275,6 +141,124 @@ double sense_of(const FlatGround& ground, const cv::Mat_<uchar>& middle, const S
 }
 
 }  // namespace
+
+glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad) {
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
+          -std::sin(elevation_rad)};
+}
+
+std::string how_found(SunEvidence evidence) {
+  static constexpr std::array kWays{"", "by time and place", "by shadows on the ground", "by the sky's brightness"};
+  return kWays.at(static_cast<std::size_t>(evidence));
+}
+
+void Sun::add(const Frame& frame, const LightImage& image) {
+  if (image.empty()) return;
+  ++frames_;
+  const std::optional<glm::dquat> level = level_of(image);
+  if (!level) return;
+  add_sky(image, *level);
+  // Shadows hardly change from one sampled frame to the next, and laying the ground flat is most of the work.
+  if (with_level_++ % kGroundEvery == 0) add_ground(frame, image, *level);
+}
+
+void Sun::add_sky(const LightImage& image, const glm::dquat& world_from_camera) {
+  for (int y = 0; y < image.grid.size().height; ++y)
+    for (int x = 0; x < image.grid.size().width; ++x) {
+      const auto up = image.elevation_rad(x, y);
+      if (!up || *up <= rad_of_deg(5)) continue;
+      const auto band = static_cast<std::size_t>((deg_of_rad(*up) - 5) / 5);
+      if (band >= kElevations) continue;
+      const glm::dvec3 ray = world_from_camera * image.rays.at(x, y);
+      const double share = std::atan2(ray.y, ray.x) / kTurn_rad;
+      const auto sector = static_cast<std::size_t>((share - std::floor(share)) * kAzimuths) % kAzimuths;
+      const glm::dvec3 light = color_of(image.grid.light(y, x));
+      ++sky_cells_;
+      if (light.r < kBlueRatio * light.b) ++blue_cells_;
+      sky_[band][sector].sum += luminance(light);
+      ++sky_[band][sector].count;
+      sky_[band][sector].from_axis += std::acos(std::clamp(image.rays.at(x, y).x, -1.0, 1.0));
+    }
+}
+
+void Sun::add_ground(const Frame& frame, const LightImage& image, const glm::dquat& world_from_camera) {
+  const cv::Mat luma = luma_of(frame);
+  const auto found = shadow_patches(luma, *image.view.camera, world_from_camera, image.view.own_body);
+  patches_.insert(patches_.end(), found.begin(), found.end());
+}
+
+void Sun::set_by_shadows(SunEstimate& sun) const {
+  std::complex<double> sum = 0;
+  double weight = 0;
+  for (const Patch& p : patches_) {
+    sum += std::polar(p.weight, 2 * p.direction_rad);
+    weight += p.weight;
+  }
+  const double agreement = weight > 0 ? std::abs(sum) / weight : 0;
+  const auto count = static_cast<double>(patches_.size());
+  if (count < kMinPatches || agreement < kMinAgreement) return;
+  const double axis = 0.5 * std::arg(sum);
+  double sense = 0, votes = 0;
+  for (const Patch& p : patches_) {
+    sense += std::cos(p.direction_rad - axis) > 0 ? p.sense : -p.sense;
+    votes += std::abs(p.sense);
+  }
+  if (votes < 0.25 * count || std::abs(sense) < kMinSense * votes) return;
+  const double away = sense > 0 ? axis : axis + std::numbers::pi;
+  // Each patch's own deviation follows from the agreement (Mardia 1972, for doubled angles). The patches of a clip are
+  // of the same few things, seen again.
+  const double each = 0.5 * std::sqrt(-2 * std::log(std::min(agreement, 0.9999)));
+  sun.azimuth_rad = {.value = between_half_turns(away + std::numbers::pi), .is_known = true};
+  sun.azimuth_rad.sd = std::hypot(
+      kShadowSd_rad, each / std::sqrt(std::max(1.0, count * kGroundEvery / std::max(kGroundEvery, with_level_))));
+  sun.evidence = SunEvidence::shadows;
+}
+
+void Sun::set_by_sky(SunEstimate& sun) const {
+  if (blue_cells_ < kMinBlueSky * sky_cells_) return;
+  std::vector<SkySample> samples;
+  for (std::size_t band = 0; band < kElevations; ++band)
+    for (std::size_t i = 0; i < kAzimuths; ++i) {
+      const SkyBin& bin = sky_[band][i];
+      if (bin.count < kMinSkyCells || bin.sum <= 0) continue;
+      const auto middle = [](std::size_t k, double step) { return (static_cast<double>(k) + 0.5) * step; };
+      samples.push_back({.azimuth_rad = middle(i, kTurn_rad / kAzimuths),
+                         .elevation_rad = rad_of_deg(5) + middle(band, rad_of_deg(5)),
+                         .luminance = bin.sum / bin.count,
+                         .from_axis_rad = bin.from_axis / bin.count,
+                         .band = static_cast<int>(band)});
+    }
+  const std::optional<SkySun> found = sun_of_sky(samples);
+  if (!found) return;
+  sun.elevation_rad = {.value = found->elevation_rad, .sd = found->elevation_sd_rad, .is_known = true};
+  if (sun.evidence == SunEvidence::shadows) return;
+  sun.azimuth_rad = {.value = between_half_turns(found->azimuth_rad), .sd = found->azimuth_sd_rad, .is_known = true};
+  sun.evidence = SunEvidence::sky;
+}
+
+SunEstimate Sun::finish(const std::optional<GivenSun>& given) const {
+  if (given) {
+    const double length = glm::length(given->to_sun_in_world);
+    if (length > 0 && std::isfinite(length)) return by_time_and_place(*given);
+  }
+  SunEstimate sun{.azimuth_rad = {.value = kDefaultAzimuth_rad}, .elevation_rad = {.value = kDefaultElevation_rad}};
+  set_by_shadows(sun);
+  set_by_sky(sun);
+  std::string why = "neither shadows on the ground nor the sky's brightness show it";
+  if (frames_ == 0)
+    why = "there is no frame";
+  else if (with_level_ == 0)
+    why = "the camera's calibration or the horizon is not known";
+  if (!sun.azimuth_rad.is_known) sun.azimuth_rad.why = why;
+  if (!sun.elevation_rad.is_known) sun.elevation_rad.why = why;
+  return sun;
+}
+
+void apply(const SunEstimate& sun, LightSettings& settings) {
+  if (sun.evidence == SunEvidence::given) return;
+  settings.sun.azimuth_deg = deg_of_rad(sun.azimuth_rad.value);
+  settings.sun.elevation_deg = deg_of_rad(sun.elevation_rad.value);
+}
 
 std::vector<Sun::Patch> shadow_patches(const cv::Mat& luma, const Camera& camera, const glm::dquat& world_from_camera,
                                        const cv::Mat& own_body) {

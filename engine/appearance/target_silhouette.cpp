@@ -175,25 +175,6 @@ std::optional<TargetSilhouette> silhouette_in(const Frame& frame, const cv::Rect
   return found;
 }
 
-}  // namespace
-
-std::optional<TargetSilhouette> target_silhouette(const Frame& frame, const Box& box) {
-  const cv::Rect image({0, 0}, frame.size_px());
-  if (!(box.width > 0 && box.height > 0) || !std::isfinite(box.x + box.y + box.width + box.height)) return std::nullopt;
-  const cv::Rect loose = pixels_touched(box, 2, image);
-  if (loose.width < 3 || loose.height < 3) return std::nullopt;
-  const auto first = silhouette_in(frame, loose);
-  if (!first) return std::nullopt;
-  // Again with the box of what was found: whoever drew the loose box has no say in what counts as surroundings.
-  const cv::Rect tight = first->box;
-  const cv::Rect grown = cv::Rect(tight.x - 3, tight.y - 3, tight.width + 6, tight.height + 6) & image;
-  auto second = silhouette_in(frame, grown);
-  if (second) second->is_cut = first->is_cut;
-  return second;
-}
-
-namespace {
-
 constexpr double kProfileReach_px = 6;
 constexpr int kStepsPerPixel = 4;
 constexpr int kSteps = static_cast<int>(2 * kProfileReach_px) * kStepsPerPixel + 1;
@@ -335,6 +316,21 @@ std::optional<double> chroma_width(const TargetSilhouette& target, const std::ve
 }
 
 }  // namespace
+
+std::optional<TargetSilhouette> target_silhouette(const Frame& frame, const Box& box) {
+  const cv::Rect image({0, 0}, frame.size_px());
+  if (!(box.width > 0 && box.height > 0) || !std::isfinite(box.x + box.y + box.width + box.height)) return std::nullopt;
+  const cv::Rect loose = pixels_touched(box, 2, image);
+  if (loose.width < 3 || loose.height < 3) return std::nullopt;
+  const auto first = silhouette_in(frame, loose);
+  if (!first) return std::nullopt;
+  // Again with the box of what was found: whoever drew the loose box has no say in what counts as surroundings.
+  const cv::Rect tight = first->box;
+  const cv::Rect grown = cv::Rect(tight.x - 3, tight.y - 3, tight.width + 6, tight.height + 6) & image;
+  auto second = silhouette_in(frame, grown);
+  if (second) second->is_cut = first->is_cut;
+  return second;
+}
 
 EdgeProfiles edge_profiles(const TargetSilhouette& target) {
   const std::vector<Normal> normals = normals_of(target.mask);

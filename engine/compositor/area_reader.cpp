@@ -73,31 +73,6 @@ LayerPyramid::Level level_of(cv::Mat color, cv::Mat coverage) {
   return level;
 }
 
-}  // namespace
-
-LayerPyramid::LayerPyramid(const Layer& layer) {
-  ENSURE(!layer.color.empty() && layer.color.size() == layer.coverage.size());
-  levels_.push_back(level_of(layer.color, layer.coverage));
-  for (int side = std::max(layer.color.cols, layer.color.rows); side > 1; side = (side + 1) / 2) ++level_count_;
-}
-
-LayerPyramid LayerPyramid::of_parts(const Layer& layer) {
-  LayerPyramid pyramid;
-  const cv::Size size = layer.color.size();
-  const std::vector<cv::Range> rows(static_cast<std::size_t>(size.height), {0, size.width});
-  pyramid.levels_.push_back({layer.color, layer.coverage, rows, {{0, 0}, size}});
-  return pyramid;
-}
-
-const LayerPyramid::Level& LayerPyramid::level(int n) {
-  ENSURE(n >= 0 && n < level_count_);
-  while (static_cast<int>(levels_.size()) <= n)
-    levels_.push_back(level_of(halved(levels_.back().color), halved(levels_.back().coverage)));
-  return levels_[static_cast<std::size_t>(n)];
-}
-
-namespace {
-
 constexpr double kMaxTexelsShort = 16;  // above any supersampling: a coarser level's texels lie across edges
 constexpr double kMaxTexelsLong = 64;
 
@@ -138,10 +113,6 @@ cv::Range touched(double from, double to, int low, int high) {
   return {static_cast<int>(std::clamp(std::floor(from), double(low), double(high))),
           static_cast<int>(std::clamp(std::ceil(to), double(low), double(high)))};
 }
-
-}  // namespace
-
-namespace {
 
 // Numbers that processors work on at a time, each as it would be alone.
 constexpr int kLanes = 4;
@@ -244,7 +215,57 @@ struct Cut {
 }
 #endif
 
+constexpr int kChannels = 4;
+
+// Code values of 8 bits, not rounded: red, green, blue, opacity.
+cv::Mat codes_of(const cv::Mat& color) {
+  cv::Mat codes;
+  cv::sqrt(color.reshape(1), codes);
+  for (int j = 0; j < codes.rows; ++j) {
+    const float* const from = color.ptr<float>(j);
+    float* const to = codes.ptr<float>(j);
+    for (int i = 0; i < codes.cols; i += kChannels) {
+      for (int c = 0; c < kChannels - 1; ++c) to[i + c] *= 255.0F;
+      to[i + kChannels - 1] = 255.0F * from[i + kChannels - 1];
+    }
+  }
+  return codes;
+}
+
+// Fills bends for i = kChannels .. size - kChannels - 1.
+void find_bends(const cv::Mat& codes, int row, std::vector<float>& bends) {
+  const float* const above = codes.ptr<float>(row - 1);
+  const float* const here = codes.ptr<float>(row);
+  const float* const below = codes.ptr<float>(row + 1);
+  for (int i = kChannels; i < codes.cols - kChannels; ++i) {
+    const float across = std::abs(here[i - kChannels] + here[i + kChannels] - 2 * here[i]);
+    const float down = std::abs(above[i] + below[i] - 2 * here[i]);
+    bends[static_cast<std::size_t>(i)] = across > down ? across : down;
+  }
+}
+
 }  // namespace
+
+LayerPyramid::LayerPyramid(const Layer& layer) {
+  ENSURE(!layer.color.empty() && layer.color.size() == layer.coverage.size());
+  levels_.push_back(level_of(layer.color, layer.coverage));
+  for (int side = std::max(layer.color.cols, layer.color.rows); side > 1; side = (side + 1) / 2) ++level_count_;
+}
+
+LayerPyramid LayerPyramid::of_parts(const Layer& layer) {
+  LayerPyramid pyramid;
+  const cv::Size size = layer.color.size();
+  const std::vector<cv::Range> rows(static_cast<std::size_t>(size.height), {0, size.width});
+  pyramid.levels_.push_back({layer.color, layer.coverage, rows, {{0, 0}, size}});
+  return pyramid;
+}
+
+const LayerPyramid::Level& LayerPyramid::level(int n) {
+  ENSURE(n >= 0 && n < level_count_);
+  while (static_cast<int>(levels_.size()) <= n)
+    levels_.push_back(level_of(halved(levels_.back().color), halved(levels_.back().coverage)));
+  return levels_[static_cast<std::size_t>(n)];
+}
 
 AreaMean AreaReader::mean_in(int level, const Quadrilateral& corners) {
 #ifdef __x86_64__
@@ -277,39 +298,6 @@ AreaMean AreaReader::mean_over(const Quadrilateral& corners) {
   for (glm::dvec2& corner : scaled) corner *= std::ldexp(1.0, -level);
   return mean_in(level, scaled);
 }
-
-namespace {
-
-constexpr int kChannels = 4;
-
-// Code values of 8 bits, not rounded: red, green, blue, opacity.
-cv::Mat codes_of(const cv::Mat& color) {
-  cv::Mat codes;
-  cv::sqrt(color.reshape(1), codes);
-  for (int j = 0; j < codes.rows; ++j) {
-    const float* const from = color.ptr<float>(j);
-    float* const to = codes.ptr<float>(j);
-    for (int i = 0; i < codes.cols; i += kChannels) {
-      for (int c = 0; c < kChannels - 1; ++c) to[i + c] *= 255.0F;
-      to[i + kChannels - 1] = 255.0F * from[i + kChannels - 1];
-    }
-  }
-  return codes;
-}
-
-// Fills bends for i = kChannels .. size - kChannels - 1.
-void find_bends(const cv::Mat& codes, int row, std::vector<float>& bends) {
-  const float* const above = codes.ptr<float>(row - 1);
-  const float* const here = codes.ptr<float>(row);
-  const float* const below = codes.ptr<float>(row + 1);
-  for (int i = kChannels; i < codes.cols - kChannels; ++i) {
-    const float across = std::abs(here[i - kChannels] + here[i + kChannels] - 2 * here[i]);
-    const float down = std::abs(above[i] + below[i] - 2 * here[i]);
-    bends[static_cast<std::size_t>(i)] = across > down ? across : down;
-  }
-}
-
-}  // namespace
 
 cv::Mat bent_pixels(const Layer& layer, double max_bend_codes) {
   ENSURE(layer.color.type() == CV_32FC4 && layer.coverage.type() == CV_32FC1 && layer.color.isContinuous());

@@ -85,73 +85,6 @@ void spread_rgb(FloatPatch& patch, double sigma_px) {
   for (PatchPlane& plane : patch.planes) add_change(plane, of_luma - detail_of_layer(plane, sigma_px));
 }
 
-}  // namespace
-
-FloatPatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body) {
-  const cv::Size step = chroma_step(frame.layout);
-  const int margin = margin_px + (step.area() > 1 ? 2 : 0);
-  const cv::Rect luma = widened(grown(pixels, margin) & cv::Rect({0, 0}, frame.size_px()), step, frame.size_px());
-  FloatPatch patch{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
-  for (int plane = 0; plane < frame.plane_count(); ++plane) {
-    const auto index = static_cast<std::size_t>(plane);
-    const cv::Rect rect = plane == 0 ? luma : in_chroma(luma, step);
-    patch.planes[index] = plane_of(frame.planes[index], rect);
-    if (!own_body.empty()) patch.planes[index].free = free_share(own_body, luma, rect, frame);
-  }
-  return patch;
-}
-
-cv::Mat detail_of_layer(const PatchPlane& plane, double sigma_px) {
-  const int margin = blur_margin_px(sigma_px);
-  const cv::Mat kernel = sampled_gaussian(sigma_px, margin);
-  const auto detail = [&](const cv::Mat& codes) {
-    cv::Mat spread;
-    cv::sepFilter2D(codes, spread, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_REFLECT_101);
-    return cv::Mat(codes - spread);
-  };
-  // The same sum by what the layer changes, which is 0 exactly where it changes nothing.
-  return detail(plane.after - plane.before) + plane.opacity.mul(detail(plane.before));
-}
-
-void add_change(PatchPlane& plane, const cv::Mat& change) {
-  ENSURE(change.size() == plane.after.size());
-  plane.after += plane.free.empty() ? change : cv::Mat(change.mul(plane.free));
-}
-
-cv::Mat write_patch(const FloatPatch& patch, Frame& frame) {
-  ENSURE(patch.bit_depth == frame.bit_depth);
-  return with_sample_type(frame.bit_depth, [&](auto sample) { return write_as<decltype(sample)>(patch, frame); });
-}
-
-void sharpen(FloatPatch& patch, double amount, double sigma_px) {
-  if (amount == 0) return;
-  if (patch.layout != PixelLayout::rgb) {
-    add_change(patch.planes[0], amount * detail_of_layer(patch.planes[0], sigma_px));
-    return;
-  }
-  const cv::Mat change = amount * detail_of_layer(luma_of_rgb(patch), sigma_px);
-  for (PatchPlane& plane : patch.planes) add_change(plane, change);
-}
-
-int sharpening_margin_px(double amount, double sigma_px) {
-  return amount == 0 ? 0 : blur_margin_px(sigma_px);
-}
-
-void blur_chroma(FloatPatch& patch, double sigma_samples) {
-  if (sigma_samples == 0 || patch.plane_count() == 1) return;
-  if (patch.layout == PixelLayout::rgb) return spread_rgb(patch, sigma_samples);
-  for (std::size_t plane = 1; plane < 3; ++plane)
-    add_change(patch.planes[plane], -detail_of_layer(patch.planes[plane], sigma_samples));
-}
-
-int chroma_blur_margin_px(PixelLayout layout, double sigma_samples) {
-  if (sigma_samples == 0 || layout == PixelLayout::gray) return 0;
-  const cv::Size step = chroma_step(layout);
-  return (blur_margin_px(sigma_samples) + 1) * std::max(step.width, step.height);
-}
-
-namespace {
-
 constexpr double kRounding_code2 = 1.0 / 12;  // variance of rounding to whole codes
 
 // A noise of its own: by the settings' seed and the intruder.
@@ -335,6 +268,69 @@ void add_chroma_to_rgb(FloatPatch& patch, const cv::Mat& of_luma, const cv::Mat&
 }
 
 }  // namespace
+
+FloatPatch patch_of(const Frame& frame, const cv::Rect& pixels, int margin_px, const cv::Mat& own_body) {
+  const cv::Size step = chroma_step(frame.layout);
+  const int margin = margin_px + (step.area() > 1 ? 2 : 0);
+  const cv::Rect luma = widened(grown(pixels, margin) & cv::Rect({0, 0}, frame.size_px()), step, frame.size_px());
+  FloatPatch patch{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
+  for (int plane = 0; plane < frame.plane_count(); ++plane) {
+    const auto index = static_cast<std::size_t>(plane);
+    const cv::Rect rect = plane == 0 ? luma : in_chroma(luma, step);
+    patch.planes[index] = plane_of(frame.planes[index], rect);
+    if (!own_body.empty()) patch.planes[index].free = free_share(own_body, luma, rect, frame);
+  }
+  return patch;
+}
+
+cv::Mat detail_of_layer(const PatchPlane& plane, double sigma_px) {
+  const int margin = blur_margin_px(sigma_px);
+  const cv::Mat kernel = sampled_gaussian(sigma_px, margin);
+  const auto detail = [&](const cv::Mat& codes) {
+    cv::Mat spread;
+    cv::sepFilter2D(codes, spread, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_REFLECT_101);
+    return cv::Mat(codes - spread);
+  };
+  // The same sum by what the layer changes, which is 0 exactly where it changes nothing.
+  return detail(plane.after - plane.before) + plane.opacity.mul(detail(plane.before));
+}
+
+void add_change(PatchPlane& plane, const cv::Mat& change) {
+  ENSURE(change.size() == plane.after.size());
+  plane.after += plane.free.empty() ? change : cv::Mat(change.mul(plane.free));
+}
+
+cv::Mat write_patch(const FloatPatch& patch, Frame& frame) {
+  ENSURE(patch.bit_depth == frame.bit_depth);
+  return with_sample_type(frame.bit_depth, [&](auto sample) { return write_as<decltype(sample)>(patch, frame); });
+}
+
+void sharpen(FloatPatch& patch, double amount, double sigma_px) {
+  if (amount == 0) return;
+  if (patch.layout != PixelLayout::rgb) {
+    add_change(patch.planes[0], amount * detail_of_layer(patch.planes[0], sigma_px));
+    return;
+  }
+  const cv::Mat change = amount * detail_of_layer(luma_of_rgb(patch), sigma_px);
+  for (PatchPlane& plane : patch.planes) add_change(plane, change);
+}
+
+int sharpening_margin_px(double amount, double sigma_px) {
+  return amount == 0 ? 0 : blur_margin_px(sigma_px);
+}
+
+void blur_chroma(FloatPatch& patch, double sigma_samples) {
+  if (sigma_samples == 0 || patch.plane_count() == 1) return;
+  if (patch.layout == PixelLayout::rgb) return spread_rgb(patch, sigma_samples);
+  for (std::size_t plane = 1; plane < 3; ++plane)
+    add_change(patch.planes[plane], -detail_of_layer(patch.planes[plane], sigma_samples));
+}
+
+int chroma_blur_margin_px(PixelLayout layout, double sigma_samples) {
+  if (sigma_samples == 0 || layout == PixelLayout::gray) return 0;
+  const cv::Size step = chroma_step(layout);
+  return (blur_margin_px(sigma_samples) + 1) * std::max(step.width, step.height);
+}
 
 cv::Mat noise_field(const GrainSettings& grain, int plane, std::int64_t frame, const cv::Rect& rect, int intruder) {
   const NoiseSource source{grain, intruder};

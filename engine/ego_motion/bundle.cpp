@@ -217,6 +217,13 @@ class Adjustment {
   NormalEquations normal_;
 };
 
+constexpr double kSkyTrust = 0.02;
+constexpr double kHills_rad = 0.052;
+constexpr double kSky_rad = 0.105;
+constexpr double kNear = 0.015;  // inverse depth, per unit of length; some 70 seconds of flight away
+constexpr std::size_t kMinNear = 15;
+constexpr double kRough = 0.3;  // of the median inverse depth: what hills make it differ by
+
 }  // namespace
 
 Projection projection(const BundleFrame& frame, const Landmark& landmark, const glm::dvec3& ray) {
@@ -251,17 +258,6 @@ BundleFit adjust(Bundle& bundle, const BundleSettings& settings, CancelFlag canc
   if (bundle.frames.size() < 2) return {.covariances = std::vector<glm::dmat3>(bundle.frames.size(), glm::dmat3(0))};
   return Adjustment(bundle, settings).run(cancel);
 }
-
-namespace {
-
-constexpr double kSkyTrust = 0.02;
-constexpr double kHills_rad = 0.052;
-constexpr double kSky_rad = 0.105;
-constexpr double kNear = 0.015;  // inverse depth, per unit of length; some 70 seconds of flight away
-constexpr std::size_t kMinNear = 15;
-constexpr double kRough = 0.3;  // of the median inverse depth: what hills make it differ by
-
-}  // namespace
 
 std::optional<glm::dvec3> ground_of(std::span<const Landmark> landmarks) {
   std::vector<const Landmark*> near;

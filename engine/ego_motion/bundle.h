@@ -121,8 +121,4 @@ struct LocatedFrame {
 [[nodiscard]] LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess,
                                          double readout_s);
 
-// The direction in which the camera moves between two frames, unit, in the axes of the first: the one to which the
-// paths of all features on the sphere lead (the focus of expansion). Forward where nothing moves by parallax.
-[[nodiscard]] glm::dvec3 direction_of_motion(std::span<const RayPair> pairs_without_rotation, double pixel_rad);
-
 }  // namespace sigs

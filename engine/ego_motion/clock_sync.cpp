@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -138,73 +139,6 @@ Result<ClockOffset> agreed(std::vector<HeardPart> parts, std::size_t heard) {
   return clock;
 }
 
-}  // namespace
-
-Result<ClockOffset> clock_by_sound(const Sound& first, const Sound& second, double max_offset_s,
-                                   const std::atomic<bool>* cancel) {
-  const auto enough = [](const Sound& sound) { return static_cast<double>(sound.samples.size()) >= sound.rate_hz; };
-  if (!enough(first) || !enough(second) || first.rate_hz != second.rate_hz)
-    return fail("", "the sound of one of the files is shorter than a second");
-  std::vector<HeardPart> parts = heard_parts(first, second, max_offset_s, cancel);
-  if (is_cancelled(cancel)) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
-  if (parts.empty()) return fail("", "nothing that one of the files sounds like is heard in the other");
-  const double drift = drift_of(parts);
-  const double middle = median(offsets_of(parts));
-  const std::size_t heard = parts.size();
-  const double at_s = parts[heard / 2].second_s;
-  constexpr double kAgree_s = 0.05;
-  std::erase_if(parts, [&](const HeardPart& part) {
-    return std::abs(part.offset_s - middle - drift * (part.second_s - at_s)) > kAgree_s + std::abs(drift) * 100;
-  });
-  if (2 * parts.size() <= heard)
-    return fail("", fmt::format("parts of the sound agree on no offset: {} of {}", parts.size(), heard));
-  return agreed(std::move(parts), heard);
-}
-
-ClockOffset clock_by_time_codes(const TimeCode& first, const TimeCode& second) {
-  constexpr double kDay_s = 86400;
-  const auto frame_s = [](const TimeCode& code) { return static_cast<double>(code.rate_den) / code.rate_num; };
-  const auto by_label_s = [](const TimeCode& code) {
-    return 3600.0 * code.hours + 60.0 * code.minutes + code.whole_seconds;
-  };
-  const bool same_count =
-      first.rate_num * second.rate_den == second.rate_num * first.rate_den && first.drops_frames == second.drops_frames;
-  const auto is_slow = [](const TimeCode& code) { return code.rate_den != 1 && !code.drops_frames; };
-  // Hours that are a thousandth too long, since a clock set the code when the recorder was switched on, or never.
-  constexpr double kSlow = 0.001;
-  const double of_hours_s =
-      same_count ? 0 : kSlow * ((is_slow(first) ? by_label_s(first) : 0) + (is_slow(second) ? by_label_s(second) : 0));
-  // Of frame 0 of the second camera by the first one's time.
-  double offset_s = std::remainder(second.seconds() - first.seconds(), kDay_s);
-  if (!same_count) {
-    const auto of_day_s = [&](const TimeCode& code) {
-      return is_slow(code) ? by_label_s(code) + code.frames * frame_s(code) : code.seconds();
-    };
-    offset_s = std::remainder(of_day_s(second) - of_day_s(first), kDay_s);
-  }
-  return {.offset_s = offset_s,
-          .sd_s = std::hypot(kEven * frame_s(first), kEven * frame_s(second), of_hours_s),
-          .drift_sd = kUnknown};
-}
-
-const char* name_of(ClockSource source) {
-  switch (source) {
-    case ClockSource::turns:
-      return "turns";
-    case ClockSource::sound:
-      return "sound";
-    case ClockSource::log:
-      return "log";
-    case ClockSource::time_code:
-      return "time code";
-    case ClockSource::creation_time:
-      return "creation time";
-  }
-  return "";
-}
-
-namespace {
-
 // The findings of one source each.
 class ClockSearch {
  public:
@@ -213,19 +147,9 @@ class ClockSearch {
       : first_(first), second_(second), settings_(settings), control_(control) {}
 
   [[nodiscard]] ClockFinding by(ClockSource source) const {
-    switch (source) {
-      case ClockSource::turns:
-        return by_turns();
-      case ClockSource::sound:
-        return by_sound();
-      case ClockSource::log:
-        return by_log();
-      case ClockSource::time_code:
-        return by_time_code();
-      case ClockSource::creation_time:
-        return by_creation_time();
-    }
-    return {};
+    static constexpr std::array kWays{&ClockSearch::by_turns, &ClockSearch::by_sound, &ClockSearch::by_log,
+                                      &ClockSearch::by_time_code, &ClockSearch::by_creation_time};
+    return (this->*kWays.at(static_cast<std::size_t>(source)))();
   }
 
  private:
@@ -331,6 +255,58 @@ class ClockSearch {
 };
 
 }  // namespace
+
+Result<ClockOffset> clock_by_sound(const Sound& first, const Sound& second, double max_offset_s,
+                                   const std::atomic<bool>* cancel) {
+  const auto enough = [](const Sound& sound) { return static_cast<double>(sound.samples.size()) >= sound.rate_hz; };
+  if (!enough(first) || !enough(second) || first.rate_hz != second.rate_hz)
+    return fail("", "the sound of one of the files is shorter than a second");
+  std::vector<HeardPart> parts = heard_parts(first, second, max_offset_s, cancel);
+  if (is_cancelled(cancel)) return fail("", "interrupted; nothing was written", ErrorKind::interrupted);
+  if (parts.empty()) return fail("", "nothing that one of the files sounds like is heard in the other");
+  const double drift = drift_of(parts);
+  const double middle = median(offsets_of(parts));
+  const std::size_t heard = parts.size();
+  const double at_s = parts[heard / 2].second_s;
+  constexpr double kAgree_s = 0.05;
+  std::erase_if(parts, [&](const HeardPart& part) {
+    return std::abs(part.offset_s - middle - drift * (part.second_s - at_s)) > kAgree_s + std::abs(drift) * 100;
+  });
+  if (2 * parts.size() <= heard)
+    return fail("", fmt::format("parts of the sound agree on no offset: {} of {}", parts.size(), heard));
+  return agreed(std::move(parts), heard);
+}
+
+ClockOffset clock_by_time_codes(const TimeCode& first, const TimeCode& second) {
+  constexpr double kDay_s = 86400;
+  const auto frame_s = [](const TimeCode& code) { return static_cast<double>(code.rate_den) / code.rate_num; };
+  const auto by_label_s = [](const TimeCode& code) {
+    return 3600.0 * code.hours + 60.0 * code.minutes + code.whole_seconds;
+  };
+  const bool same_count =
+      first.rate_num * second.rate_den == second.rate_num * first.rate_den && first.drops_frames == second.drops_frames;
+  const auto is_slow = [](const TimeCode& code) { return code.rate_den != 1 && !code.drops_frames; };
+  // Hours that are a thousandth too long, since a clock set the code when the recorder was switched on, or never.
+  constexpr double kSlow = 0.001;
+  const double of_hours_s =
+      same_count ? 0 : kSlow * ((is_slow(first) ? by_label_s(first) : 0) + (is_slow(second) ? by_label_s(second) : 0));
+  // Of frame 0 of the second camera by the first one's time.
+  double offset_s = std::remainder(second.seconds() - first.seconds(), kDay_s);
+  if (!same_count) {
+    const auto of_day_s = [&](const TimeCode& code) {
+      return is_slow(code) ? by_label_s(code) + code.frames * frame_s(code) : code.seconds();
+    };
+    offset_s = std::remainder(of_day_s(second) - of_day_s(first), kDay_s);
+  }
+  return {.offset_s = offset_s,
+          .sd_s = std::hypot(kEven * frame_s(first), kEven * frame_s(second), of_hours_s),
+          .drift_sd = kUnknown};
+}
+
+const char* name_of(ClockSource source) {
+  static constexpr std::array kNames{"turns", "sound", "log", "time code", "creation time"};
+  return kNames.at(static_cast<std::size_t>(source));
+}
 
 Result<std::vector<ClockFinding>> found_clocks(const CameraRecording& first, const CameraRecording& second,
                                                std::span<const ClockSource> sources, const TurnSyncSettings& settings,

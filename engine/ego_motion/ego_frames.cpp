@@ -27,6 +27,10 @@ std::vector<int> still_frames(const EgoMotion& motion) {
   return still;
 }
 
+bool is_footage_clock(const std::string& clock) {
+  return clock.starts_with("footage");
+}
+
 }  // namespace
 
 std::string ranges_text(std::span<const int> numbers) {
@@ -119,14 +123,6 @@ Track track_of(const EgoMotion& motion, const std::filesystem::path& footage) {
   track.warnings = motion.warnings;
   return track;
 }
-
-namespace {
-
-bool is_footage_clock(const std::string& clock) {
-  return clock.starts_with("footage");
-}
-
-}  // namespace
 
 void add_log(Track& attitudes, const Track& log, const EgoMotion& motion) {
   attitudes.readout_s = log.readout_s;

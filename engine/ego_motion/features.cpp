@@ -63,6 +63,43 @@ cv::TermCriteria stop() {
   return {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, kIterations, kStop_px};
 }
 
+constexpr int kNode_px = 80;            // between places at which the gradient is found; between them it is linear
+constexpr float kNear_px = 60;          // neighbours at this distance have a quarter of the weight
+constexpr int kRounds = 2;              // the second with weights by how far features agree
+constexpr float kSameMotion_px = 0.2F;  // with the displacement of their neighbours
+constexpr float kPrior_px2 = 100;       // spread of the places from which on the gradient is believed
+
+// Displacements around one place as d + A x, x from the place in units of kNear_px.
+struct LocalFit {
+  cv::Vec3f dx{0, 0, 0};  // (d, A11, A12)
+  cv::Vec3f dy{0, 0, 0};
+};
+
+LocalFit refined(const LocalFit& fit, cv::Point2f place, std::span<const cv::Point2f> from,
+                 std::span<const cv::Point2f> to, bool first) {
+  cv::Matx33f normal =
+      cv::Matx33f::diag({1e-6F, kPrior_px2 / (kNear_px * kNear_px), kPrior_px2 / (kNear_px * kNear_px)});
+  cv::Vec3f right_x{0, 0, 0};
+  cv::Vec3f right_y{0, 0, 0};
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const cv::Vec3f at{1, (from[i].x - place.x) / kNear_px, (from[i].y - place.y) / kNear_px};
+    const float far = at[1] * at[1] + at[2] * at[2];
+    if (far > 4) continue;
+    const cv::Point2f moved = to[i] - from[i];
+    float weight = 1 / ((1 + far) * (1 + far));
+    if (!first) {
+      const float x = (moved.x - fit.dx.dot(at)) / kSameMotion_px;
+      const float y = (moved.y - fit.dy.dot(at)) / kSameMotion_px;
+      weight /= (1 + x * x + y * y) * (1 + x * x + y * y);
+    }
+    normal += weight * at * at.t();
+    right_x += weight * moved.x * at;
+    right_y += weight * moved.y * at;
+  }
+  const cv::Matx33f inverse = normal.inv(cv::DECOMP_CHOLESKY);
+  return {inverse * right_x, inverse * right_y};
+}
+
 }  // namespace
 
 FeatureTracker::FeatureTracker(cv::Size size_px, const cv::Mat& own_body, const EgoMotionSettings& settings)
@@ -250,47 +287,6 @@ void FeatureTracker::take_as_key(bool detects) {
   for (const cv::Point2f& p : key_points_) responses_.push_back(window_response(key_pyramid_[1], p, kWindow_px / 2));
   key_count_ = points_.size();
 }
-
-namespace {
-
-constexpr int kNode_px = 80;            // between places at which the gradient is found; between them it is linear
-constexpr float kNear_px = 60;          // neighbours at this distance have a quarter of the weight
-constexpr int kRounds = 2;              // the second with weights by how far features agree
-constexpr float kSameMotion_px = 0.2F;  // with the displacement of their neighbours
-constexpr float kPrior_px2 = 100;       // spread of the places from which on the gradient is believed
-
-// Displacements around one place as d + A x, x from the place in units of kNear_px.
-struct LocalFit {
-  cv::Vec3f dx{0, 0, 0};  // (d, A11, A12)
-  cv::Vec3f dy{0, 0, 0};
-};
-
-LocalFit refined(const LocalFit& fit, cv::Point2f place, std::span<const cv::Point2f> from,
-                 std::span<const cv::Point2f> to, bool first) {
-  cv::Matx33f normal =
-      cv::Matx33f::diag({1e-6F, kPrior_px2 / (kNear_px * kNear_px), kPrior_px2 / (kNear_px * kNear_px)});
-  cv::Vec3f right_x{0, 0, 0};
-  cv::Vec3f right_y{0, 0, 0};
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const cv::Vec3f at{1, (from[i].x - place.x) / kNear_px, (from[i].y - place.y) / kNear_px};
-    const float far = at[1] * at[1] + at[2] * at[2];
-    if (far > 4) continue;
-    const cv::Point2f moved = to[i] - from[i];
-    float weight = 1 / ((1 + far) * (1 + far));
-    if (!first) {
-      const float x = (moved.x - fit.dx.dot(at)) / kSameMotion_px;
-      const float y = (moved.y - fit.dy.dot(at)) / kSameMotion_px;
-      weight /= (1 + x * x + y * y) * (1 + x * x + y * y);
-    }
-    normal += weight * at * at.t();
-    right_x += weight * moved.x * at;
-    right_y += weight * moved.y * at;
-  }
-  const cv::Matx33f inverse = normal.inv(cv::DECOMP_CHOLESKY);
-  return {inverse * right_x, inverse * right_y};
-}
-
-}  // namespace
 
 WindowResponse window_response(const cv::Mat& derivatives, cv::Point2f middle, int half) {
   const int column = cvRound(middle.x);

@@ -101,44 +101,6 @@ double least_at(const Costs& costs) {
   return static_cast<double>(i) + std::clamp(shift, -0.5, 0.5);
 }
 
-}  // namespace
-
-std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double pixel_rad, CancelFlag cancel) {
-  const std::vector<std::vector<RayPair>> pairs = moving_pairs(frames, pixel_rad);
-  if (pairs.size() < kMinPairs) return std::nullopt;
-  std::vector<Costs> costs(pairs.size());
-  parallel_for(static_cast<int>(pairs.size()), static_cast<int>(std::thread::hardware_concurrency()), [&](int i) {
-    const auto k = static_cast<std::size_t>(i);
-    for (int s = 0; s < kScales && !is_cancelled(cancel); ++s)
-      costs[k][static_cast<std::size_t>(s)] = cost_of(pairs[k], scale_at(s), pixel_rad);
-  });
-  if (is_cancelled(cancel)) return std::nullopt;
-  const auto sum_of = [&](auto&& pick) {
-    Costs sum{};
-    for (std::size_t i = 0; i < costs.size(); ++i) {
-      const Costs& one = costs[pick(i)];
-      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += one[s];
-    }
-    return sum;
-  };
-  const Costs all = sum_of([](std::size_t i) { return i; });
-  const double at = least_at(all);
-  if (*std::min_element(all.begin(), all.end()) > kLargestCost * static_cast<double>(pairs.size())) return std::nullopt;
-  constexpr int kDraws = 200;
-  Sequence chance;
-  std::vector<double> drawn;
-  for (int draw = 0; draw < kDraws; ++draw)
-    drawn.push_back(least_at(sum_of([&](std::size_t) { return chance.below(costs.size()); })));
-  const double low = quantile(drawn, 0.025);
-  const double high = quantile(drawn, 0.975);
-  constexpr double kStep = 0.5;  // the grid's own error
-  FocalScale found{.value = scale_at(at), .least = scale_at(low - kStep), .largest = scale_at(high + kStep)};
-  if (high > kScales - 2) found.largest = 0;
-  return found;
-}
-
-namespace {
-
 constexpr std::size_t kSlopeParts = 10;      // of the footage
 constexpr std::size_t kMinSlopeTurns = 100;  // frames
 constexpr double kMinGyroCorrelation = 0.9;  // of seen and recorded turns; less where images were stabilized
@@ -214,6 +176,40 @@ double across(const TurnPair& pair) {
 }
 
 }  // namespace
+
+std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double pixel_rad, CancelFlag cancel) {
+  const std::vector<std::vector<RayPair>> pairs = moving_pairs(frames, pixel_rad);
+  if (pairs.size() < kMinPairs) return std::nullopt;
+  std::vector<Costs> costs(pairs.size());
+  parallel_for(static_cast<int>(pairs.size()), static_cast<int>(std::thread::hardware_concurrency()), [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    for (int s = 0; s < kScales && !is_cancelled(cancel); ++s)
+      costs[k][static_cast<std::size_t>(s)] = cost_of(pairs[k], scale_at(s), pixel_rad);
+  });
+  if (is_cancelled(cancel)) return std::nullopt;
+  const auto sum_of = [&](auto&& pick) {
+    Costs sum{};
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+      const Costs& one = costs[pick(i)];
+      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += one[s];
+    }
+    return sum;
+  };
+  const Costs all = sum_of([](std::size_t i) { return i; });
+  const double at = least_at(all);
+  if (*std::min_element(all.begin(), all.end()) > kLargestCost * static_cast<double>(pairs.size())) return std::nullopt;
+  constexpr int kDraws = 200;
+  Sequence chance;
+  std::vector<double> drawn;
+  for (int draw = 0; draw < kDraws; ++draw)
+    drawn.push_back(least_at(sum_of([&](std::size_t) { return chance.below(costs.size()); })));
+  const double low = quantile(drawn, 0.025);
+  const double high = quantile(drawn, 0.975);
+  constexpr double kStep = 0.5;  // the grid's own error
+  FocalScale found{.value = scale_at(at), .least = scale_at(low - kStep), .largest = scale_at(high + kStep)};
+  if (high > kScales - 2) found.largest = 0;
+  return found;
+}
 
 std::optional<FocalScale> focal_scale_by_gyro(std::span<const SeenTurn> turns, const RateIntegral& rates,
                                               const TimeOffset& offset, const glm::dquat& camera_from_gyro) {

@@ -22,6 +22,34 @@ constexpr double kRateChangeSd_radps2 = 50;  // of its change within a frame: so
 constexpr double kDoubtful_px = 0.18;        // an adjustment whose features are off by more may have gone astray
 constexpr double kPositionSd = 0.01;         // of a frame between its key frames, in the unit of length
 
+// The direction in which the camera moves between two frames, unit, in the axes of the first: the one to which the
+// paths of all features on the sphere lead (the focus of expansion). Forward where nothing moves by parallax.
+//   pairs  without the rotation
+glm::dvec3 direction_of_motion(std::span<const RayPair> pairs, double pixel_rad) {
+  const glm::dvec3 forward(1, 0, 0);
+  std::vector<glm::dvec3> normals;
+  for (const RayPair& pair : pairs) normals.push_back(glm::cross(pair.before, pair.after));
+  std::vector<double> weights(normals.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) weights[i] = 1 / (glm::length(normals[i]) + pixel_rad);
+  glm::dvec3 direction = forward;
+  for (int round = 0; round < 6; ++round) {
+    glm::dmat3 sum(0);
+    for (std::size_t i = 0; i < normals.size(); ++i) sum += weights[i] * glm::outerProduct(normals[i], normals[i]);
+    const PrincipalAxes found = principal_axes(sum);
+    if (!(found.values[1] > 0)) return forward;
+    direction = found.axes[0];
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const double miss = glm::dot(direction, normals[i]);
+      weights[i] = 1 / (1 + miss * miss / (0.25 * pixel_rad * pixel_rad));
+    }
+  }
+  double away = 0;  // features move away from the direction of motion
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    away += weights[i] * glm::dot(pairs[i].after - pairs[i].before,
+                                  direction - glm::dot(direction, pairs[i].before) * pairs[i].before);
+  return away > 0 ? -direction : direction;
+}
+
 class KeyAdjuster {
  public:
   KeyAdjuster(std::span<const FrameRays> frames, std::span<const double> times_s,
@@ -161,31 +189,6 @@ KeyFrames adjusted_keys(std::span<const FrameRays> frames, std::span<const doubl
                         std::span<const glm::dquat> first_values, std::span<const int> keys, double pixel_rad,
                         CancelFlag cancel) {
   return KeyAdjuster(frames, times_s, first_values, keys, pixel_rad, cancel).solved();
-}
-
-glm::dvec3 direction_of_motion(std::span<const RayPair> pairs, double pixel_rad) {
-  const glm::dvec3 forward(1, 0, 0);
-  std::vector<glm::dvec3> normals;
-  for (const RayPair& pair : pairs) normals.push_back(glm::cross(pair.before, pair.after));
-  std::vector<double> weights(normals.size());
-  for (std::size_t i = 0; i < normals.size(); ++i) weights[i] = 1 / (glm::length(normals[i]) + pixel_rad);
-  glm::dvec3 direction = forward;
-  for (int round = 0; round < 6; ++round) {
-    glm::dmat3 sum(0);
-    for (std::size_t i = 0; i < normals.size(); ++i) sum += weights[i] * glm::outerProduct(normals[i], normals[i]);
-    const PrincipalAxes found = principal_axes(sum);
-    if (!(found.values[1] > 0)) return forward;
-    direction = found.axes[0];
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      const double miss = glm::dot(direction, normals[i]);
-      weights[i] = 1 / (1 + miss * miss / (0.25 * pixel_rad * pixel_rad));
-    }
-  }
-  double away = 0;  // features move away from the direction of motion
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    away += weights[i] * glm::dot(pairs[i].after - pairs[i].before,
-                                  direction - glm::dot(direction, pairs[i].before) * pairs[i].before);
-  return away > 0 ? -direction : direction;
 }
 
 LocatedFrame located_frame(const KeyFrames& keys, const FrameRays& rays, const BundleFrame& guess, double readout_s) {

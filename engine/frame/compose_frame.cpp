@@ -172,40 +172,6 @@ Stage clouds_stage(const CloudMap& clouds, const Scene& scene) {
   return stage;
 }
 
-}  // namespace
-
-Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
-                                       ComposeContext& context, const ColorInfo& footage, const Frame* background) {
-  LensTable& lens = context.lens_of(compositing_camera(scene));
-  lens.turn_to(placed.camera_from_body.translation_m);
-  const std::int64_t evaluations_before = lens.evaluations();
-  IntruderLayers layers = placed_layers(scene, moment, placed, lens.camera());
-  const RenderPlan plan = render_plan_for(layers, lens, scene, moment);
-  if (!plan.views.empty()) {
-    const Result<Renderer*> renderer = context.renderer();
-    if (!renderer) return fail(renderer.error());
-    Result<std::vector<RenderedView>> views = sparingly_rendered_views(plan, scene, lens, layers, **renderer);
-    if (!views) return fail(views.error());
-    layers.views = std::move(*views);
-    layers.warped = warped(layers.views, lens, plan.warp_rect, row_transform(layers));
-    layers.hazed = hazed_layer(scene, layers.warped, placed.distance_m(),
-                               box_in_image(layers, lens.camera().lens, scene.footage.size_px), background);
-    blur(scene, lens.camera().lens, footage, background == nullptr ? 8 : background->bit_depth, layers);
-    layers.occluded = without_hidden(scene, moment, layers.blurred, placed.distance_m(), lens);
-    const Result<double> area = whole_area_px(layers, plan, lens, scene, **renderer);
-    if (!area) return fail(area.error());
-    layers.whole_area_px = *area;
-    layers.op_counts.pixels_warped += layers.warped.rect.area();
-  }
-  add_contrail(scene, moment, background, lens, layers);
-  add_lamps(scene, moment, lens, layers);
-  add_shadow(scene, moment, lens, layers);
-  layers.op_counts.lens_evaluations += lens.evaluations() - evaluations_before;
-  return layers;
-}
-
-namespace {
-
 // Of a frame that is light, or heat in gray.
 Result<ComposedFrame> composed_onto(Frame&& background, const Scene& scene, int frame, ComposeContext& context,
                                     Stages stages) {
@@ -254,7 +220,41 @@ Result<ComposedFrame> composed_in_colors(Frame&& background, const Scene& scene,
   return composed;
 }
 
+bool is_same(const Camera& a, const Camera& b) {
+  return a.size_px == b.size_px && a.lens.parameters() == b.lens.parameters();
+}
+
 }  // namespace
+
+Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
+                                       ComposeContext& context, const ColorInfo& footage, const Frame* background) {
+  LensTable& lens = context.lens_of(compositing_camera(scene));
+  lens.turn_to(placed.camera_from_body.translation_m);
+  const std::int64_t evaluations_before = lens.evaluations();
+  IntruderLayers layers = placed_layers(scene, moment, placed, lens.camera());
+  const RenderPlan plan = render_plan_for(layers, lens, scene, moment);
+  if (!plan.views.empty()) {
+    const Result<Renderer*> renderer = context.renderer();
+    if (!renderer) return fail(renderer.error());
+    Result<std::vector<RenderedView>> views = sparingly_rendered_views(plan, scene, lens, layers, **renderer);
+    if (!views) return fail(views.error());
+    layers.views = std::move(*views);
+    layers.warped = warped(layers.views, lens, plan.warp_rect, row_transform(layers));
+    layers.hazed = hazed_layer(scene, layers.warped, placed.distance_m(),
+                               box_in_image(layers, lens.camera().lens, scene.footage.size_px), background);
+    blur(scene, lens.camera().lens, footage, background == nullptr ? 8 : background->bit_depth, layers);
+    layers.occluded = without_hidden(scene, moment, layers.blurred, placed.distance_m(), lens);
+    const Result<double> area = whole_area_px(layers, plan, lens, scene, **renderer);
+    if (!area) return fail(area.error());
+    layers.whole_area_px = *area;
+    layers.op_counts.pixels_warped += layers.warped.rect.area();
+  }
+  add_contrail(scene, moment, background, lens, layers);
+  add_lamps(scene, moment, lens, layers);
+  add_shadow(scene, moment, lens, layers);
+  layers.op_counts.lens_evaluations += lens.evaluations() - evaluations_before;
+  return layers;
+}
 
 Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background, ComposeContext& context,
                                     Stages stages) {
@@ -284,6 +284,41 @@ Result<std::optional<FrameTruth>> truth_without_image(const Scene& scene, int fr
 Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background, ComposeContext& context,
                                     Stages stages) {
   return compose_frame(scene, frame, cloned(background), context, stages);
+}
+
+Result<Renderer*> ComposeContext::renderer() {
+  if (!renderer_) {
+    Result<Renderer> created = Renderer::create(settings_.samples_per_pixel);
+    if (!created) return fail(created.error());
+    renderer_.emplace(std::move(*created));
+  }
+  return &*renderer_;
+}
+
+const DistortMaps& ComposeContext::maps_of(const Camera& camera) {
+  if (!camera_of_maps_ || !is_same(*camera_of_maps_, camera)) {
+    maps_ = distort_maps(camera);
+    camera_of_maps_ = camera;
+  }
+  return *maps_;
+}
+
+LensTable& ComposeContext::lens_of(const Camera& camera) {
+  if (!lens_ || !is_same(lens_->camera(), camera)) lens_.emplace(camera, settings_.lens_tolerance_px);
+  return *lens_;
+}
+
+const HeatColors& ComposeContext::colors_of(HeatPalette palette) {
+  if (!colors_ || colors_->palette() != palette) colors_.emplace(palette);
+  return *colors_;
+}
+
+void ComposeContext::forget(const Mesh& mesh) {
+  if (renderer_) renderer_->forget(mesh);
+}
+
+std::string ComposeContext::renderer_description() const {
+  return renderer_ ? renderer_->description() : std::string();
 }
 
 }  // namespace sigs

@@ -279,6 +279,39 @@ void keep_classic_stages(std::vector<Stage>& kept, const ClassicStages& stages, 
     if (!image->empty()) kept.push_back({stage_name(name, layers, scene), *image});
 }
 
+// None where there is none to be done: it is not asked for, the method is not direct, the footage has more than 8 bits,
+// its codec keeps every sample, or no intruder reaches the image.
+std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& scene, int frame, const Lens& lens,
+                                          const std::vector<IntruderLayers>& layers) {
+  const CodecMatchSettings& settings = scene.appearance.codec;
+  if (settings.match == CodecMatchChoice::none || scene.compositing.method != MethodChoice::direct) return std::nullopt;
+  if (background.bit_depth > 8) return std::nullopt;
+  const cv::Rect image({0, 0}, background.size_px());
+  std::vector<cv::Rect> reaches;
+  std::vector<std::vector<cv::Point2d>> earlier_px;
+  constexpr int kCodedHalo_px = 36;  // beyond it a halo is too even for a codec to change it
+  const int margin_px = post_blend_stages_margin_px(scene, background.layout, kCodedHalo_px);
+  for (const IntruderLayers& intruder : layers) {
+    for (const Layer* const still : {&intruder.contrail, &intruder.shadow}) {  // which hardly move
+      if (still->empty()) continue;
+      reaches.push_back(grown(still->rect, margin_px) & image);
+      if (settings.predicted_frames > 0)
+        earlier_px.emplace_back(std::min(settings.predicted_frames, frame), cv::Point2d(0, 0));
+    }
+    cv::Rect own = intruder.occluded.empty() ? cv::Rect() : intruder.occluded.rect;
+    for (const LampLayer& lamp : intruder.lamps) own |= lamp.layer.rect;
+    if (own.empty()) continue;
+    reaches.push_back(grown(own, margin_px) & image);
+    if (settings.predicted_frames > 0)
+      earlier_px.push_back(earlier_places(scene, frame, intruder.placed, lens, settings.predicted_frames));
+  }
+  if (reaches.empty()) return std::nullopt;
+  std::optional<FrameQuantisers> quantisers =
+      matched_quantisers(settings.match, settings.quantiser, background.quantisers.get());
+  if (!quantisers) return std::nullopt;
+  return CodecMatch(background, reaches, std::move(*quantisers), earlier_px);
+}
+
 }  // namespace
 
 cv::Mat occluder_seen_from(const Pose<frame::World, frame::Camera>& world_from_camera, const Occluder& occluder,
@@ -338,37 +371,6 @@ ComposedFrame composited(Frame background, const Scene& scene, int frame,
     composed.stages.push_back({"output", bgr_of(composed.image)});
   }
   return composed;
-}
-
-std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& scene, int frame, const Lens& lens,
-                                          const std::vector<IntruderLayers>& layers) {
-  const CodecMatchSettings& settings = scene.appearance.codec;
-  if (settings.match == CodecMatchChoice::none || scene.compositing.method != MethodChoice::direct) return std::nullopt;
-  if (background.bit_depth > 8) return std::nullopt;
-  const cv::Rect image({0, 0}, background.size_px());
-  std::vector<cv::Rect> reaches;
-  std::vector<std::vector<cv::Point2d>> earlier_px;
-  constexpr int kCodedHalo_px = 36;  // beyond it a halo is too even for a codec to change it
-  const int margin_px = post_blend_stages_margin_px(scene, background.layout, kCodedHalo_px);
-  for (const IntruderLayers& intruder : layers) {
-    for (const Layer* const still : {&intruder.contrail, &intruder.shadow}) {  // which hardly move
-      if (still->empty()) continue;
-      reaches.push_back(grown(still->rect, margin_px) & image);
-      if (settings.predicted_frames > 0)
-        earlier_px.emplace_back(std::min(settings.predicted_frames, frame), cv::Point2d(0, 0));
-    }
-    cv::Rect own = intruder.occluded.empty() ? cv::Rect() : intruder.occluded.rect;
-    for (const LampLayer& lamp : intruder.lamps) own |= lamp.layer.rect;
-    if (own.empty()) continue;
-    reaches.push_back(grown(own, margin_px) & image);
-    if (settings.predicted_frames > 0)
-      earlier_px.push_back(earlier_places(scene, frame, intruder.placed, lens, settings.predicted_frames));
-  }
-  if (reaches.empty()) return std::nullopt;
-  std::optional<FrameQuantisers> quantisers =
-      matched_quantisers(settings.match, settings.quantiser, background.quantisers.get());
-  if (!quantisers) return std::nullopt;
-  return CodecMatch(background, reaches, std::move(*quantisers), earlier_px);
 }
 
 }  // namespace sigs

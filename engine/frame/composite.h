@@ -35,14 +35,6 @@ namespace sigs {
 [[nodiscard]] cv::Mat occluder_seen_from(const Pose<frame::World, frame::Camera>& world_from_camera,
                                          const Occluder& occluder, LensTable& lens, const cv::Rect& rect);
 
-// The codec match of a frame as the scene's settings (appearance.codec) ask for it, to be made before the layers are
-// blended and applied after; nothing where there is none to be done: it is not asked for, the method is not direct, the
-// footage has more than 8 bits, its codec keeps every sample, or no intruder reaches the image.
-//   frame  number of the frame in the footage
-//   lens   that the scene is composited with
-[[nodiscard]] std::optional<CodecMatch> codec_match_for(const Frame& background, const Scene& scene, int frame,
-                                                        const Lens& lens, const std::vector<IntruderLayers>& layers);
-
 // Whether anything follows the blending: the halo of a thermal camera, sharpening, chroma blur, grain.
 [[nodiscard]] bool has_post_blend_stages(const Scene& scene);
 

@@ -169,6 +169,66 @@ void count_rendering(OpCounts& counts, const RenderCounts& before, const RenderC
   counts.bytes_uploaded += after.bytes_uploaded - before.bytes_uploaded;
 }
 
+// How far an intruder's reference point moves in the image while the shutter is open, px: from the first half of the
+// exposure to the second, by the camera's turn and by both flights. (0, 0) where it has no image at either end.
+glm::dvec2 motion_during_exposure(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
+                                  const Lens& lens) {
+  if (!(moment.exposure_s > 0)) return {0, 0};
+  const auto id = static_cast<std::size_t>(placed.id);
+  const std::optional<glm::dvec2> first = pixel_at(scene, moment, id, lens, -moment.exposure_s / 2);
+  const std::optional<glm::dvec2> last = pixel_at(scene, moment, id, lens, moment.exposure_s / 2);
+  return first && last ? lens.way(*first, *last) : glm::dvec2(0, 0);
+}
+
+// Below, a view is drawn twice in hardly less time than once as a whole.
+constexpr double kLeastForTwo_px = 2'000'000;
+constexpr double kMostRead = 0.6;     // share of a view's occupied cells: above, drawing all of them is faster
+constexpr double kMaxBend_codes = 2;  // of what is interpolated: a tenth of it is then the error, at most
+
+// Whether there is something to be saved.
+bool may_be_sparing(const RenderPlan& plan, const Scene& scene, const Renderer& renderer) {
+  double pixels = 0;
+  for (const VirtualCamera& view : plan.views) pixels += view.size_px.area();
+  // Where a cell has something is told by its coverage.
+  const bool covers_all = scene.rotors_count;
+  return covers_all && scene.compositing.quality == QualityChoice::automatic &&
+         scene.compositing.method == MethodChoice::direct && scene.compositing.supersampling > 1 &&
+         !renderer.is_multisampled() && pixels >= kLeastForTwo_px;
+}
+
+Result<std::vector<RenderedView>> coarse_views(const RenderPlan& plan, const Scene& scene, IntruderLayers& layers,
+                                               Renderer& renderer) {
+  const Mesh& mesh = mesh_of(scene, layers.placed);
+  const int step = scene.compositing.supersampling + 1;  // views are finer than the image over most of their parts
+  std::vector<RenderedView> views;
+  for (const VirtualCamera& view : plan.views) {
+    const Shutter shutter = has_rotors(mesh) ? shutter_of(plan, view, scene) : Shutter();
+    Result<CoarseDrawing> drawn =
+        renderer.draw_coarsely(mesh, layers.placed.camera_from_body, plan.light, view, step, shutter);
+    if (!drawn) return fail(drawn.error());
+    const cv::Mat is_rough = bent_pixels(drawn->layer, kMaxBend_codes) | drawn->at_edges;
+    views.push_back({view, {}, CoarseView{std::move(drawn->layer), is_rough, step}});
+  }
+  return views;
+}
+
+// The cells to be drawn finely; none where that would save little.
+std::optional<std::vector<cv::Mat>> fine_cells(const std::vector<RenderedView>& views, const RenderPlan& plan,
+                                               LensTable& lens, const IntruderLayers& layers) {
+  constexpr double kReadARough = 1.5;  // cells, at least, since a pixel touches several
+  double occupied = 0;
+  double rough = 0;
+  for (const RenderedView& drawn : views) {
+    occupied += cv::countNonZero(drawn.coarse->layer.coverage);
+    rough += cv::countNonZero(drawn.coarse->is_rough);
+  }
+  if (kReadARough * rough > kMostRead * occupied) return std::nullopt;
+  std::optional<std::vector<cv::Mat>> read = cells_read(views, lens, plan.warp_rect, row_transform(layers));
+  double fine = 0;
+  for (std::size_t i = 0; read && i < views.size(); ++i) fine += cv::countNonZero((*read)[i]);
+  return fine <= kMostRead * occupied ? std::move(read) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<SeenInRow> seen_in_row(const Scene& scene,
@@ -183,15 +243,6 @@ std::optional<SeenInRow> seen_in_row(const Scene& scene,
       pixel = pixel_at(row_s);
     }
   return pixel ? std::optional(SeenInRow{*pixel, row_s}) : std::nullopt;
-}
-
-glm::dvec2 motion_during_exposure(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
-                                  const Lens& lens) {
-  if (!(moment.exposure_s > 0)) return {0, 0};
-  const auto id = static_cast<std::size_t>(placed.id);
-  const std::optional<glm::dvec2> first = pixel_at(scene, moment, id, lens, -moment.exposure_s / 2);
-  const std::optional<glm::dvec2> last = pixel_at(scene, moment, id, lens, moment.exposure_s / 2);
-  return first && last ? lens.way(*first, *last) : glm::dvec2(0, 0);
 }
 
 std::vector<cv::Point2d> earlier_places(const Scene& scene, int frame, const PlacedIntruder& placed, const Lens& lens,
@@ -285,59 +336,6 @@ Result<std::vector<RenderedView>> rendered_views(const std::vector<VirtualCamera
   layers.draw_s += watch.elapsed_s();
   return rendered;
 }
-
-namespace {
-
-// Below, a view is drawn twice in hardly less time than once as a whole.
-constexpr double kLeastForTwo_px = 2'000'000;
-constexpr double kMostRead = 0.6;     // share of a view's occupied cells: above, drawing all of them is faster
-constexpr double kMaxBend_codes = 2;  // of what is interpolated: a tenth of it is then the error, at most
-
-// Whether there is something to be saved.
-bool may_be_sparing(const RenderPlan& plan, const Scene& scene, const Renderer& renderer) {
-  double pixels = 0;
-  for (const VirtualCamera& view : plan.views) pixels += view.size_px.area();
-  // Where a cell has something is told by its coverage.
-  const bool covers_all = scene.rotors_count;
-  return covers_all && scene.compositing.quality == QualityChoice::automatic &&
-         scene.compositing.method == MethodChoice::direct && scene.compositing.supersampling > 1 &&
-         !renderer.is_multisampled() && pixels >= kLeastForTwo_px;
-}
-
-Result<std::vector<RenderedView>> coarse_views(const RenderPlan& plan, const Scene& scene, IntruderLayers& layers,
-                                               Renderer& renderer) {
-  const Mesh& mesh = mesh_of(scene, layers.placed);
-  const int step = scene.compositing.supersampling + 1;  // views are finer than the image over most of their parts
-  std::vector<RenderedView> views;
-  for (const VirtualCamera& view : plan.views) {
-    const Shutter shutter = has_rotors(mesh) ? shutter_of(plan, view, scene) : Shutter();
-    Result<CoarseDrawing> drawn =
-        renderer.draw_coarsely(mesh, layers.placed.camera_from_body, plan.light, view, step, shutter);
-    if (!drawn) return fail(drawn.error());
-    const cv::Mat is_rough = bent_pixels(drawn->layer, kMaxBend_codes) | drawn->at_edges;
-    views.push_back({view, {}, CoarseView{std::move(drawn->layer), is_rough, step}});
-  }
-  return views;
-}
-
-// The cells to be drawn finely; none where that would save little.
-std::optional<std::vector<cv::Mat>> fine_cells(const std::vector<RenderedView>& views, const RenderPlan& plan,
-                                               LensTable& lens, const IntruderLayers& layers) {
-  constexpr double kReadARough = 1.5;  // cells, at least, since a pixel touches several
-  double occupied = 0;
-  double rough = 0;
-  for (const RenderedView& drawn : views) {
-    occupied += cv::countNonZero(drawn.coarse->layer.coverage);
-    rough += cv::countNonZero(drawn.coarse->is_rough);
-  }
-  if (kReadARough * rough > kMostRead * occupied) return std::nullopt;
-  std::optional<std::vector<cv::Mat>> read = cells_read(views, lens, plan.warp_rect, row_transform(layers));
-  double fine = 0;
-  for (std::size_t i = 0; read && i < views.size(); ++i) fine += cv::countNonZero((*read)[i]);
-  return fine <= kMostRead * occupied ? std::move(read) : std::nullopt;
-}
-
-}  // namespace
 
 Result<std::vector<RenderedView>> sparingly_rendered_views(const RenderPlan& plan, const Scene& scene, LensTable& lens,
                                                            IntruderLayers& layers, Renderer& renderer) {

@@ -264,6 +264,11 @@ std::optional<FittedEdge> fitted_edge(const std::vector<Candidate>& candidates, 
   return edge;
 }
 
+constexpr double kMinSkyColumns = 0.6, kMinEnds = 0.5;  // of the columns, for skyline_pitch_rad()
+constexpr double kAgree_rad = 0.0087;                   // half a degree
+constexpr double kDip_rad = 0.0068;                     // sqrt(2 h / R): the horizon's dip seen from 150 m
+constexpr int kMinLines = 5;
+
 }  // namespace
 
 std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, const Camera& camera,
@@ -301,15 +306,6 @@ std::optional<HorizonLine> horizon_in(const cv::Mat& reduced, double scale, cons
   }
   return std::nullopt;
 }
-
-namespace {
-
-constexpr double kMinSkyColumns = 0.6, kMinEnds = 0.5;  // of the columns, for skyline_pitch_rad()
-constexpr double kAgree_rad = 0.0087;                   // half a degree
-constexpr double kDip_rad = 0.0068;                     // sqrt(2 h / R): the horizon's dip seen from 150 m
-constexpr int kMinLines = 5;
-
-}  // namespace
 
 ReducedLuma reduced_luma(const cv::Mat& luma) {
   constexpr double kLongest_px = 640;

@@ -139,48 +139,6 @@ void spread(const Cells& cells, cv::Mat_<uchar>& sky) {
   }
 }
 
-}  // namespace
-
-bool SkyMap::is_sky(double x_px, double y_px) const {
-  if (empty()) return false;
-  const int x = std::clamp(static_cast<int>(x_px) / kCell_px, 0, sky.cols - 1);
-  const int y = std::clamp(static_cast<int>(y_px) / kCell_px, 0, sky.rows - 1);
-  return sky(y, x) == kSky;
-}
-
-int SkyMap::end_of(int column) const {
-  for (int y = sky.rows; y > 0; --y)
-    if (sky(y - 1, column) == kSky) return y;
-  return 0;
-}
-
-SkyMap sky_map_of(const cv::Mat& reduced, const cv::Mat& own_body) {
-  SkyMap map;
-  if (reduced.cols < SkyMap::kCell_px || reduced.rows < SkyMap::kCell_px) return map;
-  const Cells cells = cells_of(reduced, own_body);
-  map.sky = cv::Mat_<uchar>(cells.luma.size(), uchar{0});
-  const std::vector<int> uppermost = uppermost_cells(cells);
-  const std::vector<bool> is_top = top_columns(cells, uppermost);
-  for (int x = 0; x < map.sky.cols; ++x)
-    if (is_top[static_cast<std::size_t>(x)]) scan(cells, x, uppermost[static_cast<std::size_t>(x)], map.sky);
-  spread(cells, map.sky);
-  const int free_cells = map.sky.rows * map.sky.cols - cv::countNonZero(cells.hidden);
-  map.share = static_cast<double>(cv::countNonZero(map.sky)) / std::max(free_cells, 1);
-  int tops = 0;
-  for (int x = 0; x < map.sky.cols; ++x) {
-    const int from = uppermost[static_cast<std::size_t>(x)];
-    for (int y = from; y < std::min(map.sky.rows, from + kUpperEnd + 1); ++y)
-      if (map.sky(y, x) != 0) {
-        ++tops;
-        break;
-      }
-  }
-  map.columns = static_cast<double>(tops) / map.sky.cols;
-  return map;
-}
-
-namespace {
-
 constexpr int kWarmRows = 8;
 constexpr double kWarmStep_codes = 40, kWarmer_codes = 25;
 constexpr double kWarmColumns = 0.55, kWarmNear = 0.06;
@@ -200,34 +158,6 @@ int warm_row(const cv::Mat& reduced, int column) {
   }
   return row;
 }
-
-}  // namespace
-
-SkyMap sky_above_warm_ground(const cv::Mat& reduced) {
-  const int columns = reduced.cols / SkyMap::kCell_px;
-  std::vector<double> rows;
-  std::vector<int> begins;
-  for (int x = 0; x < columns; ++x) {
-    begins.push_back(warm_row(reduced, x));
-    if (begins.back() > 0) rows.push_back(begins.back());
-  }
-  if (rows.empty()) return {};
-  const double middle = median(rows);
-  for (int& row : begins)
-    if (std::abs(row - middle) > kWarmNear * reduced.rows) row = 0;
-  const auto near = static_cast<double>(columns - std::count(begins.begin(), begins.end(), 0));
-  const int split = static_cast<int>(middle);
-  if (near < kWarmColumns * columns ||
-      cv::mean(reduced.rowRange(split, reduced.rows))[0] - cv::mean(reduced.rowRange(0, split))[0] < kWarmer_codes)
-    return {};
-  SkyMap map{.sky = cv::Mat_<uchar>(reduced.rows / SkyMap::kCell_px, columns, uchar{0}), .columns = near / columns};
-  for (int x = 0; x < columns; ++x)
-    map.sky.col(x).rowRange(0, begins[static_cast<std::size_t>(x)] / SkyMap::kCell_px).setTo(kSky);
-  map.share = static_cast<double>(cv::countNonZero(map.sky)) / static_cast<double>(map.sky.total());
-  return map;
-}
-
-namespace {
 
 constexpr double kMinSkyAbove = 0.7;                 // share of what lies above the plane
 constexpr double kMaxSkyBelow = 0.15;                // share of what lies below the plane
@@ -363,6 +293,68 @@ bool divides(const CellRays& rays, const SkyEdge& edge, const Water& water) {
 }
 
 }  // namespace
+
+bool SkyMap::is_sky(double x_px, double y_px) const {
+  if (empty()) return false;
+  const int x = std::clamp(static_cast<int>(x_px) / kCell_px, 0, sky.cols - 1);
+  const int y = std::clamp(static_cast<int>(y_px) / kCell_px, 0, sky.rows - 1);
+  return sky(y, x) == kSky;
+}
+
+int SkyMap::end_of(int column) const {
+  for (int y = sky.rows; y > 0; --y)
+    if (sky(y - 1, column) == kSky) return y;
+  return 0;
+}
+
+SkyMap sky_map_of(const cv::Mat& reduced, const cv::Mat& own_body) {
+  SkyMap map;
+  if (reduced.cols < SkyMap::kCell_px || reduced.rows < SkyMap::kCell_px) return map;
+  const Cells cells = cells_of(reduced, own_body);
+  map.sky = cv::Mat_<uchar>(cells.luma.size(), uchar{0});
+  const std::vector<int> uppermost = uppermost_cells(cells);
+  const std::vector<bool> is_top = top_columns(cells, uppermost);
+  for (int x = 0; x < map.sky.cols; ++x)
+    if (is_top[static_cast<std::size_t>(x)]) scan(cells, x, uppermost[static_cast<std::size_t>(x)], map.sky);
+  spread(cells, map.sky);
+  const int free_cells = map.sky.rows * map.sky.cols - cv::countNonZero(cells.hidden);
+  map.share = static_cast<double>(cv::countNonZero(map.sky)) / std::max(free_cells, 1);
+  int tops = 0;
+  for (int x = 0; x < map.sky.cols; ++x) {
+    const int from = uppermost[static_cast<std::size_t>(x)];
+    for (int y = from; y < std::min(map.sky.rows, from + kUpperEnd + 1); ++y)
+      if (map.sky(y, x) != 0) {
+        ++tops;
+        break;
+      }
+  }
+  map.columns = static_cast<double>(tops) / map.sky.cols;
+  return map;
+}
+
+SkyMap sky_above_warm_ground(const cv::Mat& reduced) {
+  const int columns = reduced.cols / SkyMap::kCell_px;
+  std::vector<double> rows;
+  std::vector<int> begins;
+  for (int x = 0; x < columns; ++x) {
+    begins.push_back(warm_row(reduced, x));
+    if (begins.back() > 0) rows.push_back(begins.back());
+  }
+  if (rows.empty()) return {};
+  const double middle = median(rows);
+  for (int& row : begins)
+    if (std::abs(row - middle) > kWarmNear * reduced.rows) row = 0;
+  const auto near = static_cast<double>(columns - std::count(begins.begin(), begins.end(), 0));
+  const int split = static_cast<int>(middle);
+  if (near < kWarmColumns * columns ||
+      cv::mean(reduced.rowRange(split, reduced.rows))[0] - cv::mean(reduced.rowRange(0, split))[0] < kWarmer_codes)
+    return {};
+  SkyMap map{.sky = cv::Mat_<uchar>(reduced.rows / SkyMap::kCell_px, columns, uchar{0}), .columns = near / columns};
+  for (int x = 0; x < columns; ++x)
+    map.sky.col(x).rowRange(0, begins[static_cast<std::size_t>(x)] / SkyMap::kCell_px).setTo(kSky);
+  map.share = static_cast<double>(cv::countNonZero(map.sky)) / static_cast<double>(map.sky.total());
+  return map;
+}
 
 bool is_own_body(const cv::Mat& own_body, double x, double y) {
   if (own_body.empty()) return false;

@@ -18,6 +18,11 @@
 namespace sigs {
 namespace {
 
+// Whether two runs can be drawn by one call.
+bool is_drawn_alike(const Run& a, const Run& b) {
+  return a.texture == b.texture && a.surface == b.surface && a.hidden == b.hidden && a.rotor == b.rotor;
+}
+
 using TriangleIndices = std::array<std::uint32_t, 3>;
 
 // For each vertex the first one at the same position.
@@ -110,29 +115,6 @@ void join_along(const std::vector<Edge>& edges, DisjointSets& disjoint_sets, Ope
   }
 }
 
-}  // namespace
-
-std::vector<CullFace> cull_faces_of(const Mesh& mesh, const std::vector<Surface>& surfaces) {
-  const std::vector<TriangleIndices> triangles = triangles_of(mesh);
-  DisjointSets disjoint_sets(triangles.size());
-  std::vector<std::uint32_t> on_rims;
-  join_along(sorted_edges(triangles), disjoint_sets, [&](std::uint32_t triangle) { on_rims.push_back(triangle); });
-
-  std::vector<Shell> shells(triangles.size());
-  for (const std::uint32_t triangle : on_rims) shells[disjoint_sets.root(triangle)].is_closed = false;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const std::uint32_t root = disjoint_sets.root(t);
-    if (surfaces[t] != Surface::solid) shells[root].is_closed = false;
-    measure(shells[root], triangles[t], mesh.vertices, mesh.vertices[triangles[root][0]].position_m);
-  }
-  std::vector<CullFace> sides;
-  sides.reserve(triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) sides.push_back(cull_face_of(shells[disjoint_sets.root(t)]));
-  return sides;
-}
-
-namespace {
-
 // Finds whether a rectangle contains texels that are not opaque, by summed-area tables (Crow 1984).
 class TransparentTexels {
  public:
@@ -179,20 +161,6 @@ Surface surface_of(const Mesh& mesh, const Material& material, std::uint32_t fir
   return texels.any_under({uv(0), uv(1), uv(2)}) ? Surface::cutout : Surface::solid;
 }
 
-}  // namespace
-
-std::vector<Surface> surfaces_of(const Mesh& mesh) {
-  Opacities opacities;
-  std::vector<Surface> surfaces;
-  surfaces.reserve(mesh.indices.size() / 3);
-  for (const MeshPart& part : mesh.parts)
-    for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3)
-      surfaces.push_back(surface_of(mesh, mesh.materials[part.material], part.first_index + i, opacities));
-  return surfaces;
-}
-
-namespace {
-
 void append(DrawList& list, int texture, Surface surface, const std::uint32_t* corners,
             CullFace hidden = CullFace::none, int rotor = kNoRotor) {
   const Run run{texture, surface, static_cast<std::uint32_t>(list.indices.size()), 0, hidden, rotor};
@@ -229,6 +197,35 @@ std::vector<Group> groups_of(const Mesh& mesh, const std::vector<int>& textures)
 }
 
 }  // namespace
+
+std::vector<CullFace> cull_faces_of(const Mesh& mesh, const std::vector<Surface>& surfaces) {
+  const std::vector<TriangleIndices> triangles = triangles_of(mesh);
+  DisjointSets disjoint_sets(triangles.size());
+  std::vector<std::uint32_t> on_rims;
+  join_along(sorted_edges(triangles), disjoint_sets, [&](std::uint32_t triangle) { on_rims.push_back(triangle); });
+
+  std::vector<Shell> shells(triangles.size());
+  for (const std::uint32_t triangle : on_rims) shells[disjoint_sets.root(triangle)].is_closed = false;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const std::uint32_t root = disjoint_sets.root(t);
+    if (surfaces[t] != Surface::solid) shells[root].is_closed = false;
+    measure(shells[root], triangles[t], mesh.vertices, mesh.vertices[triangles[root][0]].position_m);
+  }
+  std::vector<CullFace> sides;
+  sides.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) sides.push_back(cull_face_of(shells[disjoint_sets.root(t)]));
+  return sides;
+}
+
+std::vector<Surface> surfaces_of(const Mesh& mesh) {
+  Opacities opacities;
+  std::vector<Surface> surfaces;
+  surfaces.reserve(mesh.indices.size() / 3);
+  for (const MeshPart& part : mesh.parts)
+    for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3)
+      surfaces.push_back(surface_of(mesh, mesh.materials[part.material], part.first_index + i, opacities));
+  return surfaces;
+}
 
 std::vector<int> texture_numbers(const Mesh& mesh) {
   std::map<const unsigned char*, int> known;

@@ -47,11 +47,6 @@ struct Run {
   int rotor = kNoRotor;              // the material whose blades turn here
 };
 
-// Whether two runs can be drawn by one call.
-[[nodiscard]] inline bool is_drawn_alike(const Run& a, const Run& b) {
-  return a.texture == b.texture && a.surface == b.surface && a.hidden == b.hidden && a.rotor == b.rotor;
-}
-
 struct DrawList {
   std::vector<std::uint32_t> indices;  // into the mesh's vertices, three for each triangle
   std::vector<Run> runs;

@@ -50,6 +50,24 @@ std::map<std::string, int, std::less<>> locations_of(GLuint program) {
   return locations;
 }
 
+unsigned int renderbuffer(const cv::Size& size, int samples, GLenum format) {
+  GLuint name = 0;
+  glGenRenderbuffers(1, &name);
+  glBindRenderbuffer(GL_RENDERBUFFER, name);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, size.width, size.height);
+  return name;
+}
+
+void draw_to(std::initializer_list<GLenum> attachments) {
+  glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.begin());
+}
+
+void read_plane(const cv::Point& from, GLenum format, cv::Mat& plane) {
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(plane.step / plane.elemSize()));
+  glReadPixels(from.x, from.y, plane.cols, plane.rows, format, GL_FLOAT, plane.data);
+}
+
 }  // namespace
 
 Result<Program> Program::create(const std::string& defines) {
@@ -98,28 +116,6 @@ void Program::set(const char* name, const glm::mat3& value) const {
 void Program::set(const char* name, const glm::mat4& value) const {
   glUniformMatrix4fv(location(name), 1, GL_FALSE, glm::value_ptr(value));
 }
-
-namespace {
-
-unsigned int renderbuffer(const cv::Size& size, int samples, GLenum format) {
-  GLuint name = 0;
-  glGenRenderbuffers(1, &name);
-  glBindRenderbuffer(GL_RENDERBUFFER, name);
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, size.width, size.height);
-  return name;
-}
-
-void draw_to(std::initializer_list<GLenum> attachments) {
-  glDrawBuffers(static_cast<GLsizei>(attachments.size()), attachments.begin());
-}
-
-void read_plane(const cv::Point& from, GLenum format, cv::Mat& plane) {
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(plane.step / plane.elemSize()));
-  glReadPixels(from.x, from.y, plane.cols, plane.rows, format, GL_FLOAT, plane.data);
-}
-
-}  // namespace
 
 Result<Target::Buffers> Target::make(const cv::Size& size, int samples, bool with_depth, unsigned int color_format) {
   Buffers buffers;

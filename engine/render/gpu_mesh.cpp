@@ -85,72 +85,6 @@ cv::Size half_of(const cv::Size& size) {
   return {std::max(size.width / 2, 1), std::max(size.height / 2, 1)};
 }
 
-}  // namespace
-
-Mipmaps::Mipmaps() {
-  if (epoxy_gl_version() < 42 && !epoxy_has_gl_extension("GL_ARB_texture_storage")) return;
-  program_ = linked_program();
-  if (program_ == 0) return;
-  glGenFramebuffers(1, &framebuffer_);
-  glGenVertexArrays(1, &vertex_array_);
-}
-
-Mipmaps::~Mipmaps() {
-  if (program_ == 0) return;
-  glDeleteProgram(program_);
-  glDeleteFramebuffers(1, &framebuffer_);
-  glDeleteVertexArrays(1, &vertex_array_);
-}
-
-unsigned int Mipmaps::uploaded(const cv::Mat& texels) const {
-  ENSURE(texels.type() == CV_8UC4 && texels.isContinuous());
-  GLuint name = 0;
-  glGenTextures(1, &name);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, name);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  if (program_ == 0) {
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, texels.cols, texels.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                 texels.data);
-    glGenerateMipmap(GL_TEXTURE_2D);
-    return name;
-  }
-  const int levels = std::bit_width(static_cast<unsigned>(std::max(texels.cols, texels.rows)));
-  glTexStorage2D(GL_TEXTURE_2D, levels, GL_SRGB8_ALPHA8, texels.cols, texels.rows);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texels.cols, texels.rows, GL_RGBA, GL_UNSIGNED_BYTE, texels.data);
-  halve(name, texels.size(), levels);
-  return name;
-}
-
-// Each level from the one above it, which alone is visible to the shader meanwhile.
-void Mipmaps::halve(unsigned int texture, const cv::Size& size, int levels) const {
-  for (const GLenum state : {GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_BLEND, GL_CULL_FACE, GL_MULTISAMPLE}) glDisable(state);
-  glEnable(GL_FRAMEBUFFER_SRGB);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-  glBindVertexArray(vertex_array_);
-  glUseProgram(program_);
-  glUniform1i(glGetUniformLocation(program_, "image"), 0);
-  cv::Size above = size;
-  for (int level = 1; level < levels; ++level) {
-    const cv::Size below = half_of(above);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, level);
-    glViewport(0, 0, below.width, below.height);
-    glUniform2f(glGetUniformLocation(program_, "ratio"), ratio_of(above.width, below.width),
-                ratio_of(above.height, below.height));
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    above = below;
-  }
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-}
-
-namespace {
-
 // A material in the form in which the shaders get it with each vertex, so that one call draws many materials.
 struct VertexMaterial {
   glm::vec4 color;  // linear diffuse; opacity, 1 where solid
@@ -296,6 +230,68 @@ std::uint64_t fingerprint_of(const Mesh& mesh) {
 }
 
 }  // namespace
+
+Mipmaps::Mipmaps() {
+  if (epoxy_gl_version() < 42 && !epoxy_has_gl_extension("GL_ARB_texture_storage")) return;
+  program_ = linked_program();
+  if (program_ == 0) return;
+  glGenFramebuffers(1, &framebuffer_);
+  glGenVertexArrays(1, &vertex_array_);
+}
+
+Mipmaps::~Mipmaps() {
+  if (program_ == 0) return;
+  glDeleteProgram(program_);
+  glDeleteFramebuffers(1, &framebuffer_);
+  glDeleteVertexArrays(1, &vertex_array_);
+}
+
+unsigned int Mipmaps::uploaded(const cv::Mat& texels) const {
+  ENSURE(texels.type() == CV_8UC4 && texels.isContinuous());
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, name);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  if (program_ == 0) {
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, texels.cols, texels.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                 texels.data);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    return name;
+  }
+  const int levels = std::bit_width(static_cast<unsigned>(std::max(texels.cols, texels.rows)));
+  glTexStorage2D(GL_TEXTURE_2D, levels, GL_SRGB8_ALPHA8, texels.cols, texels.rows);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, texels.cols, texels.rows, GL_RGBA, GL_UNSIGNED_BYTE, texels.data);
+  halve(name, texels.size(), levels);
+  return name;
+}
+
+// Each level from the one above it, which alone is visible to the shader meanwhile.
+void Mipmaps::halve(unsigned int texture, const cv::Size& size, int levels) const {
+  for (const GLenum state : {GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_BLEND, GL_CULL_FACE, GL_MULTISAMPLE}) glDisable(state);
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  glBindVertexArray(vertex_array_);
+  glUseProgram(program_);
+  glUniform1i(glGetUniformLocation(program_, "image"), 0);
+  cv::Size above = size;
+  for (int level = 1; level < levels; ++level) {
+    const cv::Size below = half_of(above);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, level);
+    glViewport(0, 0, below.width, below.height);
+    glUniform2f(glGetUniformLocation(program_, "ratio"), ratio_of(above.width, below.width),
+                ratio_of(above.height, below.height));
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    above = below;
+  }
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+}
 
 void leave_out(CullFace side) {
   if (side == CullFace::none) return glDisable(GL_CULL_FACE);

@@ -89,40 +89,6 @@ Result<SunTools> sun_tools() {
   return SunTools{std::move(*programs), std::move(*shadow)};
 }
 
-}  // namespace
-
-struct Renderer::State {
-  // What is drawn of a mesh, and how.
-  struct Task {
-    const Mesh& mesh;
-    const Pose<frame::Camera, frame::Body>& camera_from_body;
-    const Light& light;
-    const VirtualCamera& view;
-    const Shutter& shutter;
-    const VirtualCamera& shadow_view;  // as fine as the shadows are to be
-    const ViewCells* cells = nullptr;  // null: all of the view
-    cv::Mat* depth = nullptr;          // to be filled
-  };
-
-  EglContext context;
-  Programs programs;
-  Target target;
-  std::optional<SunTools> sun;          // made by the first draw() in the sun
-  std::optional<DepthMask> depth_mask;  // made by the first draw() of a large view, or of cells
-  BufferPool buffers;
-  std::map<const Mesh*, GpuMesh> meshes;
-  RenderCounts counts;
-
-  [[nodiscard]] Result<Layer> drawn(const Task& task);
-  // Programs with all uniforms set but clip_from_body.
-  [[nodiscard]] Result<const Programs*> lit_programs(const Task& task, const GpuMesh& gpu);
-  [[nodiscard]] Result<void> draw_piece(const Task& task, const Programs& lit, GpuMesh& gpu, const DrawList& sorted,
-                                        const cv::Rect& piece, Layer& layer);
-  [[nodiscard]] Result<void> make_depth_mask();
-};
-
-namespace {
-
 constexpr int kLargestView_px = 16384;
 // Of a piece: below, drawing solid triangles twice takes longer than shading what is hidden.
 constexpr int kMinPixelsForDepth = 250'000;
@@ -182,6 +148,36 @@ void ensure_sane(const ViewFromBody& view_from_body, const Light& light, const V
 }
 
 }  // namespace
+
+struct Renderer::State {
+  // What is drawn of a mesh, and how.
+  struct Task {
+    const Mesh& mesh;
+    const Pose<frame::Camera, frame::Body>& camera_from_body;
+    const Light& light;
+    const VirtualCamera& view;
+    const Shutter& shutter;
+    const VirtualCamera& shadow_view;  // as fine as the shadows are to be
+    const ViewCells* cells = nullptr;  // null: all of the view
+    cv::Mat* depth = nullptr;          // to be filled
+  };
+
+  EglContext context;
+  Programs programs;
+  Target target;
+  std::optional<SunTools> sun;          // made by the first draw() in the sun
+  std::optional<DepthMask> depth_mask;  // made by the first draw() of a large view, or of cells
+  BufferPool buffers;
+  std::map<const Mesh*, GpuMesh> meshes;
+  RenderCounts counts;
+
+  [[nodiscard]] Result<Layer> drawn(const Task& task);
+  // Programs with all uniforms set but clip_from_body.
+  [[nodiscard]] Result<const Programs*> lit_programs(const Task& task, const GpuMesh& gpu);
+  [[nodiscard]] Result<void> draw_piece(const Task& task, const Programs& lit, GpuMesh& gpu, const DrawList& sorted,
+                                        const cv::Rect& piece, Layer& layer);
+  [[nodiscard]] Result<void> make_depth_mask();
+};
 
 Result<Renderer> Renderer::create(int samples_per_pixel) {
   ENSURE(samples_per_pixel >= 1 && samples_per_pixel <= 8);

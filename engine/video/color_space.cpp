@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "base/ensure.h"
 #include "video/frame.h"
 
 namespace sigs {
@@ -84,40 +84,23 @@ double srgb_display(double linear) {
   return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-double linear_of_size(TransferFunction function, double display) {
-  switch (function) {
-    case TransferFunction::srgb:
-      return srgb_linear(display);
-    case TransferFunction::gamma22:
-      return std::pow(display, 2.2);
-    case TransferFunction::gamma28:
-      return std::pow(display, 2.8);
-    case TransferFunction::linear:
-      return display;
-    case TransferFunction::pq:
-      return pq_linear(display);
-    case TransferFunction::hlg:
-      return hlg_linear(display);
-  }
-  ENSURE(false);
-}
+// Of values that are not negative.
+struct Curve {
+  double (*linear)(double display);
+  double (*display)(double linear);
+};
 
-double display_of_size(TransferFunction function, double linear) {
-  switch (function) {
-    case TransferFunction::srgb:
-      return srgb_display(linear);
-    case TransferFunction::gamma22:
-      return std::pow(linear, 1 / 2.2);
-    case TransferFunction::gamma28:
-      return std::pow(linear, 1 / 2.8);
-    case TransferFunction::linear:
-      return linear;
-    case TransferFunction::pq:
-      return pq_display(linear);
-    case TransferFunction::hlg:
-      return hlg_display(linear);
-  }
-  ENSURE(false);
+const Curve& curve_of(TransferFunction function) {
+  constexpr auto kSame = [](double value) { return value; };
+  static constexpr std::array<Curve, 6> kCurves{{
+      {srgb_linear, srgb_display},
+      {[](double display) { return std::pow(display, 2.2); }, [](double linear) { return std::pow(linear, 1 / 2.2); }},
+      {[](double display) { return std::pow(display, 2.8); }, [](double linear) { return std::pow(linear, 1 / 2.8); }},
+      {kSame, kSame},
+      {pq_linear, pq_display},
+      {hlg_linear, hlg_display},
+  }};
+  return kCurves.at(static_cast<std::size_t>(function));
 }
 
 // H.273 (07/2021), table 3.
@@ -208,11 +191,11 @@ std::string transfer_name(int code_point) {
 }
 
 double linear_of_display(TransferFunction function, double display) {
-  return std::copysign(linear_of_size(function, std::fabs(display)), display);
+  return std::copysign(curve_of(function).linear(std::fabs(display)), display);
 }
 
 double display_of_linear(TransferFunction function, double linear) {
-  return std::copysign(display_of_size(function, std::fabs(linear)), linear);
+  return std::copysign(curve_of(function).display(std::fabs(linear)), linear);
 }
 
 double min_light(TransferFunction function, int bit_depth) {

@@ -2,6 +2,7 @@
 #include "video/frame.h"
 
 #include <algorithm>
+#include <array>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -22,20 +23,11 @@ struct LumaShares {
   double blue = 0;
 };
 
-LumaShares luma_shares(double red, double blue) {
-  return {red, 1 - red - blue, blue};
-}
-
 LumaShares luma_shares(ColorMatrix matrix) {
-  switch (matrix) {
-    case ColorMatrix::bt601:
-      return luma_shares(0.299, 0.114);
-    case ColorMatrix::bt709:
-      return luma_shares(0.2126, 0.0722);
-    case ColorMatrix::bt2020:
-      return luma_shares(0.2627, 0.0593);
-  }
-  ENSURE(false);
+  // Shares of red and blue, in the order of ColorMatrix.
+  static constexpr std::array<std::array<double, 2>, 3> kRedBlue{{{0.299, 0.114}, {0.2126, 0.0722}, {0.2627, 0.0593}}};
+  const auto& [red, blue] = kRedBlue.at(static_cast<std::size_t>(matrix));
+  return {red, 1 - red - blue, blue};
 }
 
 // How many code values luma 0..1 and a colour difference of -0.5..0.5 span: H.273, equations 20 to 31.
@@ -258,6 +250,40 @@ Frame rgb_frame_of(const cv::Mat& bgr, const ColorInfo& color, int bit_depth) {
   return with_bit_depth(frame, bit_depth);
 }
 
+// Codes of one depth by those of another.
+struct DepthChange {
+  int from = 8;
+  int to = 8;
+  bool is_full_range = false;
+  bool is_chroma = false;
+};
+
+template <class To>
+std::vector<To> code_table(const DepthChange& change) {
+  const double from_top = max_code(change.from);
+  const double to_top = max_code(change.to);
+  const double from_middle = change.is_chroma ? 1 << (change.from - 1) : 0;
+  const double to_middle = change.is_chroma ? 1 << (change.to - 1) : 0;
+  const double scale = change.is_full_range ? to_top / from_top : double(1 << change.to) / double(1 << change.from);
+  std::vector<To> table(std::size_t{1} << change.from);
+  for (std::size_t code = 0; code < table.size(); ++code) {
+    const double value = (static_cast<double>(code) - from_middle) * scale + to_middle;
+    table[code] = static_cast<To>(std::clamp(value + 0.5, 0.0, to_top));
+  }
+  return table;
+}
+
+template <class From, class To>
+cv::Mat replaced(const cv::Mat& plane, const DepthChange& change) {
+  const std::vector<To> table = code_table<To>(change);
+  const std::size_t mask = table.size() - 1;  // codes beyond the depth do not exist; nothing is read beyond the table
+  cv::Mat out(plane.size(), plane_type(change.to));
+  for (int y = 0; y < plane.rows; ++y)
+    std::transform(plane.ptr<From>(y), plane.ptr<From>(y) + plane.cols, out.ptr<To>(y),
+                   [&](From code) { return table[code & mask]; });
+  return out;
+}
+
 }  // namespace
 
 CodeToRgb code_to_rgb(PixelLayout layout, const ColorInfo& color, int bit_depth) {
@@ -297,17 +323,8 @@ Frame blank_frame(PixelLayout layout, cv::Size size_px, const ColorInfo& color, 
 }
 
 cv::Size chroma_step(PixelLayout layout) {
-  switch (layout) {
-    case PixelLayout::yuv420:
-      return {2, 2};
-    case PixelLayout::yuv422:
-      return {2, 1};
-    case PixelLayout::gray:
-    case PixelLayout::yuv444:
-    case PixelLayout::rgb:
-      break;
-  }
-  return {1, 1};
+  return {layout == PixelLayout::yuv420 || layout == PixelLayout::yuv422 ? 2 : 1,
+          layout == PixelLayout::yuv420 ? 2 : 1};
 }
 
 cv::Mat bgr_of(const Frame& frame) {
@@ -330,44 +347,6 @@ Frame frame_of_bgr(const cv::Mat& bgr, PixelLayout layout, const ColorInfo& colo
         codes_of(shrunk_chroma(component_of(bgr, map, i), layout, color.chroma_site), bit_depth);
   return frame;
 }
-
-namespace {
-
-// Codes of one depth by those of another.
-struct DepthChange {
-  int from = 8;
-  int to = 8;
-  bool is_full_range = false;
-  bool is_chroma = false;
-};
-
-template <class To>
-std::vector<To> code_table(const DepthChange& change) {
-  const double from_top = max_code(change.from);
-  const double to_top = max_code(change.to);
-  const double from_middle = change.is_chroma ? 1 << (change.from - 1) : 0;
-  const double to_middle = change.is_chroma ? 1 << (change.to - 1) : 0;
-  const double scale = change.is_full_range ? to_top / from_top : double(1 << change.to) / double(1 << change.from);
-  std::vector<To> table(std::size_t{1} << change.from);
-  for (std::size_t code = 0; code < table.size(); ++code) {
-    const double value = (static_cast<double>(code) - from_middle) * scale + to_middle;
-    table[code] = static_cast<To>(std::clamp(value + 0.5, 0.0, to_top));
-  }
-  return table;
-}
-
-template <class From, class To>
-cv::Mat replaced(const cv::Mat& plane, const DepthChange& change) {
-  const std::vector<To> table = code_table<To>(change);
-  const std::size_t mask = table.size() - 1;  // codes beyond the depth do not exist; nothing is read beyond the table
-  cv::Mat out(plane.size(), plane_type(change.to));
-  for (int y = 0; y < plane.rows; ++y)
-    std::transform(plane.ptr<From>(y), plane.ptr<From>(y) + plane.cols, out.ptr<To>(y),
-                   [&](From code) { return table[code & mask]; });
-  return out;
-}
-
-}  // namespace
 
 Frame with_bit_depth(const Frame& frame, int bit_depth) {
   ENSURE(bit_depth >= 8 && bit_depth <= 16);

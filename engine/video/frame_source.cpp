@@ -54,6 +54,14 @@ Result<libav::DecodedFrame> first_image(libav::FrameDecoder& stream, const libav
   return std::move(**first);
 }
 
+// ITU-R BT.709: 0.2126, 0.7152, 0.0722. They add up to 256, so grey keeps its code.
+constexpr int kRed = 54;
+constexpr int kGreen = 183;
+constexpr int kBlue = 19;
+static_assert(kRed + kGreen + kBlue == 256);
+
+constexpr std::size_t kFramesAhead = 8;  // enough for a method that collects some frames and processes them together
+
 }  // namespace
 
 struct FrameSource::State {
@@ -280,18 +288,6 @@ Result<Frame> FrameSource::read(int n, bool luma_alone) {
                 ErrorKind::cannot_read);
   return frame;
 }
-
-namespace {
-
-// ITU-R BT.709: 0.2126, 0.7152, 0.0722. They add up to 256, so grey keeps its code.
-constexpr int kRed = 54;
-constexpr int kGreen = 183;
-constexpr int kBlue = 19;
-static_assert(kRed + kGreen + kBlue == 256);
-
-constexpr std::size_t kFramesAhead = 8;  // enough for a method that collects some frames and processes them together
-
-}  // namespace
 
 cv::Mat luma_of(const Frame& footage) {
   Frame frame = footage;

@@ -2,6 +2,7 @@
 #include "video/heat_palette.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
@@ -54,35 +55,17 @@ cv::Mat colors_between(const std::vector<Knot>& knots) {
   return colors;
 }
 
-cv::Mat colors_by_opencv(int map) {
+cv::Mat colors_of(HeatPalette palette) {
+  if (palette == HeatPalette::iron) return colors_between(kIron);
+  if (palette == HeatPalette::rainbow) return colors_between(kRainbow);
+  constexpr std::array kMaps{cv::COLORMAP_HOT,     cv::COLORMAP_JET,   cv::COLORMAP_TURBO,
+                             cv::COLORMAP_INFERNO, cv::COLORMAP_MAGMA, cv::COLORMAP_PLASMA};
+  ENSURE(palette >= HeatPalette::hot);
   cv::Mat places(kColors, 1, CV_8UC1), colors;
   for (int i = 0; i < kColors; ++i) places.at<uchar>(i) = static_cast<uchar>(i);
-  cv::applyColorMap(places, colors, map);
+  cv::applyColorMap(places, colors,
+                    kMaps.at(static_cast<std::size_t>(palette) - static_cast<std::size_t>(HeatPalette::hot)));
   return colors;
-}
-
-cv::Mat colors_of(HeatPalette palette) {
-  switch (palette) {
-    case HeatPalette::gray:
-      break;
-    case HeatPalette::iron:
-      return colors_between(kIron);
-    case HeatPalette::rainbow:
-      return colors_between(kRainbow);
-    case HeatPalette::hot:
-      return colors_by_opencv(cv::COLORMAP_HOT);
-    case HeatPalette::jet:
-      return colors_by_opencv(cv::COLORMAP_JET);
-    case HeatPalette::turbo:
-      return colors_by_opencv(cv::COLORMAP_TURBO);
-    case HeatPalette::inferno:
-      return colors_by_opencv(cv::COLORMAP_INFERNO);
-    case HeatPalette::magma:
-      return colors_by_opencv(cv::COLORMAP_MAGMA);
-    case HeatPalette::plasma:
-      return colors_by_opencv(cv::COLORMAP_PLASMA);
-  }
-  return cv::Mat();
 }
 
 int squared_distance(const cv::Vec3b& a, const cv::Vec3b& b) {
@@ -104,9 +87,7 @@ int nearest_of(const cv::Mat& colors, int from, int to, const cv::Vec3b& bgr) {
 HeatColors::HeatColors(HeatPalette palette)
     : palette_(palette),
       colors_(colors_of(palette)),
-      coarse_(static_cast<std::size_t>(kCells) * kCells * kCells, std::int16_t{-1}) {
-  ENSURE(palette != HeatPalette::gray);
-}
+      coarse_(static_cast<std::size_t>(kCells) * kCells * kCells, std::int16_t{-1}) {}
 
 int HeatColors::nearest(const cv::Vec3b& bgr) const {
   const auto cell = [&](int k) { return static_cast<std::size_t>(bgr[k] / kCell_codes); };

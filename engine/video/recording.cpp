@@ -19,6 +19,8 @@ extern "C" {
 namespace sigs {
 namespace {
 
+constexpr double kSoundLimit_s = 1200;
+
 template <class Number>
 double number_at(const uint8_t* data, std::size_t index) {
   Number number{};
@@ -111,8 +113,7 @@ class Mixer {
 libav::CodecPtr sound_decoder(const AVCodecParameters& parameters) {
   const AVCodec* const codec = avcodec_find_decoder(parameters.codec_id);
   if (codec == nullptr) return nullptr;
-  libav::CodecPtr context(avcodec_alloc_context3(codec));
-  if (context == nullptr) throw std::bad_alloc();
+  libav::CodecPtr context = libav::new_context(codec);
   if (avcodec_parameters_to_context(context.get(), &parameters) < 0) return nullptr;
   if (const int error = avcodec_open2(context.get(), codec, nullptr); error < 0) {
     libav::check_memory(error);

@@ -20,10 +20,8 @@ struct Sound {
   std::vector<float> samples;  // -1 to 1; 0 where the file has a gap
 };
 
-// Sound is read for so long from its beginning.
-inline constexpr double kSoundLimit_s = 1200;
-
-// The sound of a file's first audio stream. Nothing where there is none, or none that can be decoded.
+// The sound of a file's first audio stream, at most of its first 1200 s. Nothing where there is none, or none that can
+// be decoded.
 //   cancel  while it is true, reading soon ends with the error interrupted; null, or outlives the call
 // Errors: cannot_read (missing, not a regular file, no container), interrupted.
 [[nodiscard]] Result<std::optional<Sound>> read_sound(const std::filesystem::path& file,

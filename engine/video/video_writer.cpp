@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -51,6 +52,27 @@ class Y4mFile {
 
 namespace {
 
+struct CodecTraits {
+  const char* name;
+  int max_bit_depth;
+  int max_crf = 0;
+  const char* image_extension = "";
+};
+
+const CodecTraits& traits_of(VideoCodec codec) {
+  static constexpr std::array<CodecTraits, 10> kTraits{{{"ffv1", 16},
+                                                        {"h264", 10, 51},
+                                                        {"hevc", 12, 51},
+                                                        {"av1", 12, 63},
+                                                        {"mjpeg", 8},
+                                                        {"png", 16, 0, ".png"},
+                                                        {"tiff", 16, 0, ".tiff"},
+                                                        {"jpeg", 8, 0, ".jpg"},
+                                                        {"raw", 16},
+                                                        {"source", 16}}};
+  return kTraits.at(static_cast<std::size_t>(codec));
+}
+
 static_assert(std::endian::native == std::endian::little, "y4m has words with the low byte first");
 
 // The depth in which frames are written: y4m has 8, 9, 10, 12, 14 and 16 bits, of grey 8, 9, 10, 12 and 16.
@@ -61,47 +83,17 @@ int stored_depth(const VideoFormat& format) {
   return wanted == 15 || (wanted == 14 && format.layout == PixelLayout::gray) ? 16 : wanted;
 }
 
-// The name of a layout of more than 8 bits: "C420p10", "Cmono10".
-std::string deep_layout_text(PixelLayout layout, int bit_depth) {
-  switch (layout) {
-    case PixelLayout::gray:
-      return fmt::format("Cmono{}", bit_depth);
-    case PixelLayout::yuv420:
-      return fmt::format("C420p{}", bit_depth);
-    case PixelLayout::yuv422:
-      return fmt::format("C422p{}", bit_depth);
-    case PixelLayout::yuv444:
-      return fmt::format("C444p{}", bit_depth);
-    case PixelLayout::rgb:
-      break;
-  }
-  return {};
-}
-
-// The name of a layout, as FFmpeg writes and reads it. Only 4:2:0 of 8 bits has chroma sites.
+// The name of a layout, as FFmpeg writes and reads it: "C422", of more than 8 bits "C422p10", "Cmono10". Only 4:2:0 of
+// 8 bits has chroma sites. Empty for RGB.
 std::string layout_text(const VideoFormat& format) {
-  if (const int depth = stored_depth(format); depth > 8) return deep_layout_text(format.layout, depth);
-  switch (format.layout) {
-    case PixelLayout::gray:
-      return "Cmono";
-    case PixelLayout::yuv422:
-      return "C422";
-    case PixelLayout::yuv444:
-      return "C444";
-    case PixelLayout::yuv420:
-      break;
-    case PixelLayout::rgb:
-      return {};
-  }
-  switch (format.color.chroma_site) {
-    case ChromaSite::center:
-      return "C420jpeg";
-    case ChromaSite::top_left:
-      return "C420paldv";
-    case ChromaSite::left:
-      break;
-  }
-  return "C420mpeg2";
+  static constexpr std::array kLayouts{"Cmono", "C420", "C422", "C444"};  // in the order of PixelLayout
+  static constexpr std::array kSites{"mpeg2", "jpeg", "paldv"};           // in the order of ChromaSite
+  if (format.layout == PixelLayout::rgb) return {};
+  const std::string layout = kLayouts.at(static_cast<std::size_t>(format.layout));
+  if (const int depth = stored_depth(format); depth > 8)
+    return fmt::format("{}{}{}", layout, format.layout == PixelLayout::gray ? "" : "p", depth);
+  if (format.layout != PixelLayout::yuv420) return layout;
+  return layout + kSites.at(static_cast<std::size_t>(format.color.chroma_site));
 }
 
 // Frames are progressive ("Ip"). The range is stated even where the footage does not: it is what was assumed of it.
@@ -120,6 +112,27 @@ cv::Mat stored_image(const Frame& frame, int bit_depth) {
 
 std::vector<int> parameters_of(const VideoFormat& format) {
   if (format.codec == VideoCodec::jpeg) return {cv::IMWRITE_JPEG_QUALITY, format.jpeg_quality};
+  return {};
+}
+
+// As folder/frame_000123.png: gray for gray footage (as full range), else RGB; 16-bit for frames of more than 8 bits,
+// but JPEG. PNG and TIFF (LZW) keep every sample of it; JPEG is 4:2:0.
+Result<void> write_numbered_image(const fs::path& folder, const VideoFormat& format, const Frame& frame, int number) {
+  const char* const extension = image_extension_of(format.codec);
+  const int depth = std::min({frame.bit_depth, format.max_bit_depth, max_bit_depth(format.codec)});
+  const fs::path path = folder / fmt::format("frame_{:06}{}", number, extension);
+  std::vector<uchar> bytes;
+  try {
+    image_codecs::imencode(extension, stored_image(frame, depth), bytes, parameters_of(format));
+  } catch (const cv::Exception& problem) {
+    return fail(path.string(), fmt::format("cannot be written as an image ({}): {}", extension, problem.err),
+                ErrorKind::write_failed);
+  }
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out)
+    return fail(path.string(), fmt::format("could not be written: {}", std::strerror(errno)), ErrorKind::write_failed);
   return {};
 }
 
@@ -143,38 +156,6 @@ Result<void> Y4mFile::write(const Frame& frame) {
       bytes_.append(plane.ptr<char>(y), static_cast<std::size_t>(plane.cols) * plane.elemSize());
   }
   return out_.write(bytes_);
-}
-
-const char* image_extension_of(VideoCodec codec) {
-  switch (codec) {
-    case VideoCodec::png:
-      return ".png";
-    case VideoCodec::tiff:
-      return ".tiff";
-    case VideoCodec::jpeg:
-      return ".jpg";
-    default:
-      return "";
-  }
-}
-
-Result<void> write_numbered_image(const fs::path& folder, const VideoFormat& format, const Frame& frame, int number) {
-  const char* const extension = image_extension_of(format.codec);
-  const int depth = std::min({frame.bit_depth, format.max_bit_depth, max_bit_depth(format.codec)});
-  const fs::path path = folder / fmt::format("frame_{:06}{}", number, extension);
-  std::vector<uchar> bytes;
-  try {
-    image_codecs::imencode(extension, stored_image(frame, depth), bytes, parameters_of(format));
-  } catch (const cv::Exception& problem) {
-    return fail(path.string(), fmt::format("cannot be written as an image ({}): {}", extension, problem.err),
-                ErrorKind::write_failed);
-  }
-  std::ofstream out(path, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    return fail(path.string(), fmt::format("could not be written: {}", std::strerror(errno)), ErrorKind::write_failed);
-  return {};
 }
 
 struct VideoWriter::State {
@@ -280,55 +261,20 @@ Result<void> VideoWriter::finish() {
   });
 }
 
+const char* image_extension_of(VideoCodec codec) {
+  return traits_of(codec).image_extension;
+}
+
 int max_bit_depth(VideoCodec codec) {
-  switch (codec) {
-    case VideoCodec::ffv1:
-    case VideoCodec::png:
-    case VideoCodec::tiff:
-    case VideoCodec::raw:
-    case VideoCodec::source:
-      return 16;
-    case VideoCodec::hevc:
-    case VideoCodec::av1:
-      return 12;
-    case VideoCodec::h264:
-      return 10;
-    case VideoCodec::mjpeg:
-    case VideoCodec::jpeg:
-      break;
-  }
-  return 8;
+  return traits_of(codec).max_bit_depth;
 }
 
 const char* name_of(VideoCodec codec) {
-  switch (codec) {
-    case VideoCodec::ffv1:
-      return "ffv1";
-    case VideoCodec::h264:
-      return "h264";
-    case VideoCodec::hevc:
-      return "hevc";
-    case VideoCodec::av1:
-      return "av1";
-    case VideoCodec::mjpeg:
-      return "mjpeg";
-    case VideoCodec::png:
-      return "png";
-    case VideoCodec::tiff:
-      return "tiff";
-    case VideoCodec::jpeg:
-      return "jpeg";
-    case VideoCodec::raw:
-      return "raw";
-    case VideoCodec::source:
-      return "source";
-  }
-  return "";
+  return traits_of(codec).name;
 }
 
 int max_crf(VideoCodec codec) {
-  if (codec == VideoCodec::av1) return 63;
-  return codec == VideoCodec::h264 || codec == VideoCodec::hevc ? 51 : 0;
+  return traits_of(codec).max_crf;
 }
 
 Container container_of(const VideoInfo& footage) {
@@ -338,21 +284,8 @@ Container container_of(const VideoInfo& footage) {
 }
 
 const char* extension_of(Container container) {
-  switch (container) {
-    case Container::mkv:
-      return "mkv";
-    case Container::mp4:
-      return "mp4";
-    case Container::avi:
-      return "avi";
-    case Container::nut:
-      return "nut";
-    case Container::y4m:
-      return "y4m";
-    case Container::mov:
-      return "mov";
-  }
-  return "";
+  static constexpr std::array kExtensions{"mkv", "mp4", "avi", "nut", "y4m", "mov"};
+  return kExtensions.at(static_cast<std::size_t>(container));
 }
 
 }  // namespace sigs

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <new>
+#include <array>
 #include <string>
 
 extern "C" {
@@ -72,26 +72,11 @@ void make_jpeg(Encoding& encoding) {
 }
 
 const char* encoder_of(VideoCodec codec) {
-  switch (codec) {
-    case VideoCodec::ffv1:
-      return "ffv1";
-    case VideoCodec::h264:
-      return "libx264";
-    case VideoCodec::hevc:
-      return "libx265";
-    case VideoCodec::av1:
-      return "libaom-av1";
-    case VideoCodec::mjpeg:
-      return "mjpeg";
-    case VideoCodec::raw:
-      return "rawvideo";
-    case VideoCodec::png:
-    case VideoCodec::tiff:
-    case VideoCodec::jpeg:
-    case VideoCodec::source:
-      break;
-  }
-  ENSURE(false);
+  static constexpr std::array<const char*, 10> kEncoders{"ffv1",  "libx264", "libx265", "libaom-av1", "mjpeg",
+                                                         nullptr, nullptr,   nullptr,   "rawvideo",   nullptr};
+  const char* const name = kEncoders.at(static_cast<std::size_t>(codec));
+  ENSURE(name != nullptr);
+  return name;
 }
 
 AVPixelFormat jpeg_format(PixelLayout layout) {
@@ -226,6 +211,31 @@ bool supports(const AVCodec& encoder, AVPixelFormat format) {
   return false;
 }
 
+Result<const AVCodec*> found_encoder(const char* name) {
+  const AVCodec* const encoder = avcodec_find_encoder_by_name(name);
+  if (encoder == nullptr) return fail("", fmt::format("this FFmpeg has no encoder {}", name), ErrorKind::unavailable);
+  return encoder;
+}
+
+Result<CodecPtr> opened(const AVCodec& encoder, CodecPtr context, AVDictionary* options) {
+  const int error = avcodec_open2(context.get(), &encoder, &options);
+  av_dict_free(&options);
+  check_memory(error);
+  if (error < 0)
+    return fail("", fmt::format("the encoder {} refuses: {}", encoder.name, text_of(error)), ErrorKind::unavailable);
+  return context;
+}
+
+FramePtr new_image(const AVCodecContext& encoder) {
+  FramePtr image = new_frame();
+  image->format = encoder.pix_fmt;
+  image->width = encoder.width;
+  image->height = encoder.height;
+  image->color_range = encoder.color_range;
+  image->colorspace = encoder.colorspace;
+  return image;
+}
+
 Result<Encoding> encoding_for(const VideoFormat& format) {
   ENSURE(format.codec != VideoCodec::png && format.codec != VideoCodec::tiff && format.codec != VideoCodec::jpeg);
   if (const Result<void> pair = check_pair(format); !pair) return fail(pair.error());
@@ -235,16 +245,15 @@ Result<Encoding> encoding_for(const VideoFormat& format) {
   else if (format.codec != VideoCodec::ffv1 && format.codec != VideoCodec::raw)
     make_playable(encoding);
   if (const Result<void> size = check_size(format, encoding); !size) return fail(size.error());
-  const AVCodec* const encoder = avcodec_find_encoder_by_name(encoding.encoder);
-  if (encoder == nullptr)
-    return fail("", fmt::format("this FFmpeg has no encoder {}", encoding.encoder), ErrorKind::unavailable);
+  const Result<const AVCodec*> encoder = found_encoder(encoding.encoder);
+  if (!encoder) return fail(encoder.error());
   if (format.codec == VideoCodec::mjpeg) {
     encoding.pixel_format = jpeg_format(encoding.layout);
   } else if (format.codec == VideoCodec::raw) {
     choose_raw_format(encoding, std::min(format.bit_depth, format.max_bit_depth));
   } else {
     const int depth = std::min(format.bit_depth, format.max_bit_depth);
-    if (const Result<void> chosen = choose_format(encoding, *encoder, depth); !chosen) return fail(chosen.error());
+    if (const Result<void> chosen = choose_format(encoding, **encoder, depth); !chosen) return fail(chosen.error());
   }
   return encoding;
 }
@@ -261,11 +270,9 @@ Frame stored(const Frame& frame, const Encoding& encoding) {
 }
 
 Result<CodecPtr> open_encoder(const VideoFormat& format, const Encoding& encoding, AVRational tick, bool headers) {
-  const AVCodec* codec = avcodec_find_encoder_by_name(encoding.encoder);
-  if (codec == nullptr)
-    return fail("", fmt::format("this FFmpeg has no encoder {}", encoding.encoder), ErrorKind::unavailable);
-  CodecPtr context(avcodec_alloc_context3(codec));
-  if (context == nullptr) throw std::bad_alloc();
+  const Result<const AVCodec*> codec = found_encoder(encoding.encoder);
+  if (!codec) return fail(codec.error());
+  CodecPtr context = new_context(*codec);
   set_up_frame(*context, format, encoding, tick);
   if (headers) context->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   AVDictionary* options = nullptr;
@@ -274,13 +281,7 @@ Result<CodecPtr> open_encoder(const VideoFormat& format, const Encoding& encodin
   if (format.codec == VideoCodec::hevc) set_up_hevc(*context, format, &options);
   if (format.codec == VideoCodec::av1) set_up_av1(*context, format, encoding, &options);
   if (format.codec == VideoCodec::mjpeg) set_up_mjpeg(*context, format);
-  const int error = avcodec_open2(context.get(), codec, &options);
-  av_dict_free(&options);
-  check_memory(error);
-  if (error < 0)
-    return fail("", fmt::format("the encoder {} refuses: {}", encoding.encoder, text_of(error)),
-                ErrorKind::unavailable);
-  return context;
+  return opened(**codec, std::move(context), options);
 }
 
 }  // namespace sigs::libav

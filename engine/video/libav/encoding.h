@@ -46,6 +46,15 @@ inline constexpr int kH264Threads = 4;
 inline constexpr const char* kH264Parameters = "threads=4:lookahead-threads=1:sliced-threads=0:cpu-independent=1";
 inline constexpr const char* kHevcParameters = "pools=4:frame-threads=2:info=0:log-level=none";
 
+// Error unavailable: FFmpeg was built without the encoder.
+[[nodiscard]] Result<const AVCodec*> found_encoder(const char* name);
+
+// The encoder's context, opened with options, which are freed. Error unavailable: the encoder refuses them.
+[[nodiscard]] Result<CodecPtr> opened(const AVCodec& encoder, CodecPtr context, AVDictionary* options);
+
+// An image for the encoder, without samples.
+[[nodiscard]] FramePtr new_image(const AVCodecContext& encoder);
+
 // Whether an encoder takes images of a format.
 [[nodiscard]] bool supports(const AVCodec& encoder, AVPixelFormat format);
 

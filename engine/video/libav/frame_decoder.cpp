@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -21,8 +20,7 @@ Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const Decoder
   if (codec == nullptr)
     return fail("", fmt::format("no decoder for the codec {}", avcodec_get_name(parameters.codec_id)),
                 ErrorKind::cannot_read);
-  CodecPtr context(avcodec_alloc_context3(codec));
-  if (context == nullptr) throw std::bad_alloc();
+  CodecPtr context = new_context(codec);
   int error = avcodec_parameters_to_context(context.get(), &parameters);
   // With several threads it depends on their timing which macroblocks of a damaged MPEG-4 image FFmpeg loses.
   const bool alone =

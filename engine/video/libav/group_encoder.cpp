@@ -25,45 +25,38 @@ bool has_parameter_sets(AVCodecID codec) {
   return codec == AV_CODEC_ID_H264 || codec == AV_CODEC_ID_HEVC;
 }
 
+// The name of a number; null where the table has none.
+template <class Table, class Number>
+const char* known_in(const Table& table, Number number) {
+  for (const auto& [known, name] : table)
+    if (known == number) return name;
+  return nullptr;
+}
+
 const char* group_encoder_name(AVCodecID codec) {
-  switch (codec) {
-    case AV_CODEC_ID_H264:
-      return "libx264";
-    case AV_CODEC_ID_HEVC:
-      return "libx265";
-    case AV_CODEC_ID_MJPEG:
-      return "mjpeg";
-    case AV_CODEC_ID_FFV1:
-      return "ffv1";
-    case AV_CODEC_ID_PRORES:
-      return "prores_ks";
-    default:
-      return nullptr;
-  }
+  static constexpr std::array<std::pair<AVCodecID, const char*>, 5> kEncoders{{{AV_CODEC_ID_H264, "libx264"},
+                                                                               {AV_CODEC_ID_HEVC, "libx265"},
+                                                                               {AV_CODEC_ID_MJPEG, "mjpeg"},
+                                                                               {AV_CODEC_ID_FFV1, "ffv1"},
+                                                                               {AV_CODEC_ID_PRORES, "prores_ks"}}};
+  return known_in(kEncoders, codec);
 }
 
 AVPixelFormat stored_format_of(const AVCodecParameters& stream) {
   return static_cast<AVPixelFormat>(stream.format);
 }
 
-std::string h264_profile_of(int profile) {
-  switch (profile) {
-    case FF_PROFILE_H264_BASELINE:
-    case FF_PROFILE_H264_CONSTRAINED_BASELINE:
-      return "baseline";
-    case FF_PROFILE_H264_MAIN:
-      return "main";
-    case FF_PROFILE_H264_HIGH:
-      return "high";
-    case FF_PROFILE_H264_HIGH_10:
-      return "high10";
-    case FF_PROFILE_H264_HIGH_422:
-      return "high422";
-    case FF_PROFILE_H264_HIGH_444_PREDICTIVE:
-      return "high444";
-    default:
-      return "";  // the encoder's choice for the pixel format
-  }
+// None: the encoder's choice for the pixel format.
+const char* h264_profile_of(int profile) {
+  static constexpr std::array<std::pair<int, const char*>, 7> kProfiles{
+      {{FF_PROFILE_H264_BASELINE, "baseline"},
+       {FF_PROFILE_H264_CONSTRAINED_BASELINE, "baseline"},
+       {FF_PROFILE_H264_MAIN, "main"},
+       {FF_PROFILE_H264_HIGH, "high"},
+       {FF_PROFILE_H264_HIGH_10, "high10"},
+       {FF_PROFILE_H264_HIGH_422, "high422"},
+       {FF_PROFILE_H264_HIGH_444_PREDICTIVE, "high444"}}};
+  return known_in(kProfiles, profile);
 }
 
 // By what factor the step of a quantiser differs from one 6 times as fine a QP below: the step doubles every 6.
@@ -79,34 +72,27 @@ int whole_qp(double qp) {
 std::string quantiser_parameters(const GroupFormat& format, const GroupQuality& quality) {
   const bool intra = format.is_intra_only;
   const double predicted = intra ? quality.qp_intra : quality.qp_predicted;
-  std::string text =
-      fmt::format("qp={}:ipratio={}:pbratio={}:scenecut=0:bframes={}", whole_qp(predicted),
-                  ratio_text(predicted - quality.qp_intra), ratio_text(quality.qp_bidirectional - predicted),
-                  std::min(format.most_bidirectional, 16));
-  return text;
+  return fmt::format("qp={}:ipratio={}:pbratio={}:scenecut=0:bframes={}", whole_qp(predicted),
+                     ratio_text(predicted - quality.qp_intra), ratio_text(quality.qp_bidirectional - predicted),
+                     std::min(format.most_bidirectional, 16));
 }
 
 void set_up_h264_group(const GroupFormat& format, const GroupQuality& quality, AVCodecContext& context,
                        AVDictionary** options) {
   context.thread_count = kH264Threads;
   context.level = format.stream->level;
-  const std::string profile = h264_profile_of(format.stream->profile);
-  if (!profile.empty()) av_dict_set(options, "profile", profile.c_str(), 0);
+  if (const char* const profile = h264_profile_of(format.stream->profile)) av_dict_set(options, "profile", profile, 0);
   const std::string parameters =
-      quantiser_parameters(format, quality) +
-      fmt::format(
-          ":keyint=infinite:b-pyramid={}:sps-id={}:stitchable=1:threads=4:lookahead-threads=1:sliced-threads=0:"
-          "cpu-independent=1",
-          format.reorder_depth > 1 ? "normal" : "none", format.sequence_set);
+      quantiser_parameters(format, quality) + fmt::format(":keyint=infinite:b-pyramid={}:sps-id={}:stitchable=1:{}",
+                                                          format.reorder_depth > 1 ? "normal" : "none",
+                                                          format.sequence_set, kH264Parameters);
   av_dict_set(options, "x264-params", parameters.c_str(), 0);
 }
 
 void set_up_hevc_group(const GroupFormat& format, const GroupQuality& quality, AVDictionary** options) {
-  std::string parameters =
-      quantiser_parameters(format, quality) + fmt::format(
-                                                  ":keyint=-1:open-gop=0:b-pyramid={}:repeat-headers=0:aud=0:pools=4:"
-                                                  "frame-threads=2:info=0:log-level=none",
-                                                  format.reorder_depth > 1 ? 1 : 0);
+  const std::string parameters = quantiser_parameters(format, quality) +
+                                 fmt::format(":keyint=-1:open-gop=0:b-pyramid={}:repeat-headers=0:aud=0:{}",
+                                             format.reorder_depth > 1 ? 1 : 0, kHevcParameters);
   av_dict_set(options, "x265-params", parameters.c_str(), 0);
 }
 
@@ -173,18 +159,8 @@ void set_up_picture(const GroupFormat& format, AVCodecContext& context) {
   context.max_b_frames = format.most_bidirectional;
 }
 
-Result<CodecPtr> opened(const AVCodec& codec, CodecPtr context, AVDictionary** options) {
-  const int error = avcodec_open2(context.get(), &codec, options);
-  av_dict_free(options);
-  check_memory(error);
-  if (error < 0)
-    return fail("", fmt::format("the encoder {} refuses: {}", codec.name, text_of(error)), ErrorKind::unavailable);
-  return context;
-}
-
-CodecPtr new_context(const AVCodec& codec, const GroupFormat& format) {
-  CodecPtr context(avcodec_alloc_context3(&codec));
-  if (context == nullptr) throw std::bad_alloc();
+CodecPtr group_context(const AVCodec& codec, const GroupFormat& format) {
+  CodecPtr context = new_context(&codec);
   set_up_picture(format, *context);
   return context;
 }
@@ -200,7 +176,7 @@ Result<CodecPtr> ffv1_like(const AVCodec& codec, const GroupFormat& format) {
     return fail("", "is FFV1 of version 0 or 1, which this program does not write; use the codec ffv1",
                 ErrorKind::usage);
   for (const Ffv1Way& way : ffv1_ways()) {
-    CodecPtr context = new_context(codec, format);
+    CodecPtr context = group_context(codec, format);
     context->level = 3;
     context->gop_size = 1;
     context->slices = way.slices;
@@ -209,10 +185,32 @@ Result<CodecPtr> ffv1_like(const AVCodec& codec, const GroupFormat& format) {
     av_dict_set(&options, "coder", way.coder, 0);
     av_dict_set_int(&options, "context", way.context, 0);
     av_dict_set_int(&options, "slicecrc", way.checksums, 0);
-    Result<CodecPtr> encoder = opened(codec, std::move(context), &options);
+    Result<CodecPtr> encoder = opened(codec, std::move(context), options);
     if (encoder && std::ranges::equal(encoder_header(**encoder), wanted)) return encoder;
   }
   return fail("", "is FFV1 of a kind that this program does not write; use the codec ffv1", ErrorKind::usage);
+}
+
+double log2_of(double bytes) {
+  return std::log2(std::max(bytes, 1.0));
+}
+
+// What x264 and x265 do by themselves: keyframes finer, pictures between others coarser.
+GroupQuality around(double qp_predicted) {
+  return {.qp_intra = qp_predicted - 3, .qp_predicted = qp_predicted, .qp_bidirectional = qp_predicted + 2};
+}
+
+Result<double> bytes_at(double qp, const std::vector<Frame>& frames, const GroupFormat& format) {
+  Result<GroupEncoder> encoder = GroupEncoder::open(format, around(qp));
+  if (!encoder) return fail(encoder.error());
+  std::vector<EncodedPacket> packets;
+  std::int64_t pts = 0;
+  for (const Frame& frame : frames)
+    if (const Result<void> added = encoder->add(frame, pts++, packets); !added) return fail(added.error());
+  if (const Result<void> ended = encoder->finish(packets); !ended) return fail(ended.error());
+  double bytes = 0;
+  for (const EncodedPacket& packet : packets) bytes += static_cast<double>(packet.bytes.size());
+  return bytes;
 }
 
 }  // namespace
@@ -233,11 +231,11 @@ Result<void> check_group_codec(const AVCodecParameters& stream) {
   if (stream.field_order != AV_FIELD_PROGRESSIVE && stream.field_order != AV_FIELD_UNKNOWN)
     return fail("", "is interlaced, and whole pictures alone are encoded: use h264, or ffv1 without a loss",
                 ErrorKind::usage);
-  const AVCodec* const encoder = avcodec_find_encoder_by_name(name);
-  if (encoder == nullptr) return fail("", fmt::format("this FFmpeg has no encoder {}", name), ErrorKind::unavailable);
+  const Result<const AVCodec*> encoder = found_encoder(name);
+  if (!encoder) return fail(encoder.error());
   const AVPixelFormat format = stored_format_of(stream);
   const bool is_known = format != AV_PIX_FMT_NONE;
-  if (is_known && supports(*encoder, format) && conversion_of(format).text.empty()) return {};
+  if (is_known && supports(**encoder, format) && conversion_of(format).text.empty()) return {};
   const char* const format_name = is_known ? av_get_pix_fmt_name(format) : "an unknown format";
   return fail(
       "", fmt::format("has samples ({}) that the encoder {} does not take as they are: use ffv1", format_name, name),
@@ -252,13 +250,13 @@ Result<GroupEncoder> GroupEncoder::open(const GroupFormat& format, const GroupQu
     if (!encoder) return fail(encoder.error());
     return GroupEncoder(format, std::move(*encoder));
   }
-  CodecPtr context = new_context(codec, format);
+  CodecPtr context = group_context(codec, format);
   AVDictionary* options = nullptr;
   if (format.stream->codec_id == AV_CODEC_ID_H264) set_up_h264_group(format, quality, *context, &options);
   if (format.stream->codec_id == AV_CODEC_ID_HEVC) set_up_hevc_group(format, quality, &options);
   if (format.stream->codec_id == AV_CODEC_ID_MJPEG) set_up_mjpeg_group(quality, *context);
   if (format.stream->codec_id == AV_CODEC_ID_PRORES) set_up_prores(format, &options);
-  Result<CodecPtr> encoder = opened(codec, std::move(context), &options);
+  Result<CodecPtr> encoder = opened(codec, std::move(context), options);
   if (!encoder) return fail(encoder.error());
   return GroupEncoder(format, std::move(*encoder));
 }
@@ -298,12 +296,7 @@ Bytes GroupEncoder::stream_bytes(ByteSpan packet) const {
 }
 
 Result<void> GroupEncoder::add(const Frame& frame, std::int64_t pts, std::vector<EncodedPacket>& packets) {
-  const FramePtr image = new_frame();
-  image->format = encoder_->pix_fmt;
-  image->width = encoder_->width;
-  image->height = encoder_->height;
-  image->color_range = encoder_->color_range;
-  image->colorspace = encoder_->colorspace;
+  const FramePtr image = new_image(*encoder_);
   if (av_frame_get_buffer(image.get(), 0) < 0) throw std::bad_alloc();
   fill(*image, oriented(frame, inverse(format_.orientation)));
   image->pts = pts;
@@ -331,6 +324,49 @@ Result<void> GroupEncoder::encode(const AVFrame* image, std::vector<EncodedPacke
     has_begun_ = true;
     av_packet_unref(packet_.get());
   }
+}
+
+std::optional<GroupQuality> stated_quality(const std::vector<Frame>& first, const GroupFormat& format) {
+  std::array<double, 4> sums{};
+  std::array<int, 4> counts{};
+  GroupQuality quality;
+  const cv::Size upright_px = oriented(cv::Size(format.stream->width, format.stream->height), format.orientation);
+  for (const Frame& frame : first) {
+    if (!frame.quantisers) continue;
+    if (frame.quantisers->kind == QuantiserKind::jpeg)
+      quality.tables = oriented(frame.quantisers, upright_px, inverse(format.orientation))->tables;
+    if (frame.quantisers->kind != QuantiserKind::h264) continue;
+    const auto type = static_cast<std::size_t>(frame.quantisers->type);
+    sums[type] += frame.quantisers->mean;
+    ++counts[type];
+  }
+  const AVCodecID codec = format.stream->codec_id;
+  if (codec != AV_CODEC_ID_H264 && codec != AV_CODEC_ID_HEVC) return quality;
+  const auto mean_of = [&](PictureType type) -> std::optional<double> {
+    const auto i = static_cast<std::size_t>(type);
+    return counts[i] > 0 ? std::optional(sums[i] / counts[i]) : std::nullopt;
+  };
+  const std::optional<double> intra = mean_of(PictureType::intra);
+  const std::optional<double> predicted = mean_of(PictureType::predicted);
+  const std::optional<double> bidirectional = mean_of(PictureType::bidirectional);
+  if (!intra && !predicted && !bidirectional) return std::nullopt;
+  quality = around(predicted ? *predicted : intra ? *intra + 3 : *bidirectional - 2);
+  quality.qp_intra = intra.value_or(quality.qp_intra);
+  quality.qp_bidirectional = bidirectional.value_or(quality.qp_bidirectional);
+  return quality;
+}
+
+// Interpolated between two, as the logarithm of the size is nearly straight over QP.
+Result<GroupQuality> quality_by_size(const std::vector<Frame>& first, double bytes, const GroupFormat& format) {
+  constexpr double kFine = 22;
+  constexpr double kCoarse = 34;
+  const Result<double> most = bytes_at(kFine, first, format);
+  if (!most) return fail(most.error());
+  const Result<double> least = bytes_at(kCoarse, first, format);
+  if (!least) return fail(least.error());
+  const double fall = log2_of(*most) - log2_of(*least);
+  if (!(fall > 0.01)) return around(kFine);
+  return around(std::clamp(kFine + (kCoarse - kFine) * (log2_of(*most) - log2_of(bytes)) / fall, 4.0, 48.0));
 }
 
 }  // namespace sigs::libav

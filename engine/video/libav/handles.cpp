@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdarg>
 #include <new>
@@ -35,26 +36,23 @@ void note_decoder_error(void* source, int level, const char* format, va_list /*v
 
 }  // namespace
 
-void Deleter::operator()(AVFormatContext* context) const {
-  avformat_close_input(&context);
-}
-void Deleter::operator()(AVCodecContext* context) const {
-  avcodec_free_context(&context);
-}
-void Deleter::operator()(AVPacket* packet) const {
-  av_packet_free(&packet);
-}
-void Deleter::operator()(AVFrame* frame) const {
-  av_frame_free(&frame);
-}
-void Deleter::operator()(SwsContext* context) const {
-  sws_freeContext(context);
-}
-
 PacketPtr new_packet() {
   PacketPtr packet(av_packet_alloc());
   if (packet == nullptr) throw std::bad_alloc();
   return packet;
+}
+
+PacketPtr new_packet(std::string_view bytes) {
+  PacketPtr packet = new_packet();
+  if (av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0) throw std::bad_alloc();
+  std::copy(bytes.begin(), bytes.end(), packet->data);
+  return packet;
+}
+
+CodecPtr new_context(const AVCodec* codec) {
+  CodecPtr context(avcodec_alloc_context3(codec));
+  if (context == nullptr) throw std::bad_alloc();
+  return context;
 }
 
 FramePtr new_frame() {

@@ -17,6 +17,7 @@ extern "C" {
 #include <mutex>
 #include <opencv2/core.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -24,11 +25,11 @@ extern "C" {
 namespace sigs::libav {
 
 struct Deleter {
-  void operator()(AVFormatContext* context) const;  // of an input
-  void operator()(AVCodecContext* context) const;
-  void operator()(AVPacket* packet) const;
-  void operator()(AVFrame* frame) const;
-  void operator()(SwsContext* context) const;
+  void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
+  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(SwsContext* context) const { sws_freeContext(context); }
 };
 
 using InputPtr = std::unique_ptr<AVFormatContext, Deleter>;
@@ -39,7 +40,9 @@ using ScalerPtr = std::unique_ptr<SwsContext, Deleter>;
 
 // These throw std::bad_alloc where there is no memory; guarded() (base/threads.h) makes an error of it.
 [[nodiscard]] PacketPtr new_packet();
+[[nodiscard]] PacketPtr new_packet(std::string_view bytes);  // a copy
 [[nodiscard]] FramePtr new_frame();
+[[nodiscard]] CodecPtr new_context(const AVCodec* codec);
 
 // Throws std::bad_alloc where the error code means a lack of memory: an image that could not be decoded for that reason
 // is not a damaged one.

@@ -2,15 +2,12 @@
 #include "video/libav/image_file.h"
 
 #include <algorithm>
-#include <cstring>
-#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
 
 extern "C" {
 #include <libavutil/imgutils.h>
-#include <libavutil/pixdesc.h>
 }
 
 #include "base/image.h"
@@ -44,19 +41,11 @@ AVCodecID codec_of_bytes(std::string_view bytes) {
   return AV_CODEC_ID_NONE;
 }
 
-PacketPtr packet_of(const std::string& bytes) {
-  PacketPtr packet = new_packet();
-  if (av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0) throw std::bad_alloc();
-  std::memcpy(packet->data, bytes.data(), bytes.size());
-  return packet;
-}
-
 // The first image that a fresh decoder makes of the bytes; nothing where it reports damage.
 FramePtr decoded(AVCodecID id, const std::string& bytes) {
   const AVCodec* codec = avcodec_find_decoder(id);
   if (codec == nullptr) return nullptr;
-  const CodecPtr context(avcodec_alloc_context3(codec));
-  if (context == nullptr) throw std::bad_alloc();
+  const CodecPtr context = new_context(codec);
   context->thread_count = 1;
   context->max_pixels = kMaxImagePixels;
   DecoderErrors errors;
@@ -65,7 +54,7 @@ FramePtr decoded(AVCodecID id, const std::string& bytes) {
   const int opened = avcodec_open2(context.get(), codec, nullptr);
   check_memory(opened);
   if (opened < 0) return nullptr;
-  const PacketPtr packet = packet_of(bytes);
+  const PacketPtr packet = new_packet(bytes);
   FramePtr frame = new_frame();
   int result = avcodec_send_packet(context.get(), packet.get());
   if (result >= 0) result = avcodec_send_packet(context.get(), nullptr);
@@ -138,27 +127,15 @@ Result<StillFrames::Found> StillFrames::find(int n) {
 }
 
 VideoInfo sequence_info_of(const fs::path& path, const ImageSequence& sequence, const StillImage& first) {
-  const AVFrame& frame = *first.frame;
-  const AVPixelFormat pixel_format = static_cast<AVPixelFormat>(frame.format);
-  const Conversion conversion = conversion_of(pixel_format);
-  const ColorReading reading = color_of(frame, first.codec, conversion.layout);
   VideoInfo info;
   info.path = path;
-  info.size_px = oriented(cv::Size(frame.width, frame.height), first.orientation);
-  info.layout = conversion.layout;
-  info.bit_depth = conversion.bit_depth;
-  info.color = reading.color;
   info.times_s = sequence.times_s;
   info.frame_rate_num = sequence.frame_rate_num;
   info.frame_rate_den = sequence.frame_rate_den;
   info.variable_frame_rate = sequence.variable_frame_rate;
-  info.codec = avcodec_get_name(first.codec);
-  info.pixel_format = av_get_pix_fmt_name(pixel_format);
-  info.conversion = conversion.text;
   info.container = "images";
   info.warnings = sequence.warnings;
-  set_oriented(info, {frame.width, frame.height}, first.orientation);
-  if (!reading.remark.empty()) info.warnings.push_back({path.string(), reading.remark});
+  add_image(info, *first.frame, first.codec, first.orientation);
   return info;
 }
 

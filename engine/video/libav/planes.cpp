@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <memory>
@@ -208,24 +209,10 @@ AVBufferRef* buffer_of(const cv::Mat& plane) {
 
 AVPixelFormat pixel_format_of(PixelLayout layout, int bit_depth, bool packed_rgb) {
   if (layout == PixelLayout::rgb && bit_depth == 8 && packed_rgb) return AV_PIX_FMT_0RGB32;
-  const std::string bits = bit_depth == 8 ? "" : std::to_string(bit_depth);
-  switch (layout) {
-    case PixelLayout::gray:
-      return av_get_pix_fmt(("gray" + bits).c_str());
-    case PixelLayout::yuv420:
-      return av_get_pix_fmt(("yuv420p" + bits).c_str());
-    case PixelLayout::yuv422:
-      return av_get_pix_fmt(("yuv422p" + bits).c_str());
-    case PixelLayout::yuv444:
-      return av_get_pix_fmt(("yuv444p" + bits).c_str());
-    case PixelLayout::rgb:
-      break;
-  }
-  return av_get_pix_fmt(("gbrp" + bits).c_str());
-}
-
-int bit_depth_of(AVPixelFormat format) {
-  return descriptor_of(format).comp[0].depth;
+  // In the order of PixelLayout.
+  static constexpr std::array kPlanar{"gray", "yuv420p", "yuv422p", "yuv444p", "gbrp"};
+  const std::string name = kPlanar.at(static_cast<std::size_t>(layout));
+  return av_get_pix_fmt((bit_depth == 8 ? name : name + std::to_string(bit_depth)).c_str());
 }
 
 Conversion conversion_of(AVPixelFormat pixel_format) {

@@ -33,9 +33,6 @@ struct Conversion {
 // where `packed_rgb`. AV_PIX_FMT_NONE where FFmpeg has none.
 [[nodiscard]] AVPixelFormat pixel_format_of(PixelLayout layout, int bit_depth, bool packed_rgb = false);
 
-// The bits of a format's samples.
-[[nodiscard]] int bit_depth_of(AVPixelFormat format);
-
 // Copies the frame's samples into a writable image, whose pixel format has the frame's depth and layout.
 void fill(AVFrame& image, const Frame& frame);
 

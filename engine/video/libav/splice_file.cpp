@@ -281,9 +281,7 @@ Result<void> SpliceFile::put_encoded(const EncodedPacket& encoded) {
     return fail(path_.string(), "could not be encoded: the encoder reorders pictures more than the footage",
                 ErrorKind::write_failed);
   if (const Result<void> copied = copy_up_to(std::min(part().replaced[i] + 1, part().next)); !copied) return copied;
-  const PacketPtr packet = new_packet();
-  if (av_new_packet(packet.get(), static_cast<int>(encoded.bytes.size())) < 0) throw std::bad_alloc();
-  std::copy(encoded.bytes.begin(), encoded.bytes.end(), packet->data);
+  const PacketPtr packet = new_packet({reinterpret_cast<const char*>(encoded.bytes.data()), encoded.bytes.size()});
   packet->pts = encoded.pts - layout.shift;
   packet->dts = part().dts[i] - layout.shift;
   packet->duration = av_rescale_q(1, av_inv_q(format_.frame_rate), format_.tick);

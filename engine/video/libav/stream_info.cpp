@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -14,9 +15,6 @@ extern "C" {
 #include <libavutil/display.h>
 #include <libavutil/pixdesc.h>
 #include <libavutil/spherical.h>
-}
-extern "C" {
-#include <libavutil/pixdesc.h>
 }
 
 #include "video/chroma.h"
@@ -29,6 +27,10 @@ namespace {
 
 constexpr int kUnspecified = 2;  // ISO/IEC 23091-2
 constexpr int kHighDefinitionLines = 720;
+
+// In the order of ColorMatrix and of ChromaSite.
+constexpr std::array kSpaces{AVCOL_SPC_SMPTE170M, AVCOL_SPC_BT709, AVCOL_SPC_BT2020_NCL};
+constexpr std::array kSites{AVCHROMA_LOC_LEFT, AVCHROMA_LOC_CENTER, AVCHROMA_LOC_TOPLEFT};
 
 bool is_jpeg_format(AVPixelFormat format) {
   return format == AV_PIX_FMT_YUVJ420P || format == AV_PIX_FMT_YUVJ422P || format == AV_PIX_FMT_YUVJ444P ||
@@ -51,22 +53,14 @@ void read_range(ColorInfo& color, const AVFrame& image, AVCodecID codec, PixelLa
 }
 
 std::string read_matrix(ColorInfo& color, const AVFrame& image) {
-  color.matrix_stated = true;
-  switch (image.colorspace) {
-    case AVCOL_SPC_BT709:
-      color.matrix = ColorMatrix::bt709;
-      return {};
-    case AVCOL_SPC_BT470BG:
-    case AVCOL_SPC_SMPTE170M:
-      color.matrix = ColorMatrix::bt601;
-      return {};
-    case AVCOL_SPC_BT2020_NCL:
-      color.matrix = ColorMatrix::bt2020;
-      return {};
-    default:
-      break;
+  // BT.470 System B, G has BT.601's coefficients.
+  const AVColorSpace space = image.colorspace == AVCOL_SPC_BT470BG ? AVCOL_SPC_SMPTE170M : image.colorspace;
+  const auto* const known = std::ranges::find(kSpaces, space);
+  color.matrix_stated = known != kSpaces.end();
+  if (color.matrix_stated) {
+    color.matrix = static_cast<ColorMatrix>(known - kSpaces.begin());
+    return {};
   }
-  color.matrix_stated = false;
   color.matrix = image.height < kHighDefinitionLines ? ColorMatrix::bt601 : ColorMatrix::bt709;
   if (image.colorspace == AVCOL_SPC_UNSPECIFIED || image.colorspace == AVCOL_SPC_RGB) return {};
   const char* name = av_color_space_name(image.colorspace);
@@ -75,18 +69,9 @@ std::string read_matrix(ColorInfo& color, const AVFrame& image) {
 }
 
 std::string read_site(ColorInfo& color, const AVFrame& image, AVCodecID codec) {
-  switch (image.chroma_location) {
-    case AVCHROMA_LOC_LEFT:
-      color.chroma_site = ChromaSite::left;
-      return {};
-    case AVCHROMA_LOC_CENTER:
-      color.chroma_site = ChromaSite::center;
-      return {};
-    case AVCHROMA_LOC_TOPLEFT:
-      color.chroma_site = ChromaSite::top_left;
-      return {};
-    default:
-      break;
+  if (const auto* const known = std::ranges::find(kSites, image.chroma_location); known != kSites.end()) {
+    color.chroma_site = static_cast<ChromaSite>(known - kSites.begin());
+    return {};
   }
   // JFIF puts chroma midway; every video standard puts it at the left, full range or not.
   color.chroma_site = codec == AV_CODEC_ID_MJPEG ? ChromaSite::center : ChromaSite::left;
@@ -113,31 +98,11 @@ int code_point(int stated) {
   return stated == 0 ? kUnspecified : stated;
 }
 
-AVColorSpace space_of(ColorMatrix matrix) {
-  switch (matrix) {
-    case ColorMatrix::bt601:
-      return AVCOL_SPC_SMPTE170M;
-    case ColorMatrix::bt709:
-      return AVCOL_SPC_BT709;
-    case ColorMatrix::bt2020:
-      return AVCOL_SPC_BT2020_NCL;
-  }
-  return AVCOL_SPC_UNSPECIFIED;
-}
-
-AVChromaLocation location_of(ChromaSite site) {
-  switch (site) {
-    case ChromaSite::left:
-      return AVCHROMA_LOC_LEFT;
-    case ChromaSite::center:
-      return AVCHROMA_LOC_CENTER;
-    case ChromaSite::top_left:
-      return AVCHROMA_LOC_TOPLEFT;
-  }
-  return AVCHROMA_LOC_UNSPECIFIED;
-}
-
-}  // namespace
+// The colours of an image as its file states them, with what is assumed.
+struct ColorReading {
+  ColorInfo color;
+  std::string remark;  // what the file states and SIGS does not support; empty: nothing
+};
 
 ColorReading color_of(const AVFrame& image, AVCodecID codec, PixelLayout layout) {
   ColorReading reading;
@@ -152,24 +117,6 @@ ColorReading color_of(const AVFrame& image, AVCodecID codec, PixelLayout layout)
   add_remark(reading.remark, remark_on_light(color));
   return reading;
 }
-
-void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
-  encoder.color_primaries = static_cast<AVColorPrimaries>(color.primaries);
-  encoder.color_trc = static_cast<AVColorTransferCharacteristic>(color.transfer);
-  if (layout == PixelLayout::rgb) {
-    encoder.color_range = AVCOL_RANGE_JPEG;
-    encoder.colorspace = AVCOL_SPC_RGB;
-    return;
-  }
-  const bool full = color.range == ColorRange::full;
-  if (full || color.range_stated) encoder.color_range = full ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
-  if (color.matrix_stated) encoder.colorspace = space_of(color.matrix);
-  // For 4:2:2 the standards know one site, the left; any other one must be stated.
-  const bool is_odd_422 = layout == PixelLayout::yuv422 && color.chroma_site == ChromaSite::center;
-  if (layout == PixelLayout::yuv420 || is_odd_422) encoder.chroma_sample_location = location_of(color.chroma_site);
-}
-
-namespace {
 
 // Null where the container states none of that type, or less than so many bytes.
 const uint8_t* side_data(const AVStream& stream, AVPacketSideDataType type, size_t bytes) {
@@ -198,6 +145,40 @@ std::string projection_of(const AVStream& stream) {
 // the flip, also 1 or 1.5 after it.
 double flipped(double place, int luma_size, bool flip) {
   return flip ? std::fmod(luma_size + 1 - place, 2.0) : place;
+}
+
+// Where the chroma samples lie in the upright image. Positions without a name (on odd columns, on rows alone) are taken
+// as midway, which is half a pixel off; exact is then false.
+struct OrientedSite {
+  ChromaSite site = ChromaSite::left;
+  bool exact = true;
+};
+
+OrientedSite oriented_site(ChromaSite site, PixelLayout layout, cv::Size stored_px, const Orientation& orientation) {
+  const cv::Size step = chroma_step(layout);
+  if (step == cv::Size(1, 1) || orientation == Orientation{}) return {site, true};
+  double column = step.width == 1 || chroma_on_luma_column(site) ? 0 : 0.5;
+  double row = step.height == 1 || chroma_on_luma_row(site) ? 0 : 0.5;
+  if (orientation.transpose) std::swap(column, row);
+  const cv::Size size = oriented(stored_px, orientation);
+  if (step.width > 1) column = flipped(column, size.width, orientation.flip_columns);
+  if (step.height > 1) row = flipped(row, size.height, orientation.flip_rows);
+  for (const ChromaSite named : {ChromaSite::left, ChromaSite::center, ChromaSite::top_left}) {
+    const bool same_row = step.height == 1 || row == (chroma_on_luma_row(named) ? 0 : 0.5);
+    if (column == (chroma_on_luma_column(named) ? 0 : 0.5) && same_row) return {named, true};
+  }
+  return {ChromaSite::center, false};
+}
+
+// "rotated by 90 degrees clockwise", "mirrored left to right"; empty: as it is stored.
+std::string description_of(const Orientation& orientation) {
+  if (orientation == Orientation{}) return {};
+  if (!orientation.transpose && orientation.flip_columns && orientation.flip_rows) return "rotated by 180 degrees";
+  if (!orientation.transpose) return orientation.flip_columns ? "mirrored left to right" : "mirrored top to bottom";
+  if (orientation.flip_columns != orientation.flip_rows)
+    return std::string("rotated by 90 degrees ") + (orientation.flip_columns ? "clockwise" : "counterclockwise");
+  return orientation.flip_columns ? "mirrored and rotated by 90 degrees: about the other diagonal"
+                                  : "mirrored and rotated by 90 degrees: about the diagonal";
 }
 
 // Whether the times deviate from even spacing by more than the rounding of time stamps to the container's tick.
@@ -251,6 +232,23 @@ void add_warnings(VideoInfo& info, const Demuxer& demuxer, const PacketTable& ta
 }
 
 }  // namespace
+
+void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
+  encoder.color_primaries = static_cast<AVColorPrimaries>(color.primaries);
+  encoder.color_trc = static_cast<AVColorTransferCharacteristic>(color.transfer);
+  if (layout == PixelLayout::rgb) {
+    encoder.color_range = AVCOL_RANGE_JPEG;
+    encoder.colorspace = AVCOL_SPC_RGB;
+    return;
+  }
+  const bool full = color.range == ColorRange::full;
+  if (full || color.range_stated) encoder.color_range = full ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+  if (color.matrix_stated) encoder.colorspace = kSpaces.at(static_cast<std::size_t>(color.matrix));
+  // For 4:2:2 the standards know one site, the left; any other one must be stated.
+  const bool is_odd_422 = layout == PixelLayout::yuv422 && color.chroma_site == ChromaSite::center;
+  if (layout == PixelLayout::yuv420 || is_odd_422)
+    encoder.chroma_sample_location = kSites.at(static_cast<std::size_t>(color.chroma_site));
+}
 
 Result<Orientation> orientation_of(const AVStream& stream) {
   return orientation_of(display_matrix(stream));
@@ -313,59 +311,39 @@ Frame oriented(const Frame& frame, const Orientation& orientation) {
   return upright;
 }
 
-OrientedSite oriented_site(ChromaSite site, PixelLayout layout, cv::Size stored_px, const Orientation& orientation) {
-  const cv::Size step = chroma_step(layout);
-  if (step == cv::Size(1, 1) || orientation == Orientation{}) return {site, true};
-  double column = step.width == 1 || chroma_on_luma_column(site) ? 0 : 0.5;
-  double row = step.height == 1 || chroma_on_luma_row(site) ? 0 : 0.5;
-  if (orientation.transpose) std::swap(column, row);
-  const cv::Size size = oriented(stored_px, orientation);
-  if (step.width > 1) column = flipped(column, size.width, orientation.flip_columns);
-  if (step.height > 1) row = flipped(row, size.height, orientation.flip_rows);
-  for (const ChromaSite named : {ChromaSite::left, ChromaSite::center, ChromaSite::top_left}) {
-    const bool same_row = step.height == 1 || row == (chroma_on_luma_row(named) ? 0 : 0.5);
-    if (column == (chroma_on_luma_column(named) ? 0 : 0.5) && same_row) return {named, true};
-  }
-  return {ChromaSite::center, false};
-}
-
-std::string description_of(const Orientation& orientation) {
-  if (orientation == Orientation{}) return {};
-  if (!orientation.transpose && orientation.flip_columns && orientation.flip_rows) return "rotated by 180 degrees";
-  if (!orientation.transpose) return orientation.flip_columns ? "mirrored left to right" : "mirrored top to bottom";
-  if (orientation.flip_columns != orientation.flip_rows)
-    return std::string("rotated by 90 degrees ") + (orientation.flip_columns ? "clockwise" : "counterclockwise");
-  return orientation.flip_columns ? "mirrored and rotated by 90 degrees: about the other diagonal"
-                                  : "mirrored and rotated by 90 degrees: about the diagonal";
-}
-
 AVRational frame_rate_of(const Demuxer& demuxer) {
   const AVRational rate = av_guess_frame_rate(&demuxer.format(), &demuxer.stream(), nullptr);
   return rate.num > 0 && rate.den > 0 ? rate : AVRational{25, 1};
 }
 
-void set_oriented(VideoInfo& info, cv::Size stored_px, const Orientation& orientation) {
-  if (orientation == Orientation{}) return;
-  const OrientedSite site = oriented_site(info.color.chroma_site, info.layout, stored_px, orientation);
-  info.color.chroma_site = site.site;
-  info.warnings.push_back(
-      {info.path.string(),
-       fmt::format("is {}, as the file asks{}", description_of(orientation),
-                   site.exact ? "" : "; its chroma is taken as midway between pixels, half a pixel beside")});
+void add_image(VideoInfo& info, const AVFrame& image, AVCodecID codec, const Orientation& orientation) {
+  const cv::Size stored_px(image.width, image.height);
+  const auto pixel_format = static_cast<AVPixelFormat>(image.format);
+  const Conversion conversion = conversion_of(pixel_format);
+  const ColorReading reading = color_of(image, codec, conversion.layout);
+  info.size_px = oriented(stored_px, orientation);
+  info.layout = conversion.layout;
+  info.bit_depth = conversion.bit_depth;
+  info.color = reading.color;
+  info.codec = avcodec_get_name(codec);
+  info.pixel_format = av_get_pix_fmt_name(pixel_format);
+  info.conversion = conversion.text;
+  if (orientation != Orientation{}) {
+    const OrientedSite site = oriented_site(info.color.chroma_site, info.layout, stored_px, orientation);
+    info.color.chroma_site = site.site;
+    info.warnings.push_back(
+        {info.path.string(),
+         fmt::format("is {}, as the file asks{}", description_of(orientation),
+                     site.exact ? "" : "; its chroma is taken as midway between pixels, half a pixel beside")});
+  }
+  if (!reading.remark.empty()) info.warnings.push_back({info.path.string(), reading.remark});
 }
 
 VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxer, const PacketTable& table,
                         const FrameOrder& order, const AVFrame& first, const Orientation& orientation) {
   const AVStream& stream = demuxer.stream();
-  const AVPixelFormat pixel_format = static_cast<AVPixelFormat>(first.format);
-  const Conversion conversion = conversion_of(pixel_format);
-  const ColorReading reading = color_of(first, stream.codecpar->codec_id, conversion.layout);
   VideoInfo info;
   info.path = path;
-  info.size_px = oriented(cv::Size(first.width, first.height), orientation);
-  info.layout = conversion.layout;
-  info.bit_depth = conversion.bit_depth;
-  info.color = reading.color;
   info.times_s = order.times_s;
   const AVRational rate = frame_rate_of(demuxer);
   info.frame_rate_num = rate.num;
@@ -378,15 +356,11 @@ VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxe
     if (orientation.transpose) std::swap(info.pixel_aspect_num, info.pixel_aspect_den);
   }
   info.variable_frame_rate = is_variable(order.times_s, stream.time_base);
-  info.codec = avcodec_get_name(stream.codecpar->codec_id);
-  info.pixel_format = av_get_pix_fmt_name(pixel_format);
-  info.conversion = conversion.text;
   info.container = demuxer.format().iformat->name;
   info.projection = projection_of(stream);
   info.declared_frames = stream.nb_frames;
   add_warnings(info, demuxer, table, order);
-  set_oriented(info, {first.width, first.height}, orientation);
-  if (!reading.remark.empty()) info.warnings.push_back({path.string(), reading.remark});
+  add_image(info, first, stream.codecpar->codec_id, orientation);
   return info;
 }
 

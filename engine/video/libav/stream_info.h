@@ -16,16 +16,6 @@
 
 namespace sigs::libav {
 
-// The colours of an image as its file states them, with what is assumed.
-struct ColorReading {
-  ColorInfo color;
-  std::string remark;  // what the file states and SIGS does not support; empty: nothing
-};
-
-// The colours that a decoded image states. Where it states none: limited range (full for RGB, JPEG and gray outside the
-// video standards), matrix BT.601 below 720 lines and BT.709 from there on, chroma at the left (midway for JPEG).
-[[nodiscard]] ColorReading color_of(const AVFrame& image, AVCodecID codec, PixelLayout layout);
-
 // Sets the encoder's colour tags to what the footage states. What is unstated stays unstated, so that a player assumes
 // the same for both.
 void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout);
@@ -56,27 +46,17 @@ struct Orientation {
 [[nodiscard]] cv::Size oriented(cv::Size size, const Orientation& orientation);
 [[nodiscard]] Frame oriented(const Frame& frame, const Orientation& orientation);
 
-// Where the chroma samples lie in the upright image. Positions without a name (on odd columns, on rows alone) are taken
-// as midway, which is half a pixel off; exact is then false.
-struct OrientedSite {
-  ChromaSite site = ChromaSite::left;
-  bool exact = true;
-};
-[[nodiscard]] OrientedSite oriented_site(ChromaSite site, PixelLayout layout, cv::Size stored_px,
-                                         const Orientation& orientation);
-
-// "rotated by 90 degrees clockwise", "mirrored left to right"; empty: as it is stored.
-[[nodiscard]] std::string description_of(const Orientation& orientation);
-
-// Sets the chroma site of an image that is turned upright, and adds a warning that it is.
-//   stored_px  its size before
-void set_oriented(VideoInfo& info, cv::Size stored_px, const Orientation& orientation);
+// Sets what a decoded image as it is stored states of its footage: size, layout, depth, colours, codec. Size and chroma
+// site are those of the upright image. Where it states no colours: limited range (full for RGB, JPEG and gray outside
+// the video standards), matrix BT.601 below 720 lines and BT.709 from there on, chroma at the left (midway for JPEG).
+// Warnings tell of an orientation, and of colours that are stated and SIGS does not support.
+void add_image(VideoInfo& info, const AVFrame& image, AVCodecID codec, const Orientation& orientation);
 
 // Nominal frame rate; 25/1 where the file states none.
 [[nodiscard]] AVRational frame_rate_of(const Demuxer& demuxer);
 
 // The properties of a video, from its container and its first decoded image, with warnings about what is damaged,
-// missing or assumed. Size and chroma site are those of the upright image.
+// missing or assumed.
 [[nodiscard]] VideoInfo video_info_of(const std::filesystem::path& path, const Demuxer& demuxer,
                                       const PacketTable& table, const FrameOrder& order, const AVFrame& first,
                                       const Orientation& orientation);

@@ -59,21 +59,8 @@ bool is_done_at_once(VideoCodec codec) {
 }  // namespace
 
 const char* muxer_of(Container container) {
-  switch (container) {
-    case Container::mkv:
-      return "matroska";
-    case Container::mp4:
-      return "mp4";
-    case Container::avi:
-      return "avi";
-    case Container::nut:
-      return "nut";
-    case Container::mov:
-      return "mov";
-    case Container::y4m:
-      break;  // VideoWriter writes it
-  }
-  return "";
+  if (container == Container::y4m) return "";  // VideoWriter writes it
+  return container == Container::mkv ? "matroska" : extension_of(container);
 }
 
 void OutputCloser::operator()(AVFormatContext* context) const {
@@ -158,12 +145,7 @@ Result<int64_t> VideoFile::next_stamp(double time_s) {
 }
 
 FramePtr VideoFile::av_frame_of(const Frame& frame) const {
-  FramePtr image = new_frame();
-  image->format = encoder_->pix_fmt;
-  image->width = encoder_->width;
-  image->height = encoder_->height;
-  image->color_range = encoder_->color_range;
-  image->colorspace = encoder_->colorspace;
+  FramePtr image = new_image(*encoder_);
   const Frame as_stored = stored(frame, encoding_);
   if (is_done_at_once(format_.codec) && can_wrap_planes(encoder_->pix_fmt)) {
     wrap_planes(*image, as_stored);
