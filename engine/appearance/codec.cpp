@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "appearance/codec.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "base/statistics.h"
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <utility>
 

@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
-#include "appearance/estimate.h"
-#include "appearance/noise_blocks.h"
 #include "base/statistics.h"
 
 namespace sigs {

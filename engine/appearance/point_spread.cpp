@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 
-#include "appearance/edge_fit.h"
 #include "base/statistics.h"
 #include "video/chroma.h"
 #include "video/frame_quantisers.h"

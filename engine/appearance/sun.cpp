@@ -2,7 +2,6 @@
 #include "appearance/sun.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>

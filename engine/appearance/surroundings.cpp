@@ -6,9 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
-#include "appearance/sun.h"
 #include "appearance/target_look.h"
 #include "base/pose.h"
 #include "base/statistics.h"

@@ -2,7 +2,6 @@
 #include "appearance/target_look.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>

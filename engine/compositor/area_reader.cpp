@@ -8,8 +8,6 @@
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include "base/ensure.h"
 

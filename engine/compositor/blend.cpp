@@ -2,12 +2,9 @@
 #include "compositor/blend.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <opencv2/core.hpp>
 
 #include "base/ensure.h"
 #include "video/color_space.h"
-#include "video/frame.h"
 
 namespace sigs {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 
 #include "base/ensure.h"
 #include "compositor/blend.h"

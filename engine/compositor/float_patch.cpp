@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "base/ensure.h"
-#include "base/image.h"
 #include "base/random.h"
 #include "compositor/blur.h"
 #include "video/chroma.h"
-#include "video/frame.h"
 
 namespace sigs {
 

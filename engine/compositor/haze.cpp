@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "video/color_space.h"
-#include "video/frame.h"
 
 namespace sigs {
 namespace {

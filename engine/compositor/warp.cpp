@@ -3,7 +3,6 @@
 
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "base/ensure.h"
 

@@ -2,18 +2,14 @@
 #include "ego_motion/attitudes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "base/pose.h"
 #include "base/threads.h"
 #include "ego_motion/bundle.h"
-#include "ego_motion/ego_motion.h"
-#include "ego_motion/rotation_fit.h"
 #include "plot/plot.h"
 
 namespace sigs {

@@ -2,13 +2,11 @@
 #include "ego_motion/bundle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/least_squares.h"
 #include "base/pose.h"
 #include "base/statistics.h"
-#include "ego_motion/rotation_fit.h"
 
 namespace sigs {
 

@@ -15,7 +15,6 @@
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
 #include "horizon/horizon.h"
-#include "video/frame_source.h"
 
 namespace sigs {
 

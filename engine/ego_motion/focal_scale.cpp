@@ -15,7 +15,6 @@
 #include "base/pose.h"
 #include "base/statistics.h"
 #include "base/threads.h"
-#include "ego_motion/rotation_fit.h"
 
 namespace sigs {
 

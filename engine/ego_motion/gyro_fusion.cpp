@@ -8,7 +8,6 @@
 #include "base/least_squares.h"
 #include "base/pose.h"
 #include "base/statistics.h"
-#include "ego_motion/rotation_fit.h"
 
 namespace sigs {
 

@@ -7,7 +7,6 @@
 
 #include "base/least_squares.h"
 #include "base/pose.h"
-#include "ego_motion/rotation_fit.h"
 
 namespace sigs {
 

@@ -8,11 +8,9 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 #include <utility>
-#include <vector>
 
 #include "ego_motion/rotation_fit.h"
 #include "horizon/horizon.h"
-#include "project/project.h"
 #include "scene/camera_track.h"
 #include "scene/opened_project.h"
 #include "scene/scene_at.h"

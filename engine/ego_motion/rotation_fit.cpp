@@ -2,10 +2,8 @@
 #include "ego_motion/rotation_fit.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "base/least_squares.h"
-#include "base/pose.h"
 #include "base/statistics.h"
 
 namespace sigs {

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,13 +22,9 @@
 #include "frame/frame_truth.h"
 #include "frame/ground_shadow.h"
 #include "frame/panorama.h"
-#include "frame/render_plan.h"
-#include "scene/scene.h"
 #include "scene/scene_at.h"
-#include "truth/annotation.h"
 #include "truth/measure.h"
 #include "video/color_space.h"
-#include "video/frame.h"
 #include "video/frame_source.h"
 
 namespace sigs {

@@ -8,19 +8,12 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <limits>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 #include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "base/image.h"
-#include "base/pose.h"
 #include "compositor/blend.h"
 #include "compositor/classic.h"
-#include "frame/render_plan.h"
 #include "video/color_space.h"
 
 namespace sigs {

@@ -3,14 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <optional>
 #include <utility>
 
-#include "base/image.h"
 #include "base/stopwatch.h"
 #include "compositor/blend.h"
-#include "compositor/blur.h"
 #include "frame/panorama.h"
 
 namespace sigs {

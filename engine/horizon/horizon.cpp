@@ -9,7 +9,6 @@
 #include "base/least_squares.h"
 #include "base/pose.h"
 #include "base/statistics.h"
-#include "horizon/sky_map.h"
 
 namespace sigs {
 

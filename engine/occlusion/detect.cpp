@@ -7,14 +7,11 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <opencv2/imgproc.hpp>
-#include <string>
 #include <utility>
 
 #include "base/ensure.h"
 #include "base/threads.h"
-#include "video/frame_source.h"
 
 namespace sigs {
 

@@ -10,7 +10,6 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/imgproc/detail/gcgraph.hpp>
 #include <utility>
-#include <vector>
 
 #include "base/ensure.h"
 #include "base/image.h"

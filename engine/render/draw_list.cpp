@@ -6,7 +6,6 @@
 #include <cmath>
 #include <compare>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <numeric>
 #include <opencv2/imgproc.hpp>

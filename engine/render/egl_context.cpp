@@ -12,17 +12,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
-#include <mutex>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/ensure.h"
-#include "base/result.h"
 #include "base/threads.h"
 
 namespace sigs {

@@ -5,19 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <glm/glm.hpp>
-#include <map>
 #include <opencv2/imgproc.hpp>
-#include <utility>
-#include <vector>
 
 #include "base/ensure.h"
 #include "base/transfer.h"
-#include "mesh/mesh.h"
-#include "render/draw_list.h"
 
 namespace sigs {
 

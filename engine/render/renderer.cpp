@@ -5,30 +5,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <glm/glm.hpp>
 #include <map>
 #include <mutex>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "base/ensure.h"
-#include "base/pose.h"
-#include "base/result.h"
 #include "base/text.h"
 #include "base/transfer.h"
-#include "camera/virtual_camera.h"
 #include "render/draw_list.h"
 #include "render/draw_passes.h"
 #include "render/egl_context.h"
 #include "render/gl_objects.h"
 #include "render/gpu_mesh.h"
-#include "render/light.h"
 
 namespace sigs {
 

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "video/frame.h"
-
 namespace sigs {
 namespace {
 

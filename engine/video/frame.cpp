@@ -2,8 +2,6 @@
 #include "video/frame.h"
 
 #include <algorithm>
-#include <array>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "base/ensure.h"

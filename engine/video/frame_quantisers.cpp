@@ -7,7 +7,6 @@
 #include <numeric>
 #include <optional>
 
-#include "base/ensure.h"
 #include "video/libav/handles.h"
 
 namespace sigs {

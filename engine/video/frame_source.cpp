@@ -3,13 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <utility>
 
 #include "base/ensure.h"
 #include "base/text.h"
-#include "base/threads.h"
-#include "video/frame.h"
 #include "video/frame_seeker.h"
 #include "video/libav/image_file.h"
 #include "video/libav/planes.h"

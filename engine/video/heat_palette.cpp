@@ -2,7 +2,6 @@
 #include "video/heat_palette.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>

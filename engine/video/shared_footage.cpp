@@ -2,7 +2,6 @@
 #include "video/shared_footage.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/ensure.h"
 #include "base/threads.h"

@@ -8,9 +8,7 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,11 +16,8 @@
 
 #include "base/ensure.h"
 #include "base/image_codecs.h"
-#include "base/output_stream.h"
-#include "base/result.h"
 #include "base/text.h"
 #include "base/threads.h"
-#include "video/frame.h"
 #include "video/libav/video_file.h"
 
 namespace sigs {

@@ -45,13 +45,17 @@ TEST_CASE(
   const FirstProject warm = made_of("warm", {800, 600}, 70, 180);
   CHECK(warm.project.footage.spectrum == Spectrum::thermal);
   CHECK(warm.project.appearance.thermal.sky == doctest::Approx(70).epsilon(0.02));
+  // Its skyline is 100 px below the middle of an image of 800 px that is 70 degrees wide.
+  CHECK(*warm.project.camera.pitch_deg == doctest::Approx(9.9).epsilon(0.05));
   CHECK(warm.project.appearance.thermal.halo_px == doctest::Approx(80));  // 32 px in 320: its sky has no halo
   CHECK(warm.project.appearance.sharpening < 0);                          // a glow
   CHECK(note_on(warm, "footage.spectrum").is_guess);
   CHECK(std::none_of(warm.notes.begin(), warm.notes.end(),
                      [](const FirstProjectNote& note) { return note.field.starts_with("light."); }));
   CHECK(made_of("day", {800, 600}, 180, 70).project.footage.spectrum == Spectrum::visible);
-  CHECK(made_of("small", {320, 256}, 90, 90).project.footage.spectrum == Spectrum::thermal);
+  const FirstProject small = made_of("small", {320, 256}, 90, 90);
+  CHECK(small.project.footage.spectrum == Spectrum::thermal);
+  CHECK(small.project.camera.pitch_deg.value_or(0) > -5);  // rough clouds, or ground: it is not said to look down
   CHECK(made_of("small-day", {320, 256}, 180, 70).project.footage.spectrum == Spectrum::visible);
   CHECK(made_of("large", {800, 600}, 90, 90).project.footage.spectrum == Spectrum::visible);
   CHECK(made_of("dim", {800, 600}, 60, 20).project.intruders.front().lights.is_dark());

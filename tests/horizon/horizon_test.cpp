@@ -292,4 +292,32 @@ TEST_CASE("lines that stay in the world are its level; lines that move by parall
   CHECK_FALSE(level_of({}, turns));
 }
 
+TEST_CASE(
+    "clouds of a thermal image do not hide where its warm ground begins; without such ground nothing is claimed") {
+  const Camera camera = view_camera(LensModel::brown_conrady);
+  const auto image_with = [&](double pitch_deg, double ground) {
+    return image_of(camera, level_from_camera(0, pitch_deg), [&](const glm::dvec3& ray) {
+      const double clouds = 0.45 * (rough_ground(ray) - 110);
+      return ray.z > 0 ? ground + 0.3 * (rough_ground(ray) - 110) : 60 + clouds;
+    });
+  };
+  for (const double pitch_deg : {-12.0, 0.0, 9.0, 17.0}) {
+    CAPTURE(pitch_deg);
+    const cv::Mat image = image_with(pitch_deg, 150);
+    const SkyMap sky = sky_above_warm_ground(image);
+    CHECK(sky.columns > 0.95);
+    const auto pitch_rad = skyline_pitch_rad(sky, 1, camera);
+    REQUIRE(pitch_rad);
+    CHECK(std::abs(*pitch_rad / kDegree - pitch_deg) < 0.6);  // a cell is 4 px, 0.55 degrees
+    CHECK(std::abs(sky.share - 0.5 - std::tan(pitch_deg * kDegree) * 420 / 360) < 0.012);
+    cv::Mat upside_down;
+    cv::flip(image, upside_down, 0);
+    CHECK(sky_above_warm_ground(upside_down).empty());
+  }
+  CHECK(sky_above_warm_ground(image_with(5, 80)).empty());    // hardly warmer
+  CHECK(sky_above_warm_ground(image_with(40, 150)).empty());  // nothing but sky
+  CHECK(sky_above_warm_ground(cv::Mat(20, 3, CV_8UC1, cv::Scalar(9))).empty());
+  CHECK(sky_above_warm_ground(cv::Mat(12, 200, CV_8UC1, cv::Scalar(9))).empty());
+}
+
 }  // namespace sigs::test

@@ -2,7 +2,6 @@
 #include "video/libav/frame_order.h"
 
 #include <algorithm>
-#include <functional>
 
 namespace sigs::libav {
 namespace {

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/handles.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cstdarg>
 #include <new>
-#include <string_view>
 #include <utility>
 
 namespace sigs::libav {

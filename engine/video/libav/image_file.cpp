@@ -15,7 +15,6 @@ extern "C" {
 #include "base/input_file.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/planes.h"
-#include "video/libav/stream_info.h"
 
 namespace sigs::libav {
 

@@ -10,7 +10,6 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <vector>
 
 extern "C" {
 #include <libavutil/imgutils.h>
@@ -20,7 +19,6 @@ extern "C" {
 
 #include "base/ensure.h"
 #include "video/chroma.h"
-#include "video/frame.h"
 
 namespace sigs::libav {
 namespace {

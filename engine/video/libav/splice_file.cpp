@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <new>
-#include <string_view>
 #include <utility>
 
 #include "base/ensure.h"

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/ensure.h"
-#include "video/libav/encoding.h"
 #include "video/libav/planes.h"
 
 namespace sigs::libav {

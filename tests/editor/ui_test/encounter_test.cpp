@@ -163,12 +163,29 @@ TEST_CASE("a person authors an encounter by numbers and by dragging its closest 
 
   // What cannot be is named, and nothing changes.
   const int possible = revision_of(editor.state());
-  ui_test.fill_in("inspector/encounter/time", "9");
+  ui_test.fill_in("inspector/encounter/time", "40");  // by way of 4, which could be
   editor.key("Return");
   ui_test.wait_for_place("inspector/encounter/reason");
   ui_test.image("refused");
   CHECK(revision_of(editor.state()) == possible);
   CHECK(possible > revision);
+
+  // What is typed takes effect when it is finished: not at all after Escape, and also where the keyboard goes on.
+  ui_test.fill_in("inspector/encounter/time", "4");
+  editor.settle();
+  CHECK(revision_of(editor.state()) == possible);
+  editor.key("Escape");
+  editor.settle();
+  CHECK(revision_of(editor.state()) == possible);
+  ui_test.edit([&] {
+    ui_test.fill_in("inspector/encounter/vertical", "19");
+    editor.key("Tab");
+  });
+  editor.key("Escape");
+  check_truth(encounter_in(ui_test, project), {-42.5, 19, 5, 125, 61});
+  editor.key("ctrl+z");
+  editor.wait_for("one step back", [&](const Json& now) { return revision_of(now) == possible; });
+  CHECK(ui_test.saved(project) == authored);
 
   // The closest approach keeps under the mouse; speed and time stay. Escape takes a drag back.
   const ScreenPlace handle = editor.place("world/closest approach");
