@@ -33,6 +33,7 @@ double rounded(double value) {
 }
 
 const char* unit_of(QuantiserKind kind) {
+  // In the order of QuantiserKind.
   static constexpr std::array kUnits{"QP", "codes a step", "", "% quality"};
   return kUnits.at(static_cast<std::size_t>(kind));
 }

@@ -147,6 +147,7 @@ glm::dvec3 to_sun_of(double azimuth_rad, double elevation_rad) {
 }
 
 std::string how_found(SunEvidence evidence) {
+  // In the order of SunEvidence.
   static constexpr std::array kWays{"", "by time and place", "by shadows on the ground", "by the sky's brightness"};
   return kWays.at(static_cast<std::size_t>(evidence));
 }
