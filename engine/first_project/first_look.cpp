@@ -114,14 +114,20 @@ class Levels {
     return light[2] >= kMinBlue * light[1];
   }
 
-  // Without colours, but for what a codec leaves of them.
+  // Without colours, but for what a codec leaves of them: a code of 8 bits in the mean.
   static bool is_gray(const Frame& frame) {
-    constexpr double kGray_codes = 1;
-    cv::Mat bgr = bgr_of(frame), planes[3];
-    cv::split(bgr, planes);
-    const double pixels = static_cast<double>(bgr.total());
-    return std::max(cv::norm(planes[0], planes[1], cv::NORM_L1), cv::norm(planes[2], planes[1], cv::NORM_L1)) <=
-           kGray_codes * pixels;
+    const int step = codes_per_8_bit_step(frame.bit_depth);
+    const bool is_rgb = frame.layout == PixelLayout::rgb;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(frame.plane_count()); ++i) {
+      const cv::Mat& plane = frame.planes[i];
+      cv::Mat off;
+      if (is_rgb)
+        cv::absdiff(plane, frame.planes[0], off);
+      else
+        cv::absdiff(plane, cv::Scalar::all(128 * step), off);
+      if (cv::mean(off)[0] > step) return false;
+    }
+    return true;
   }
 
   std::vector<double> line_rolls_rad_, line_pitches_rad_, skyline_pitches_rad_;

@@ -115,11 +115,12 @@ void count_in_codes(FloatPatch& patch) {
     constexpr float kStep = 0.01F;
     return (curve.display_of_linear(light * (1 + kStep)) - curve.display_of_linear(light * (1 - kStep))) / light;
   };
+  const float slope_unshaded = slope(unshaded);
   for (int i = 0; i < patch.plane_count(); ++i)
     patch.planes[static_cast<std::size_t>(i)].opacity.forEach<float>([&](float& opacity, const int*) {
       const float through = 1 - opacity;
       if (opacity > 0 && through > 0)
-        opacity = std::clamp(1 - through * slope(through * unshaded) / slope(unshaded), 1e-6F, 1.0F);
+        opacity = std::clamp(1 - through * slope(through * unshaded) / slope_unshaded, 1e-6F, 1.0F);
     });
 }
 
