@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/core.hpp>
 #include <utility>
 
 #include "base/least_squares.h"
@@ -102,15 +103,59 @@ Overlap overlap_at(const RateGrid& first, const RateGrid& second, int lag, int b
   return overlap;
 }
 
+// The same at all lags, those of negative ones at the end; by Fourier transforms, so to rounding of the whole sums.
+std::vector<Overlap> overlaps_at_all_lags(const RateGrid& first, const RateGrid& second) {
+  const int length = cv::getOptimalDFTSize(first.size() + second.size());
+  const auto spectrum_of = [&](const RateGrid& grid, const auto& value_at) {
+    cv::Mat values = cv::Mat::zeros(1, length, CV_64F);
+    for (int i = 0; i < grid.size(); ++i)
+      if (grid.known[static_cast<std::size_t>(i)] != 0)
+        values.at<double>(i) = value_at(grid.rates_radps[static_cast<std::size_t>(i)]);
+    cv::dft(values, values, cv::DFT_COMPLEX_OUTPUT);
+    return values;
+  };
+  const auto sums_of = [&](const auto& of_first, const auto& of_second) {
+    cv::Mat sums;
+    cv::mulSpectrums(spectrum_of(first, of_first), spectrum_of(second, of_second), sums, 0, true);
+    cv::idft(sums, sums, cv::DFT_REAL_OUTPUT | cv::DFT_SCALE);
+    return sums;
+  };
+  const auto one = [](const glm::dvec3&) { return 1.0; };
+  const auto square = [](const glm::dvec3& rate) { return glm::dot(rate, rate); };
+  const cv::Mat counts = sums_of(one, one);
+  const cv::Mat squares_first = sums_of(square, one);
+  const cv::Mat squares_second = sums_of(one, square);
+  cv::Mat mixed = cv::Mat::zeros(1, length, CV_64F);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto part = [axis](const glm::dvec3& rate) { return rate[axis]; };
+    mixed += sums_of(part, part);
+  }
+  double largest_first = 0;
+  double largest_second = 0;
+  cv::minMaxLoc(squares_first, nullptr, &largest_first);
+  cv::minMaxLoc(squares_second, nullptr, &largest_second);
+  constexpr double kRounding = 1e-12;  // of the largest sum
+  std::vector<Overlap> overlaps(static_cast<std::size_t>(length));
+  for (int i = 0; i < length; ++i) {
+    const double a = squares_first.at<double>(i);
+    const double b = squares_second.at<double>(i);
+    Overlap& overlap = overlaps[static_cast<std::size_t>(i)];
+    overlap.count = std::round(counts.at<double>(i));
+    if (a > kRounding * largest_first && b > kRounding * largest_second)
+      overlap.correlation = std::clamp(mixed.at<double>(i) / std::sqrt(a * b), -1.0, 1.0);
+  }
+  return overlaps;
+}
+
 // Samples that follow one another are alike. How many of them count as one that is independent (Bartlett: On the
 // theoretical specification and sampling properties of autocorrelated time-series, 1946).
 double samples_per_independent(const RateGrid& first, const RateGrid& second, int steps) {
+  const std::vector<Overlap> of_first = overlaps_at_all_lags(first, first);
+  const std::vector<Overlap> of_second = overlaps_at_all_lags(second, second);
   double sum = 1;
-  for (int lag = 1; lag <= steps; ++lag) {
-    const Overlap a = overlap_at(first, first, lag);
-    const Overlap b = overlap_at(second, second, lag);
-    sum += 2 * a.correlation * b.correlation;
-  }
+  for (int lag = 1; lag <= std::min({steps, first.size() - 1, second.size() - 1}); ++lag)
+    sum +=
+        2 * of_first[static_cast<std::size_t>(lag)].correlation * of_second[static_cast<std::size_t>(lag)].correlation;
   return std::max(1.0, sum);
 }
 
@@ -251,9 +296,10 @@ class CoarseSearch {
     const double axes = independent_axes(second);
     std::vector<Candidate> all;
     const double between_s = first.first_s - second.first_s;
+    const std::vector<Overlap> overlaps = overlaps_at_all_lags(first, second);
     for (int lag = -second.size() + 1; lag < first.size() && !control_.is_cancelled(); ++lag) {
       if (std::abs(between_s + lag * step_s_) > max_offset_s_) continue;
-      const Overlap overlap = overlap_at(first, second, lag);
+      const Overlap& overlap = overlaps[static_cast<std::size_t>(lag < 0 ? std::ssize(overlaps) + lag : lag)];
       if (overlap.count * step_s_ < kMinOverlap_s) continue;
       all.push_back({lag, evidence_of(overlap, per_independent, axes), overlap});
     }

@@ -157,13 +157,8 @@ bool WaypointTool::is_still_there(const ViewContext& context) const {
   return static_cast<std::size_t>(taken_->intruder) < context.project().intruders.size();
 }
 
-// Where going to a waypoint's frame has carried it away from the mouse, there is nothing to drag.
-bool WaypointTool::is_under_press(const ToolContext& tool, const glm::dvec3& position_m) const {
-  const std::optional<glm::dvec2> pixel = pixel_of(position_m, tool.eye.world_from_camera, tool.eye.lens);
-  return pixel && glm::distance(tool.canvas.view.screen_of(*pixel), taken_->gesture.pressed) <= 2 * scaled(kReach_px);
-}
-
-// Once the mouse has moved far enough to mean it.
+// Once the mouse has moved far enough to mean it. Where going to a waypoint's frame has carried it away from the mouse,
+// it follows the mouse's moves from where it is now.
 bool WaypointTool::begin(const ToolContext& tool) {
   Taken& taken = *taken_;
   if (!taken.gesture.has_left_press(tool.mouse)) return false;
@@ -176,14 +171,21 @@ bool WaypointTool::begin(const ToolContext& tool) {
   else if (waypoint != nullptr)
     start_m = waypoint->position_m;
   if (!start_m) return false;
-  if (!makes_one && !is_under_press(tool, *start_m)) return false;
+  const std::optional<glm::dvec2> pixel = pixel_of(*start_m, tool.eye.world_from_camera, tool.eye.lens);
+  if (!pixel || !tool.canvas.pixel_at(tool.canvas.view.screen_of(*pixel))) {
+    taken_.reset();
+    tool.context.edits.ask(ShowMessage{
+        "In its own frame this waypoint lies outside the image: move it in the World panel or by its numbers.", true});
+    return false;
+  }
   if (makes_one && !can_fix_frames(tool.context, taken.intruder)) return false;
   taken.gesture.name = fmt::format("over the footage {}", ++gestures_);
   // Where a waypoint stands within a frame of this one, that is the one it gets.
   if (makes_one)
     taken.waypoint = put_in_gesture(tool.context, taken.intruder, tool.eye.frame, *start_m, taken.gesture.name);
   taken.start_m = taken.now_m = taken.first_m = *start_m;
-  taken.start_mouse = taken.gesture.pressed;
+  taken.start_mouse = tool.canvas.view.screen_of(*pixel);
+  taken.mouse_to_waypoint = taken.start_mouse - taken.gesture.pressed;
   taken.along = moves_along_sight();
   taken.gesture.is_moving = true;
   return !makes_one;  // the waypoint is there from the next update on
@@ -202,17 +204,18 @@ void WaypointTool::drag(const ToolContext& tool) {
 
 void WaypointTool::move(const ToolContext& tool) {
   Taken& taken = *taken_;
+  const glm::dvec2 mouse = tool.mouse + taken.mouse_to_waypoint;
   if (moves_along_sight() != taken.along) {
     taken.along = !taken.along;
     taken.start_m = taken.now_m;
-    taken.start_mouse = tool.mouse;
+    taken.start_mouse = mouse;
   }
   const ImageView& view = tool.canvas.view;
   const CameraPose& pose = tool.eye.world_from_camera;
-  const std::optional<glm::dvec3> there_m = taken.along
-                                                ? dragged_along(taken.start_m, taken.start_mouse.y - tool.mouse.y, pose)
-                                                : dragged_across(taken.start_m, view.image_of(taken.start_mouse),
-                                                                 view.image_of(tool.mouse), pose, tool.eye.lens);
+  const std::optional<glm::dvec3> there_m =
+      taken.along
+          ? dragged_along(taken.start_m, taken.start_mouse.y - mouse.y, pose)
+          : dragged_across(taken.start_m, view.image_of(taken.start_mouse), view.image_of(mouse), pose, tool.eye.lens);
   if (!there_m || *there_m == taken.now_m) return;
   taken.now_m = *there_m;
   tool.context.edits.move_waypoint(taken.intruder, taken.waypoint, *there_m, taken.gesture.name);

@@ -87,9 +87,9 @@ struct ToolContext {
 void add_waypoint_at(const ToolContext& tool, const glm::dvec2& pixel);
 
 // Moves waypoints over the footage with the mouse: at constant distance from the camera, or along the line of sight
-// while Alt or Shift is held. A press on a waypoint of another frame moves the playhead to that frame; the drag goes on
-// only if the waypoint's image is still under the mouse there. Dragging an intruder that has no waypoint in this frame
-// adds one. One drag is one undo step; Escape takes it back.
+// while Alt or Shift is held. A press on a waypoint of another frame moves the playhead to that frame; where the
+// camera's motion has carried the waypoint away from the mouse there, it moves as the mouse does. Dragging an intruder
+// that has no waypoint in this frame adds one. One drag is one undo step; Escape takes it back.
 class WaypointTool {
  public:
   // For a press of the left button. True: a waypoint or an intruder was under the mouse and may be dragged.
@@ -113,14 +113,14 @@ class WaypointTool {
     DragGesture gesture;
     Selection selected_before;  // what Esc comes back to
     bool along = false;
-    glm::dvec3 start_m{0, 0, 0};  // where the part of the drag that lasts began
-    glm::dvec2 start_mouse{0, 0};
+    glm::dvec3 start_m{0, 0, 0};         // where the part of the drag that lasts began
+    glm::dvec2 start_mouse{0, 0};        // then, with mouse_to_waypoint
+    glm::dvec2 mouse_to_waypoint{0, 0};  // on the screen, when the drag began
     glm::dvec3 now_m{0, 0, 0};
     glm::dvec3 first_m{0, 0, 0};
   };
 
   [[nodiscard]] bool is_still_there(const ViewContext& context) const;
-  [[nodiscard]] bool is_under_press(const ToolContext& tool, const glm::dvec3& position_m) const;
   bool begin(const ToolContext& tool);
   void move(const ToolContext& tool);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -139,6 +140,38 @@ TEST_CASE("escape in a drag puts everything back, and what was undone before it 
 }
 
 // scripts/images.sh makes the README's animation of its pictures; --no-skip runs it.
+TEST_CASE("where the camera turns, a waypoint pressed in another frame moves as the mouse does") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("drag-from-other-frame");
+  EditorDriver& editor = ui_test.editor();
+  std::ofstream(ui_test.folder() / "turn.csv") << "time_s,camera_roll_deg,camera_pitch_deg,camera_yaw_deg\n"
+                                                  "0,0,-3,0\n4,0,-3,0\n5.2,0,-3,8\n6,0,-3,0\n12,0,-3,0\n";
+  Json content = sample_project("head-on");
+  content["camera"]["track"] = {{"file", "turn.csv"}};
+  const fs::path project = put(content, ui_test.folder() / "mine.json");
+  editor.start({project.string()});
+  editor.wait_for_image();
+  go_to_waypoint(ui_test);
+  const ScreenPlace own = editor.place("viewport/waypoint/0/1");
+  const Waypoints before = waypoints_of(json_of(project));
+
+  press_keys(editor, {"shift+Left", "shift+Left"});
+  editor.wait_for("an earlier frame", [](const Json& now) { return now.value("frame", -1) == kFrame - 20; });
+  editor.wait_for_image();
+  const ScreenPlace there = editor.place("viewport/waypoint/0/1");
+  REQUIRE(std::abs(there.center_x() - own.center_x()) > 20);  // out of the mouse's reach in its own frame
+  editor.hold(there.center_x(), there.center_y());
+  editor.wait_for("its frame", [](const Json& now) { return now.value("frame", -1) == kFrame; });
+  editor.move(there.center_x() + 17, there.center_y() + 11);
+  editor.move(there.center_x() + 34, there.center_y() + 22);
+  editor.settle();
+  editor.release();
+  check_only_it_moved(before, saved(ui_test, project));
+  const ScreenPlace moved = editor.place("viewport/waypoint/0/1");
+  CHECK(std::abs(moved.center_x() - own.center_x() - 34) < 1.5);
+  CHECK(std::abs(moved.center_y() - own.center_y() - 22) < 1.5);
+}
+
 TEST_CASE("a waypoint is dragged over the footage, a picture for each step" * doctest::skip()) {
   if (!can_drive_windows()) return;
   const fs::path folder = build_dir() / "screenshots" / "animation";
