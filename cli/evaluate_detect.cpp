@@ -85,7 +85,7 @@ Result<void> run_by_aot_rules(const DetectOptions& options) {
   if (!score) return fail(result_file.string(), score.error().what);
   if (score->unknown_images > 0)
     print_warning({result_file.string(),
-                   count_text(score->unknown_images, "box") + " of images that the truth does not have: ignored"});
+                   count_text(score->unknown_images, "report") + " of images that the truth does not have: ignored"});
   std::printf("%s", aot_table(*score).c_str());
   if (!*folder) return {};
   return (*folder)->commit(write_report((*folder)->staging_path(), *truth, *score));

@@ -23,6 +23,15 @@ bool is_unknown(CLI::App& program, const std::string& above, const std::string& 
   return true;
 }
 
+// The first option that was given an empty value, as a shell leaves it whose variable is not set.
+const CLI::Option* empty_option(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (std::ranges::count(option->results(), "") > 0) return option;
+  for (const CLI::App* below : command.get_subcommands())
+    if (const CLI::Option* const option = empty_option(*below)) return option;
+  return nullptr;
+}
+
 int run(int argc, char** argv) {
   using namespace sigs::cli;
   const Program made = make_program();
@@ -40,6 +49,10 @@ int run(int argc, char** argv) {
   prepare_mesa();
   for (const AddedCommand& command : made.commands) {
     if (!command.app->parsed()) continue;
+    if (const CLI::Option* const empty = empty_option(*command.app)) {
+      print_error({empty->get_name(), "has no value; give one, or leave the option out", sigs::ErrorKind::usage});
+      return static_cast<int>(sigs::ErrorKind::usage);
+    }
     if (const sigs::Result<void> done = command.run(); !done) {
       print_error(done.error());
       const sigs::ErrorKind kind = done.error().kind;

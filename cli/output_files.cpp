@@ -6,7 +6,6 @@
 #include <cstring>
 #include <fstream>
 #include <string>
-#include <system_error>
 
 #include "base/image_codecs.h"
 #include "base/paths.h"
@@ -43,23 +42,6 @@ std::string png_bytes(const cv::Mat& image) {
   std::vector<uchar> bytes;
   image_codecs::imencode(".png", image, bytes);
   return {bytes.begin(), bytes.end()};
-}
-
-CreatedFolders::~CreatedFolders() {
-  std::error_code code;
-  for (auto last = created_.rbegin(); last != created_.rend(); ++last)
-    fs::remove(*last, code);  // refused where not empty
-}
-
-Result<void> CreatedFolders::make(const fs::path& folder) {
-  fs::path part;
-  for (const fs::path& name : folder) {
-    part /= name;
-    std::error_code code;
-    if (fs::create_directory(part, code)) created_.push_back(fs::absolute(part, code));
-    if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
-  }
-  return {};
 }
 
 Result<void> OutputFiles::reserve(const fs::path& path) {

@@ -284,6 +284,23 @@ Result<TemporaryFile> TemporaryFile::create_folder(fs::path final_path, bool ove
 TemporaryFile::TemporaryFile(fs::path final_path, fs::path temporary_path, StagedOutputs outputs)
     : final_(std::move(final_path)), temporary_path_(std::move(temporary_path)), outputs_(std::move(outputs)) {}
 
+CreatedFolders::~CreatedFolders() {
+  std::error_code code;
+  for (auto last = created_.rbegin(); last != created_.rend(); ++last)
+    fs::remove(*last, code);  // refused where not empty
+}
+
+Result<void> CreatedFolders::make(const fs::path& folder) {
+  fs::path part;
+  for (const fs::path& name : folder) {
+    part /= name;
+    std::error_code code;
+    if (fs::create_directory(part, code)) created_.push_back(fs::absolute(part, code));
+    if (code) return fail(folder.string(), "cannot be created: " + code.message(), ErrorKind::cannot_create);
+  }
+  return {};
+}
+
 Result<void> write_text(const fs::path& path, std::string_view text, bool overwrite) {
   Result<TemporaryFile> file = TemporaryFile::create(path, overwrite);
   if (!file) return fail(file.error());

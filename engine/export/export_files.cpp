@@ -257,9 +257,9 @@ Result<void> ExportFiles::write_encounters(const fs::path& path, const Project& 
 Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
                                       const FrameRange& range, const SplicePlan* splice,
                                       const std::atomic<bool>* cancel) {
-  if (request.video_descriptor < 0)
-    if (const Result<void> folder = make_inner_folder(request.folder); !folder) return fail(folder.error());
   ExportFiles files(request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  if (request.video_descriptor < 0)
+    if (const Result<void> folder = files.folders_.make(request.folder); !folder) return fail(folder.error());
   const Result<void> opened = files.open_all(request, footage, scene, range, splice, cancel);
   if (!opened) return fail(files.outputs_.with_final_names(opened.error()));
   return files;

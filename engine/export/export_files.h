@@ -149,7 +149,8 @@ class ExportFiles {
   [[nodiscard]] bool write_labels(const FrameTruth& truth);
   [[nodiscard]] Result<void> finish();
 
-  StagedOutputs outputs_;  // outlives the writers: they write into it
+  CreatedFolders folders_;  // outlives the outputs: a folder can go only once it is empty
+  StagedOutputs outputs_;   // outlives the writers: they write into it
   std::unique_ptr<WriterThread> video_;
   std::unique_ptr<WriterThread> masks_;  // nullptr: none are asked for
   std::vector<Labels> labels_;

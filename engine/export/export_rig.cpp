@@ -221,7 +221,8 @@ Result<RigReport> exported_rig(const ExportRequest& request, const ExportControl
   SceneFiles files;
   const Result<std::vector<PlannedCamera>> cameras = planned_cameras(request, files);
   if (!cameras) return fail(cameras.error());
-  if (const Result<void> folder = make_inner_folder(request.folder); !folder) return fail(folder.error());
+  CreatedFolders above;  // outlives the outputs: a folder can go only once it is empty
+  if (const Result<void> folder = above.make(request.folder); !folder) return fail(folder.error());
   StagedOutputs outputs(existing_outputs(request));
   const std::string base = (request.folder / request.project.name).string();
   const Result<std::filesystem::path> json = outputs.add_file(base + std::string(kRigSuffix));

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <system_error>
 
 #include "base/input_file.h"
 #include "base/paths.h"
@@ -32,23 +31,18 @@ bool is_written(const fs::path& path, const std::string& content) {
   return there && *there == content;
 }
 
-Result<void> make_folder(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (is_folder(folder)) return {};
-  return fail(folder.string(), "cannot be created: " + code.message() + "; choose another name for the project",
-              ErrorKind::cannot_create);
-}
-
 }  // namespace
 
 Result<void> write_files(const std::vector<FirstProjectFile>& files, bool overwrite) {
+  CreatedFolders folders;  // outlives the outputs: a folder can go only once it is empty
   StagedOutputs outputs(overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
   for (const FirstProjectFile& file : files) {
     const Result<std::string> content = content_of(file);
     if (!content) return fail(content.error());
     if (!file.copy_of.empty() && is_written(file.path, *content)) continue;
-    if (const Result<void> made = make_folder(file.path.parent_path()); !made) return made;
+    if (const Result<void> made = folders.make(file.path.parent_path()); !made)
+      return fail(made.error().where, made.error().what + "; choose another name for the project",
+                  ErrorKind::cannot_create);
     const Result<fs::path> temporary = outputs.add_file(file.path);
     if (!temporary) return fail(temporary.error());
     if (const Result<void> written = write_text(*temporary, *content, true); !written)

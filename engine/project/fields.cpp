@@ -265,9 +265,8 @@ Json json_or_text(const std::string& text) {
 
 Result<void> set_field(Project& project, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
-  const std::string where = "--set " + assignment;
   if (equals == std::string::npos || equals == 0)
-    return fail(where, "expected key=value, as in camera.speed_mps=30", ErrorKind::usage);
+    return fail(assignment, "expected key=value, as in camera.speed_mps=30", ErrorKind::usage);
   const std::string key = current_key(assignment.substr(0, equals));
   const std::string text = assignment.substr(equals + 1);
   const std::vector<Field> fields = fields_of(project);
@@ -275,11 +274,11 @@ Result<void> set_field(Project& project, const std::string& assignment) {
   const bool is_group = std::any_of(fields.begin(), fields.end(), [&key](const Field& f) {
     return f.key.starts_with(key + ".") || f.key.starts_with(key + "[");
   });
-  if (is_group) return fail(where, "is a group of settings; set one of its members by its key", ErrorKind::usage);
-  if (field == fields.end()) return fail(where, "no such setting" + suggestion(keys_of(fields), key), ErrorKind::usage);
+  if (is_group) return fail(assignment, "is a group of settings; set one of its members by its key", ErrorKind::usage);
+  if (field == fields.end()) return fail(assignment, "no such setting" + suggestion(keys_of(fields), key), ErrorKind::usage);
   const bool takes_text = std::holds_alternative<std::string*>(field->value) && text != "null";
   const std::string wrong = put_json(takes_text ? Json(text) : json_or_text(text), *field);
-  if (!wrong.empty()) return fail(where, wrong, ErrorKind::usage);
+  if (!wrong.empty()) return fail(assignment, wrong, ErrorKind::usage);
   place_waypoints(project);
   return {};
 }

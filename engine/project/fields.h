@@ -53,8 +53,8 @@ inline constexpr int kProjectVersion = 1;
 
 // Sets one field from a text "key=value": "camera.speed_mps=30", "light.position_m=[0,0,-500]",
 // "export.video.codec=h264". The value is JSON; what is not JSON is taken as a string. Paths are relative to the
-// project file, like those in it. Does not check ranges; validate() does. Errors of the kind usage: no "=", no such key
-// (a similar one is suggested), a value of the wrong type.
+// project file, like those in it. Does not check ranges; validate() does. Errors of the kind usage, which name the
+// assignment: no "=", no such key (a similar one is suggested), a value of the wrong type.
 [[nodiscard]] Result<void> set_field(Project& project, const std::string& assignment);
 
 // The end of a message about an unknown key, "; did you mean seed?": the key with the smallest edit distance

@@ -27,7 +27,7 @@ void check_number(const Field& field, double number, Problems& problems) {
     problems.push_back({field.key, "is not a finite number"});
   } else if (number < field.minimum || number > field.maximum) {
     problems.push_back(
-        {field.key, fmt::format("is {:g}; it must lie between {:g} and {:g}", number, field.minimum, field.maximum)});
+        {field.key, fmt::format("is {}; it must lie between {:g} and {:g}", number, field.minimum, field.maximum)});
   }
 }
 

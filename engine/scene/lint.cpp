@@ -139,6 +139,10 @@ struct ImageEdges {
     right_rad = right ? bearing_of(*right).right_rad : field_rad;
     up_rad = top ? bearing_of(*top).up_rad : field_rad;
     down_rad = bottom ? bearing_of(*bottom).up_rad : -field_rad;
+    if (camera.lens.period_px() > 0) {  // 360 degrees: nothing is beside the image
+      left_rad = rad_of_deg(-180);
+      right_rad = rad_of_deg(180);
+    }
   }
 };
 

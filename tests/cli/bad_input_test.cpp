@@ -75,6 +75,18 @@ TEST_CASE("a video that ends early gives the frames that are there") {
   CHECK(tiny.files_out() == 3);
 }
 
+TEST_CASE("an option without a value is refused by its name, and a setting is named once") {
+  const TinyProject tiny;
+  check_refused(tiny, 64, "error: --frames: has no value", "--frames ''");
+  check_refused(tiny, 64, "error: --codec: has no value", "--codec ''");
+  check_refused(tiny, 64, "error: --set: has no value", "--set ''");
+  check_refused(tiny, 64, "error: --set camera.speed_mps=nan: expected", "--set camera.speed_mps=nan");
+  check_refused(tiny, 78, "light.ambient: is 1.0000001; it must lie between 0 and 1", "--set light.ambient=1.0000001");
+  const Run below = run_sigs("evaluate track --labels ''");
+  CHECK(below.status == 64);
+  CHECK_MESSAGE(has(below.err, "error: --labels: has no value"), below.err);
+}
+
 TEST_CASE("a calibration with too few numbers or NaN is named by file and key") {
   const TinyProject tiny;
   const std::string lens = read_text(tiny.file("lens.xml")).value();
@@ -231,6 +243,17 @@ TEST_CASE("more damaged frames than are allowed are an error that says how to al
       run_sigs("export " + tiny.project() + " --set footage.max_substituted_percent=20 --out " + tiny.out());
   CHECK_MESSAGE(allowed.status == 0, allowed.err);
   CHECK_MESSAGE(has(allowed.err, "2 of 10 frames of the footage are damaged"), allowed.err);
+}
+
+TEST_CASE("folders made for an export that fails are gone again, and those that were there stay") {
+  const TinyProject tiny;
+  std::filesystem::create_directory(tiny.file("mine"));
+  damage_frames(tiny.file("clip.mkv"), 4, 2);
+  for (const char* folder : {"mine/new/deep", "mine"}) {
+    const Run run = run_sigs("export " + tiny.project() + " --out " + tiny.file(folder).string());
+    CHECK_MESSAGE(run.status != 0, run.err);
+    CHECK(std::filesystem::is_empty(tiny.file("mine")));
+  }
 }
 
 TEST_CASE("a substituted frame is marked in the labels") {

@@ -281,6 +281,20 @@ TEST_CASE("reports of a low score are ignored") {
   CHECK(strict.false_alarm_boxes == 0);
   CHECK_FALSE(strict.encounters[0].is_detected);
   CHECK(score_of(approach(), results, {.min_score = 0.3}).false_alarm_boxes == 1);
+  CHECK(strict.negative_scores_ignored == 0);
+}
+
+TEST_CASE("reports of negative scores are ignored unless they are asked for, and how many are is said") {
+  Results results = matched(0, 119);
+  for (auto& [frame, reports] : results.frames) reports[0].score = frame < 50 ? -0.5 : 0.5;
+  const DetectionScore score = score_of(approach(), results);
+  CHECK(score.negative_scores_ignored == 50);
+  DetectionReport report;
+  report.scores = {score};
+  report.scores[0].name = "mine";
+  CHECK(std::ranges::count(uncounted_in(report), "mine: 50 reports of a score below 0 left out (--min-score)") == 1);
+  CHECK(score_of(approach(), results, {.min_score = -1}).negative_scores_ignored == 0);
+  CHECK(score_of(approach(), results, {.min_score = -1}).frame_detection_rate == 1);
 }
 
 TEST_CASE("one report may match two intruders that are close together") {

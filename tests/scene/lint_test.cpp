@@ -169,3 +169,17 @@ TEST_CASE("footage without a log has no mistakes, and a file that is no video ne
   if (!has_real_data()) return;
   CHECK(footage_mistakes(real_data() / "video/air_karma_gopro_coast.mp4").empty());
 }
+
+TEST_CASE("in 360 degrees an intruder behind the own body is neither behind the camera nor beside the image") {
+  Result<Scene> scene = open_scene(head_on(), sample_footage());
+  REQUIRE(scene);
+  scene->camera = equirectangular_camera({1280, 640});
+  scene->footage.size_px = {1280, 640};
+  scene->own_body = cv::Mat(640, 1280, CV_32FC1, cv::Scalar(1));
+  // Away from it.
+  scene->motion.world_from_camera_at_start.rotation = glm::angleAxis(rad_of_deg(180), glm::dvec3(0, 0, 1));
+  const Visibility visibility = estimated_visibilities(*scene, 20).at(0);
+  CHECK(visibility.occluded == visibility.frames_checked);
+  CHECK(visibility.behind_camera == 0);
+  CHECK(where_out_of_view(*scene, 0) == "");
+}

@@ -161,6 +161,21 @@ TEST_CASE("a file that ends early keeps the frames that it has") {
   }
 }
 
+TEST_CASE("a whole file whose first frame is late does not end early, and a cut one does") {
+  for (const char* file : {"a.mkv", "a.mp4"}) {
+    CAPTURE(std::string(file));
+    const TemporaryFolder folder;
+    const auto path = folder / file;
+    if (!make_clip("-c:v libx264 -output_ts_offset 0.5", path)) return;
+    FrameSource whole = opened(path);
+    CHECK(whole.info().frame_count() == 50);
+    CHECK(whole.info().warnings.empty());
+    if (path.extension() != ".mkv") continue;  // an MP4 has its index at the end
+    cut(path, 0.6);
+    CHECK(warns(opened(path).info(), "ends early"));
+  }
+}
+
 TEST_CASE("an MP4 cut short after its index keeps the frames that it has") {
   const TemporaryFolder folder;
   const auto path = folder / "a.mp4";

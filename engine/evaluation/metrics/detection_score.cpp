@@ -202,6 +202,7 @@ void add_clip(DetectionScore& sum, Pairs& pairs, const DetectedClip& clip, const
   sum.frames += clip.truth.frames();
   sum.hours += clip.truth.has_times ? clip.truth.frames() / rate_hz / 3600 : std::numeric_limits<double>::quiet_NaN();
   sum.false_alarm_boxes += matches.false_boxes;
+  sum.negative_scores_ignored += matches.negative_scores;
   sum.false_alarm_tracks += static_cast<int>(matches.false_tracks.size()) + matches.untracked_false_boxes;
   for (std::size_t i = 0; i < clip.truth.targets.size(); ++i) {
     const MatchedTarget matched_target{clip, clip.truth.targets[i], matches.tracks[i], rate_hz};
@@ -348,7 +349,10 @@ ClipMatches matches_of(const DetectedClip& clip, const DetectionPolicy& policy) 
     const int frame = number - truth.footage.first_frame;
     if (frame < 0 || frame >= truth.frames()) continue;
     for (const ReportedBox& reported : boxes) {
-      if (reported.score < policy.min_score) continue;
+      if (reported.score < policy.min_score) {
+        matches.negative_scores += reported.score < 0 ? 1 : 0;
+        continue;
+      }
       if (matches_or_is_near(truth, static_cast<std::size_t>(frame), reported, policy, matches)) continue;
       ++matches.false_boxes;
       matches.false_reports.emplace_back(frame, reported);

@@ -81,6 +81,7 @@ struct DetectionScore {
   int false_alarm_boxes = 0;
   double false_boxes_per_frame = 0;  // FPPI; NaN for no frames
   double frame_detection_rate = 0;   // AFDR: matched (frame, target) pairs of all within max_range_m; NaN for none
+  int negative_scores_ignored = 0;   // reports whose score is below 0 and below min_score, as logits may be
   double mean_first_range_m = 0;     // first_detection_range_m over encounters with one; NaN where there is none
 };
 
@@ -108,11 +109,12 @@ struct ClipMatches {
   int untracked_false_boxes = 0;                                // false alarms without a track
   int false_boxes = 0;                                          // all false alarms
   std::vector<std::pair<int, ReportedBox>> false_reports = {};  // these, each with its frame of the clip, from 0
+  int negative_scores = 0;                                      // reports of a score below 0 that are ignored
 };
 
 // Matches the reports of a clip with its truth. A report can match several targets, and a target several reports. A
-// report at a hidden intruder (one with an amodal box and no visible box) is no false alarm, nor is one near a box that
-// is ignored (ClipTruth::ignored), or at least half of which lies in it.
+// report near an intruder's amodal box is no false alarm, whether anything of it is visible or not, nor is one near a
+// box that is ignored (ClipTruth::ignored), or at least half of which lies in it.
 [[nodiscard]] ClipMatches matches_of(const DetectedClip& clip, const DetectionPolicy& policy);
 
 }  // namespace sigs

@@ -144,6 +144,10 @@ std::vector<std::string> uncounted_in(const DetectionReport& report) {
   if (report.remarks.empty() && score.all.encounters + score.encounters_too_short + score.encounters_too_far == 0)
     reasons.push_back(fmt::format("there is no encounter: no intruder is seen within {} m (--max-range)",
                                   exact_text(policy.max_range_m)));
+  for (const DetectionScore& one : report.scores)
+    if (one.negative_scores_ignored > 0)
+      reasons.push_back(fmt::format("{}: {} of a score below 0 left out (--min-score)", one.name,
+                                    count_text(one.negative_scores_ignored, "report")));
   return reasons;
 }
 
@@ -187,7 +191,7 @@ std::vector<std::string> policies_of(const DetectionReport& report) {
                   "comes nearer than {} m, or in the encounter's first {} s.",
                   exact_text(100 * policy.min_window_share), exact_text(policy.window_s),
                   exact_text(policy.detect_range_m), exact_text(policy.window_s)),
-      "HFAR: the reporter's tracks that hold a false alarm, for each hour of film. FPPI: false alarms for each frame. "
+      "HFAR: the reporter's tracks that hold a false alarm, for each hour of video. FPPI: false alarms for each frame. "
       "AFDR: matched among all pairs of a frame and an intruder within range."};
 }
 
@@ -307,7 +311,7 @@ std::string report_html(const TrackReport& report, const std::vector<ReportPlot>
 }
 
 std::string report_html(const DetectionReport& report, const std::vector<ReportPlot>& images) {
-  const std::string clips = count_text(std::ssize(report.clips), "film");
+  const std::string clips = count_text(std::ssize(report.clips), "video");
   std::string body = html_table(table_of(report));
   for (const std::string& remark : report.remarks) body += html_element("p", remark + ".") + "\n";
   for (const std::string& reason : uncounted_in(report)) body += html_element("p", reason + ".") + "\n";
