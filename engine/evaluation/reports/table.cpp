@@ -95,8 +95,8 @@ template <class Slice, class Text>
 std::vector<TableColumn> slice_columns(const std::string& title, const std::string& unit,
                                        const std::vector<std::string>& names,
                                        const std::vector<std::vector<Slice>>& slices, const Text& text_of) {
-  std::vector<TableColumn> columns{text_column(title, "by"), {}, text_column("frames", "")};
-  for (const std::string& name : names) columns.push_back(text_column(line_text(name), unit));
+  std::vector<TableColumn> columns{{title, "by"}, {}, {"frames", ""}};
+  for (const std::string& name : names) columns.push_back({line_text(name), unit});
   for (std::size_t s = 0; !slices.empty() && s < slices.front().size(); ++s) {
     // A tracker that was given the truth on its way is not scored there, so trackers may differ in frames.
     int most = 0;
@@ -145,10 +145,6 @@ std::string right_trimmed(std::string line) {
 }
 
 }  // namespace
-
-TableColumn text_column(std::string title, std::string unit) {
-  return {.title = std::move(title), .unit = std::move(unit)};
-}
 
 void add_row(std::vector<TableColumn>& columns, const std::vector<std::string>& cells) {
   ENSURE(cells.size() == columns.size());
@@ -242,11 +238,10 @@ std::vector<TableColumn> slices_of(const TrackSetReport& report) {
 }
 
 std::vector<TableColumn> encounters_of(const DetectionReport& report) {
-  std::vector<TableColumn> columns{
-      text_column("detector", ""),        text_column("film", ""),          text_column("intruder", ""),
-      text_column("frames", ""),          text_column("horizon", ""),       text_column("nearest", "m"),
-      text_column("detected", "in time"), text_column("first seen", "m"),   text_column("first seen", "after s"),
-      text_column("matched", "frames"),   text_column("in range", "frames")};
+  std::vector<TableColumn> columns{{"detector", ""},        {"film", ""},          {"intruder", ""},
+                                   {"frames", ""},          {"horizon", ""},       {"nearest", "m"},
+                                   {"detected", "in time"}, {"first seen", "m"},   {"first seen", "after s"},
+                                   {"matched", "frames"},   {"in range", "frames"}};
   for (const DetectionScore& score : report.scores)
     for (const EncounterScore& encounter : score.encounters) {
       const double none = std::numeric_limits<double>::quiet_NaN();
