@@ -261,15 +261,14 @@ class Reading {
     track_.ned_from_airframe = drone_channel<glm::dquat>(attitude, o, [](Row row) {
       return rotation_of({row[1], row[2], row[3]});
     });
-    track_.airframe_rate_radps =
-        drone_channel<glm::dvec3>(attitude, o, [](Row row) { return glm::dvec3(row[4], row[5], row[6]); });
-    track_.local_position_ned_m =
-        drone_channel<glm::dvec3>(local, o, [](Row row) { return glm::dvec3(row[1], row[2], row[3]); });
-    track_.velocity_ned_mps =
-        drone_channel<glm::dvec3>(local, o, [](Row row) { return glm::dvec3(row[4], row[5], row[6]); });
-    if (track_.velocity_ned_mps.empty())
-      track_.velocity_ned_mps =
-          drone_channel<glm::dvec3>(global, o, [](Row row) { return glm::dvec3(row[5], row[6], row[7]); });
+    const auto vectors = [&](const GoproStream* stream, std::size_t first) {
+      return drone_channel<glm::dvec3>(
+          stream, o, [first](Row row) { return glm::dvec3(row[first], row[first + 1], row[first + 2]); });
+    };
+    track_.airframe_rate_radps = vectors(attitude, 4);
+    track_.local_position_ned_m = vectors(local, 1);
+    track_.velocity_ned_mps = vectors(local, 4);
+    if (track_.velocity_ned_mps.empty()) track_.velocity_ned_mps = vectors(global, 5);
     Channel<GeodeticPosition> position = drone_channel<GeodeticPosition>(global, o, [](Row row) {
       const bool nowhere = row[1] == 0 && row[2] == 0;
       return GeodeticPosition{nowhere ? NAN : row[1], row[2], row[3]};

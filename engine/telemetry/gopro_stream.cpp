@@ -18,6 +18,7 @@ namespace {
 
 // More numbers than a recording of ten hours has; a file that claims more is no recording.
 constexpr std::size_t kMaxNumbers = std::size_t{1} << 26;
+constexpr std::int64_t kElementHead_bytes = 8;
 
 // What one STRM says about its samples.
 struct Description {
@@ -104,13 +105,11 @@ class Collector {
   }
 
   void add_device(const GpmfElement& device) {
-    constexpr std::int64_t kHeader = 8;
     std::string name;
-    for (const GpmfElement& element : level(device.value, device.at + kHeader)) {
+    for (const GpmfElement& element : level(device.value, device.at + kElementHead_bytes)) {
       if (element.key == "DVNM") {
         name = gpmf_text(element);
-        if (std::find(into_.devices.begin(), into_.devices.end(), name) == into_.devices.end() &&
-            into_.devices.size() < 64)
+        if (std::ranges::find(into_.devices, name) == into_.devices.end() && into_.devices.size() < 64)
           into_.devices.push_back(name);
       }
       if (element.key == "STRM" && element.type == 0) add_stream(element, name);
@@ -118,13 +117,12 @@ class Collector {
   }
 
   void add_stream(const GpmfElement& stream, const std::string& device) {
-    constexpr std::int64_t kHeader = 8;
     Description description;
     description.stream.device = device;
-    for (const GpmfElement& element : level(stream.value, stream.at + kHeader)) {
+    for (const GpmfElement& element : level(stream.value, stream.at + kElementHead_bytes)) {
       if (describe(description, element)) continue;
       const std::string key(element.key);
-      if (std::find(keys_.begin(), keys_.end(), key) == keys_.end()) {
+      if (std::ranges::find(keys_, key) == keys_.end()) {
         if (into_.unused.size() < 1000 || into_.unused.contains(key)) ++into_.unused[key];
       } else {
         add_samples(description, element);

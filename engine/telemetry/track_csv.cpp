@@ -321,14 +321,12 @@ class Reader {
   }
 
   Result<Track> finished() {
-    bool any = false;
     for_each_channel(track_, [&](std::string_view name, auto& channel) {
       for (const Sink& sink : sinks_)
         if (sink.name == name && !sink.own_is_complete) channel.own_times_s.clear();
       if (channel.empty()) channel = {};
-      any = any || !channel.empty();
     });
-    if (!any) return fail(file_.string(), "there is not one row in it with all columns of a channel");
+    if (!has_samples(track_)) return fail(file_.string(), "there is not one row in it with all columns of a channel");
     return std::move(track_);
   }
 
