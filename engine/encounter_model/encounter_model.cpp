@@ -262,15 +262,6 @@ Result<const std::vector<SectionLine>*> line_for_each(const Sections& sections, 
   return &(*section)->lines;
 }
 
-Result<std::optional<int>> zero_bin_in(const Sections& sections, const SectionLine& line, int bins) {
-  if (line.text == "*") return std::optional<int>();
-  const Result<std::vector<double>> number = sections.numbers(line, "zero_bins", 1, bins);
-  if (!number) return fail(number.error());
-  if (number->size() != 1 || number->front() != std::floor(number->front()))
-    return fail(sections.place(line.number, "zero_bins"), "expected one bin, from 1, or *");
-  return std::optional<int>(static_cast<int>(number->front()) - 1);
-}
-
 Result<void> read_zero_bins(const Sections& sections, std::vector<ModelVariable>& variables) {
   if (!sections.find("zero_bins")) {
     for (ModelVariable& variable : variables) variable.zero_bin = bin_around_zero(variable.boundaries);
@@ -279,9 +270,13 @@ Result<void> read_zero_bins(const Sections& sections, std::vector<ModelVariable>
   const auto lines = line_for_each(sections, "zero_bins", variables.size());
   if (!lines) return fail(lines.error());
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    const Result<std::optional<int>> bin = zero_bin_in(sections, (**lines)[i], variables[i].bins);
-    if (!bin) return fail(bin.error());
-    variables[i].zero_bin = *bin;
+    const SectionLine& line = (**lines)[i];
+    if (line.text == "*") continue;
+    const Result<std::vector<double>> number = sections.numbers(line, "zero_bins", 1, variables[i].bins);
+    if (!number) return fail(number.error());
+    if (number->size() != 1 || number->front() != std::floor(number->front()))
+      return fail(sections.place(line.number, "zero_bins"), "expected one bin, from 1, or *");
+    variables[i].zero_bin = static_cast<int>(number->front()) - 1;
   }
   return {};
 }
