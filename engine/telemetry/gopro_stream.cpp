@@ -5,13 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "base/statistics.h"
-#include "base/text.h"
-#include "geo/utc_time.h"
-#include "telemetry/log_samples.h"
 
 namespace sigs {
 namespace {
@@ -287,20 +283,6 @@ std::optional<ClockOffset> clock_offset(const std::vector<const GoproStream*>& s
   const double offset_s = median(middles_s);
   for (double& middle_s : middles_s) middle_s = std::abs(middle_s - offset_s);
   return ClockOffset{offset_s, median(middles_s), false};
-}
-
-std::optional<double> utc_of_gpsu(const std::string& text) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
-  double second = 0;
-  if (std::sscanf(text.c_str(), "%2d%2d%2d%2d%2d%lf", &year, &month, &day, &hour, &minute, &second) != 6) return {};
-  const std::optional<double> day_s = utc_of_day(2000 + year, month, day);
-  if (!day_s || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0 && second < 61)) return {};
-  return *day_s + hour * 3600 + minute * 60 + second;
-}
-
-std::string span_text(double first_s, double last_s) {
-  if (first_s == last_s) return "at " + fixed_text(first_s, 2) + " s";
-  return "from " + fixed_text(first_s, 2) + " to " + fixed_text(last_s, 2) + " s";
 }
 
 }  // namespace sigs

@@ -103,12 +103,6 @@ bool is_klv_stream(const DataStream& stream) {
   return stream.kind == DataKind::klv;
 }
 
-bool is_klv(std::string_view head) {
-  // Not a container that has KLV in it: there the packets are cut into pieces.
-  return head.substr(0, 64).find("\x06\x0E\x2B\x34") != std::string_view::npos && has_klv_key(head) &&
-         !head.starts_with('G');
-}
-
 Result<Track> klv_track(const std::vector<TimedKlvPacket>& packets, const std::filesystem::path& file) {
   const bool on_footage_time =
       !packets.empty() && std::ranges::all_of(packets, [](const auto& timed) { return timed.footage_s.has_value(); });

@@ -278,14 +278,6 @@ std::string file_name_text(std::string_view text) {
   return std::string(trimmed(line_text(text.substr(0, kMaxBytes)), " "));
 }
 
-bool is_repeated(const PathDraft& draft, const DraftPoint& point) {
-  constexpr double kRounding_s = 0.5;  // readsb rounds the age of a position to 0.1 s
-  if (draft.points.empty()) return false;
-  const DraftPoint& last = draft.points.back();
-  return last.latitude_deg == point.latitude_deg && last.longitude_deg == point.longitude_deg && last.time_s &&
-         point.time_s && std::abs(*last.time_s - *point.time_s) < kRounding_s;
-}
-
 Result<std::vector<RecordedPath>> repair_paths(std::vector<PathDraft> drafts, const std::string& where) {
   std::vector<RecordedPath> paths;
   std::vector<std::string> unusable;
