@@ -14,7 +14,7 @@
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 namespace sigs::cli {
 
@@ -31,7 +31,7 @@ struct AutocalibrationInputs {
 Result<AutocalibrationInputs> inputs_of(const CalibrateOptions& options) {
   AutocalibrationInputs inputs{.log = std::nullopt, .log_file = options.log};
   const bool is_named = !options.log.empty();
-  Result<Track> log = read_track(is_named ? options.log : options.inputs[0], {.cancel = &interrupt_flag()});
+  Result<Track> log = read_track(is_named ? options.log : options.inputs[0], &interrupt_flag());
   if (!log && (is_named || log.error().kind == ErrorKind::interrupted)) return fail(log.error());
   if (!log) return inputs;
   for (const Warning& warning : log->warnings) print_warning(warning);

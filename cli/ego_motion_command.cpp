@@ -18,7 +18,7 @@
 #include "ego_motion/ego_motion.h"
 #include "ego_motion/project_motion.h"
 #include "scene/opened_project.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 #include "telemetry/track_csv.h"
 
 namespace sigs::cli {
@@ -89,7 +89,7 @@ Result<Estimated> estimated(const EgoMotionOptions& options, const EgoMotionCont
   if (!mask) return fail(mask.error());
   std::optional<Track> log;
   if (!options.telemetry.empty()) {
-    Result<Track> read = read_track(options.telemetry, {.cancel = &interrupt_flag()});
+    Result<Track> read = read_track(options.telemetry, &interrupt_flag());
     if (!read) return fail(read.error());
     for (const Warning& warning : read->warnings) print_warning(warning);
     log = std::move(*read);

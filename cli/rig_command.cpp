@@ -22,7 +22,7 @@
 #include "ego_motion/project_motion.h"
 #include "project/json.h"
 #include "project/project.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 namespace sigs::cli {
 
@@ -206,7 +206,7 @@ Result<KnownCamera> known_camera(Project seen, const std::vector<ClockSource>& s
       camera.why_no_motion = found.error().text();
   }
   if (wants(sources, ClockSource::log) && carries_telemetry(camera.video))
-    if (Result<Track> log = read_track(camera.video, {.cancel = &interrupt_flag()})) camera.log = *std::move(log);
+    if (Result<Track> log = read_track(camera.video, &interrupt_flag())) camera.log = *std::move(log);
   return camera;
 }
 

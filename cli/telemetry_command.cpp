@@ -9,7 +9,7 @@
 #include "cli/options.h"
 #include "cli/output_files.h"
 #include "cli/process.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 #include "telemetry/track_csv.h"
 #include "telemetry/track_report.h"
 
@@ -46,7 +46,7 @@ Result<void> run(const TelemetryOptions& options) {
   defer_interrupts();
   OutputFiles files(options.force);
   if (const Result<void> free = files.reserve(outputs); !free) return free;
-  const Result<Track> track = read_track(options.file, {.cancel = &interrupt_flag()});
+  const Result<Track> track = read_track(options.file, &interrupt_flag());
   if (!track) return fail(track.error());
   for (const Warning& warning : track->warnings) print_warning(warning);
   const Result<void> written = files.write_and_commit(

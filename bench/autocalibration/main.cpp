@@ -10,7 +10,7 @@
 #include "autocalibration/made_tracks.h"
 #include "base/pose.h"
 #include "base/stopwatch.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 // bench_autocalibration made FIRST LAST   seeds of made tracks: error and coverage of both methods, by lens
 // bench_autocalibration clips VIDEO...    what is found in footage

@@ -13,7 +13,7 @@
 
 #include "base/statistics.h"
 #include "base/threads.h"
-#include "evaluation/metrics/overlap.h"
+#include "evaluation/metrics/detection_score.h"
 #include "evaluation/opencv_tracker.h"
 #include "realism/tracker_targets.h"
 

@@ -14,7 +14,7 @@
 #include "ego_motion/ego_motion.h"
 #include "occlusion/detect.h"
 #include "scene/opened_project.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 namespace sigs::bench {
 

@@ -8,7 +8,7 @@
 #include "encounter/daa_file.h"
 #include "geo/geodetic.h"
 #include "geo/recorded_path.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 namespace sigs {
 

@@ -31,7 +31,7 @@ struct FlownTrack {
 // The longest time between two neighbouring points from one time to another, in seconds.
 [[nodiscard]] double max_gap_s(const FlownTrack& track, double from_s, double to_s);
 
-// All flights with times that a file has: whatever geo/recorded_path.h (GPX, KML, ADS-B), telemetry/read_track.h (logs
+// All flights with times that a file has: whatever geo/recorded_path.h (GPX, KML, ADS-B), telemetry/track.h (logs
 // of aircraft, CSV) or encounter/daa_file.h (.daa, CSV of pairs) reads, by the content. Heights are taken as they are.
 // Errors: cannot_read; bad_data: none of these formats, or no flight of two points with times in it.
 struct ReadFlights {

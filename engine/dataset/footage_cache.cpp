@@ -10,7 +10,7 @@
 #include "horizon/horizon.h"
 #include "scene/model.h"
 #include "scene/scene_parts.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 #include "video/frame_source.h"
 
 namespace sigs {

@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "ego_motion/ego_motion.h"
@@ -44,7 +45,6 @@ struct FrameRotation {
 
 // Turns from each frame to the next by far features alone, as fitted_rotation() has them; entry k takes rays of frame
 // k - 1 to frame k, entry 0 and those of frames that have too few in common are empty.
-struct RotationFit;
 [[nodiscard]] std::vector<std::optional<RotationFit>> steps_between(std::span<const FrameRays> frames, double pixel_rad,
                                                                     const EgoMotionSettings& settings,
                                                                     CancelFlag cancel = nullptr);
@@ -74,6 +74,11 @@ struct RecordedTurn {
                                                        const TimeOffset& offset, const glm::dquat& camera_from_gyro,
                                                        std::span<const glm::dquat> camera_from_image);
 
+// Recorded turns (`before`), in the axes that `camera_from_gyro` gives, and seen ones (`after`) of the times that the
+// log covers, each less their mean, which holds the gyroscope's bias.
+[[nodiscard]] std::vector<RayPair> turns_about_mean(std::span<const SeenTurn> turns, const RateIntegral& rates,
+                                                    const TimeOffset& offset, const glm::dquat& camera_from_gyro);
+
 // How the gyroscope's axes lie to the camera's, from turns seen and recorded (Wahba 1965). Directions about which the
 // footage does not turn enough stay as they are.
 [[nodiscard]] glm::dquat gyro_alignment(std::span<const SeenTurn> turns, const RateIntegral& rates,
@@ -86,5 +91,32 @@ struct RecordedTurn {
 // what is seen.
 [[nodiscard]] std::vector<FrameRotation> fused(std::span<const FrameRotation> seen, std::span<const double> times_s,
                                                std::span<const RecordedTurn> recorded);
+
+// The focal length by the image's own turns. Found from the frames between which the features move most, by the scale
+// with which rotations alone explain best how they move; its limits by drawing those frames anew (bootstrap, Efron
+// 1979), 95 %. Nothing where the camera does not turn, where too few features are common, or where what they show is
+// not a rotation: a camera that travels.
+//   pixel_rad  angle of one pixel of the image in which the features were followed, by the calibration
+[[nodiscard]] std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double pixel_rad,
+                                                    CancelFlag cancel = nullptr);
+
+// The same by a gyroscope: with a wrong focal length the turns about the axes across the line of sight are seen too
+// fast or too slow by one factor, those about the line of sight are not. Limits, 95 %, by leaving out a tenth of the
+// footage at a time (jackknife). Nothing where the turns are too small, or where they say something else: where fast
+// and slow ones, or those about the line of sight, disagree with that, as in images that were stabilized in the camera.
+//   turns             seen, in the camera's axes
+//   camera_from_gyro  the gyroscope's axes: gyro_alignment()
+[[nodiscard]] std::optional<FocalScale> focal_scale_by_gyro(std::span<const SeenTurn> turns, const RateIntegral& rates,
+                                                            const TimeOffset& offset,
+                                                            const glm::dquat& camera_from_gyro);
+
+// What is wrong between the images and a gyroscope, and what would explain it; "": nothing.
+//   fitting  focal_scale_by_gyro() with this camera
+[[nodiscard]] std::string disagreement_with_gyro(const GyroLink& gyro, const std::optional<FocalScale>& fitting,
+                                                 const Camera& camera);
+
+// From side to side, with a focal length of so many times the calibration's, degrees. NaN where the image's border lies
+// behind the camera.
+[[nodiscard]] double field_of_view_deg(const Camera& camera, double focal_factor);
 
 }  // namespace sigs

@@ -149,103 +149,77 @@ class ClockSearch {
   [[nodiscard]] ClockFinding by(ClockSource source) const {
     static constexpr std::array kWays{&ClockSearch::by_turns, &ClockSearch::by_sound, &ClockSearch::by_log,
                                       &ClockSearch::by_time_code, &ClockSearch::by_creation_time};
-    return (this->*kWays.at(static_cast<std::size_t>(source)))();
+    ClockFinding finding = (this->*kWays.at(static_cast<std::size_t>(source)))();
+    finding.source = source;
+    return finding;
   }
 
  private:
   [[nodiscard]] ClockFinding by_turns() const {
-    ClockFinding finding{
-        .source = ClockSource::turns, .clock = {}, .text = "the cameras' turns were not estimated", .turns = {}};
-    if (first_.motion == nullptr || second_.motion == nullptr) return finding;
-    Result<TurnSync> sync =
+    if (first_.motion == nullptr || second_.motion == nullptr) return {.text = "the cameras' turns were not estimated"};
+    const Result<TurnSync> sync =
         clock_by_turns(frame_turns(*first_.motion), frame_turns(*second_.motion), settings_, control_);
-    if (!sync) {
-      finding.text = sync.error().text();
-      return finding;
-    }
-    finding.clock = sync->clock;
-    finding.text = fmt::format("correlation {:.3f} over {:.1f} s", sync->correlation, sync->overlap_s);
-    finding.turns = *std::move(sync);
-    return finding;
+    if (!sync) return {.text = sync.error().text()};
+    return {.clock = sync->clock,
+            .text = fmt::format("correlation {:.3f} over {:.1f} s", sync->correlation, sync->overlap_s),
+            .turns = *sync};
   }
 
   [[nodiscard]] ClockFinding by_sound() const {
-    ClockFinding finding{.source = ClockSource::sound, .clock = {}, .text = {}, .turns = {}};
     std::optional<Sound> sounds[2];
     const CameraRecording* const cameras[]{&first_, &second_};
     for (int i = 0; i < 2; ++i) {
       Result<std::optional<Sound>> sound = read_sound(cameras[i]->video, control_.cancel);
-      if (!sound) {
-        finding.text = sound.error().text();
-        return finding;
-      }
-      if (!*sound) {
-        finding.text = cameras[i]->video.filename().string() + " has no sound";
-        return finding;
-      }
+      if (!sound) return {.text = sound.error().text()};
+      if (!*sound) return {.text = cameras[i]->video.filename().string() + " has no sound"};
       sounds[i] = *std::move(sound);
     }
     const Result<ClockOffset> clock = clock_by_sound(*sounds[0], *sounds[1], settings_.max_offset_s, control_.cancel);
-    finding.text = clock ? "image and sound taken to be recorded within 10 ms" : clock.error().text();
-    if (clock) finding.clock = *clock;
-    return finding;
+    if (!clock) return {.text = clock.error().text()};
+    return {.clock = *clock, .text = "image and sound taken to be recorded within 10 ms"};
   }
 
   [[nodiscard]] ClockFinding by_log() const {
-    ClockFinding finding{.source = ClockSource::log, .clock = {}, .text = {}, .turns = {}};
-    const auto is_usable = [](const Track* log) {
-      return log != nullptr && log->on_footage_time && log->utc_at_zero_s;
-    };
     for (const CameraRecording* camera : {&first_, &second_})
-      if (!is_usable(camera->log)) {
-        finding.text =
-            camera->video.filename().string() + (camera->log == nullptr         ? " has no log"
-                                                 : camera->log->on_footage_time ? " has a log without UTC"
-                                                                                : " has a log with times of its own");
-        return finding;
-      }
+      if (const Track* const log = camera->log; !log || !log->on_footage_time || !log->utc_at_zero_s)
+        return {.text =
+                    camera->video.filename().string() + (!log                   ? " has no log"
+                                                         : log->on_footage_time ? " has a log without UTC"
+                                                                                : " has a log with times of its own")};
     // Receivers tell their time up to ten times a second, recorders stamp it when it arrives.
     constexpr double kOneLog_s = 0.1;
-    finding.clock = ClockOffset{.offset_s = *second_.log->utc_at_zero_s - *first_.log->utc_at_zero_s,
-                                .sd_s = kOneLog_s * std::sqrt(2.0),
-                                .drift_sd = kUnknown};
-    finding.text = fmt::format("UTC of {} and {}", first_.log->format, second_.log->format);
-    return finding;
+    return {.clock = ClockOffset{.offset_s = *second_.log->utc_at_zero_s - *first_.log->utc_at_zero_s,
+                                 .sd_s = kOneLog_s * std::sqrt(2.0),
+                                 .drift_sd = kUnknown},
+            .text = fmt::format("UTC of {} and {}", first_.log->format, second_.log->format)};
   }
 
   [[nodiscard]] ClockFinding by_time_code() const {
-    ClockFinding finding{.source = ClockSource::time_code, .clock = {}, .text = {}, .turns = {}};
     std::optional<TimeCode> codes[2];
     const CameraRecording* const cameras[]{&first_, &second_};
     for (int i = 0; i < 2; ++i) {
       const Result<RecordingTime> time = recording_time_of(cameras[i]->video, control_.cancel);
       if (time) codes[i] = time->time_code;
-      if (!codes[i]) {
-        finding.text = time ? cameras[i]->video.filename().string() + " has no time code" : time.error().text();
-        return finding;
-      }
+      if (!codes[i])
+        return {.text = time ? cameras[i]->video.filename().string() + " has no time code" : time.error().text()};
     }
-    finding.clock = clock_by_time_codes(*codes[0], *codes[1]);
-    finding.text = "right where the recorders' clocks were set alike";
-    return finding;
+    return {.clock = clock_by_time_codes(*codes[0], *codes[1]),
+            .text = "right where the recorders' clocks were set alike"};
   }
 
   [[nodiscard]] ClockFinding by_creation_time() const {
-    ClockFinding finding{.source = ClockSource::creation_time, .clock = {}, .text = {}, .turns = {}};
     std::optional<UtcInstant> instants[2];
     const CameraRecording* const cameras[]{&first_, &second_};
     for (int i = 0; i < 2; ++i) {
       const Result<RecordingTime> time = recording_time_of(cameras[i]->video, control_.cancel);
       if (time) instants[i] = utc_instant_of(time->created);
-      if (!instants[i]) {
-        finding.text = time ? cameras[i]->video.filename().string() + " has no creation time" : time.error().text();
-        return finding;
-      }
+      if (!instants[i])
+        return {.text = time ? cameras[i]->video.filename().string() + " has no creation time" : time.error().text()};
     }
     // Whole seconds, of the beginning of the recording or of its end.
-    finding.clock = ClockOffset{.offset_s = instants[1]->time_s - instants[0]->time_s, .sd_s = 1, .drift_sd = kUnknown};
-    finding.text = "to the second, and right where the recorders' clocks were set alike";
-    return finding;
+    return {
+        .clock = ClockOffset{.offset_s = instants[1]->time_s - instants[0]->time_s, .sd_s = 1, .drift_sd = kUnknown},
+        .text = "to the second, and right where the recorders' clocks were set alike"};
   }
 
   const CameraRecording& first_;

@@ -11,7 +11,6 @@
 #include "base/threads.h"
 #include "ego_motion/attitudes.h"
 #include "ego_motion/features.h"
-#include "ego_motion/focal_scale.h"
 #include "ego_motion/rotation_fit.h"
 #include "ego_motion/time_offset.h"
 #include "horizon/horizon.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ego_motion/focal_scale.h"
+#include "ego_motion/attitudes.h"
 
 #include <fmt/format.h>
 
@@ -108,10 +108,6 @@ constexpr double kMaxDisagreement = 0.05;    // of factors that ought to be equa
 constexpr double kUnknownSlopeSd = 0.15;     // of turns about the line of sight, which say nothing beyond it
 constexpr double kMinRollShare = 0.05;       // of the squares of those across it
 
-struct TurnPair {
-  glm::dvec3 recorded, seen;  // camera axes
-};
-
 // Seen turns over recorded ones, and the recorded ones' sum of squares.
 struct Slope {
   double value = 0, sd = 0, recorded = 0;
@@ -125,13 +121,13 @@ struct SlopeSums {
 
 // By least squares over some of the axes and of the turns.
 template <class IsUsed>
-Slope slope_of(std::span<const TurnPair> pairs, std::initializer_list<int> axes, const IsUsed& is_used) {
+Slope slope_of(std::span<const RayPair> pairs, std::initializer_list<int> axes, const IsUsed& is_used) {
   std::array<SlopeSums, kSlopeParts> parts{};
   SlopeSums all;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!is_used(pairs[i])) continue;
     for (const int axis : axes) {
-      const double recorded = pairs[i].recorded[axis], seen = pairs[i].seen[axis];
+      const double recorded = pairs[i].before[axis], seen = pairs[i].after[axis];
       for (SlopeSums* const sums : {&parts[i * kSlopeParts / pairs.size()], &all}) {
         sums->recorded += recorded * recorded;
         sums->both += recorded * seen;
@@ -150,28 +146,8 @@ bool agree(const Slope& a, const Slope& b) {
   return std::abs(a.value - b.value) < kMaxDisagreement + 3 * std::hypot(a.sd, b.sd);
 }
 
-// Without their means, which hold the gyroscope's bias.
-std::vector<TurnPair> turn_pairs(std::span<const SeenTurn> turns, const RateIntegral& rates, const TimeOffset& offset,
-                                 const glm::dquat& camera_from_gyro) {
-  std::vector<TurnPair> pairs;
-  TurnPair mean{};
-  for (const SeenTurn& turn : turns) {
-    const double from_s = offset.log_time_s(turn.from_s), to_s = offset.log_time_s(turn.to_s);
-    if (!rates.covers(from_s, to_s)) continue;
-    pairs.push_back({camera_from_gyro * rates.between(from_s, to_s), turn.turn_rad});
-    mean.recorded += pairs.back().recorded;
-    mean.seen += pairs.back().seen;
-  }
-  const double count = std::max<double>(1, static_cast<double>(pairs.size()));
-  for (TurnPair& pair : pairs) {
-    pair.recorded -= mean.recorded / count;
-    pair.seen -= mean.seen / count;
-  }
-  return pairs;
-}
-
-double across(const TurnPair& pair) {
-  return std::hypot(pair.recorded.y, pair.recorded.z);
+double across(const RayPair& turn) {
+  return std::hypot(turn.before.y, turn.before.z);
 }
 
 }  // namespace
@@ -212,16 +188,16 @@ std::optional<FocalScale> focal_scale(std::span<const FrameRays> frames, double 
 
 std::optional<FocalScale> focal_scale_by_gyro(std::span<const SeenTurn> turns, const RateIntegral& rates,
                                               const TimeOffset& offset, const glm::dquat& camera_from_gyro) {
-  const std::vector<TurnPair> pairs = turn_pairs(turns, rates, offset, camera_from_gyro);
+  const std::vector<RayPair> pairs = turns_about_mean(turns, rates, offset, camera_from_gyro);
   if (pairs.size() < kMinSlopeTurns || !(offset.correlation >= kMinGyroCorrelation)) return std::nullopt;
-  const Slope found = slope_of(pairs, {1, 2}, [](const TurnPair&) { return true; });
+  const Slope found = slope_of(pairs, {1, 2}, [](const RayPair&) { return true; });
   if (!(found.value > 0) || !(found.sd < kMaxSlopeSd * found.value)) return std::nullopt;
   std::vector<double> sizes;
-  for (const TurnPair& pair : pairs) sizes.push_back(across(pair));
+  for (const RayPair& pair : pairs) sizes.push_back(across(pair));
   const double limit = quantile(std::move(sizes), 0.8);
-  const Slope fast = slope_of(pairs, {1, 2}, [&](const TurnPair& pair) { return across(pair) > limit; });
-  const Slope slow = slope_of(pairs, {1, 2}, [&](const TurnPair& pair) { return across(pair) <= limit; });
-  const Slope roll = slope_of(pairs, {0}, [](const TurnPair&) { return true; });
+  const Slope fast = slope_of(pairs, {1, 2}, [&](const RayPair& pair) { return across(pair) > limit; });
+  const Slope slow = slope_of(pairs, {1, 2}, [&](const RayPair& pair) { return across(pair) <= limit; });
+  const Slope roll = slope_of(pairs, {0}, [](const RayPair&) { return true; });
   // A gimbal leaves little of the turns about the line of sight but the gyroscope's noise.
   const bool rolls = roll.recorded > kMinRollShare * found.recorded && roll.sd < kUnknownSlopeSd;
   if (!agree(fast, slow) || (rolls && !agree(roll, {1, 0, 0}))) return std::nullopt;

@@ -143,25 +143,31 @@ std::vector<RecordedTurn> recorded_turns(std::span<const double> times_s, const 
   return turns;
 }
 
-glm::dquat gyro_alignment(std::span<const SeenTurn> turns, const RateIntegral& rates, const TimeOffset& offset) {
+std::vector<RayPair> turns_about_mean(std::span<const SeenTurn> turns, const RateIntegral& rates,
+                                      const TimeOffset& offset, const glm::dquat& camera_from_gyro) {
   std::vector<RayPair> pairs;
-  glm::dvec3 mean_seen(0);
-  glm::dvec3 mean_recorded(0);
+  RayPair sum{glm::dvec3(0), glm::dvec3(0)};
   for (const SeenTurn& turn : turns) {
-    const double from_s = offset.log_time_s(turn.from_s);
-    const double to_s = offset.log_time_s(turn.to_s);
+    const double from_s = offset.log_time_s(turn.from_s), to_s = offset.log_time_s(turn.to_s);
     if (!rates.covers(from_s, to_s)) continue;
-    pairs.push_back({rates.between(from_s, to_s), turn.turn_rad});
-    mean_recorded += pairs.back().before;
-    mean_seen += pairs.back().after;
+    pairs.push_back({camera_from_gyro * rates.between(from_s, to_s), turn.turn_rad});
+    sum.before += pairs.back().before;
+    sum.after += pairs.back().after;
   }
-  if (pairs.size() < 2) return glm::dquat(1, 0, 0, 0);
-  double noise = 0;
+  const auto count = static_cast<double>(pairs.size());
   for (RayPair& pair : pairs) {
-    pair.before -= mean_recorded / static_cast<double>(pairs.size());
-    pair.after -= mean_seen / static_cast<double>(pairs.size());
-    noise += squared_length((pair.after - pair.before));
+    pair.before -= sum.before / count;
+    pair.after -= sum.after / count;
   }
+  return pairs;
+}
+
+glm::dquat gyro_alignment(std::span<const SeenTurn> turns, const RateIntegral& rates, const TimeOffset& offset) {
+  const glm::dquat no_turn(1, 0, 0, 0);
+  std::vector<RayPair> pairs = turns_about_mean(turns, rates, offset, no_turn);
+  if (pairs.size() < 2) return no_turn;
+  double noise = 0;
+  for (const RayPair& pair : pairs) noise += squared_length(pair.after - pair.before);
   // Three more pairs say that the axes agree, as strongly as some noisy turns by chance could say the opposite.
   std::vector<double> weights(pairs.size(), 1);
   for (int axis = 0; axis < 3; ++axis) {

@@ -7,10 +7,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/input_file.h"
 #include "base/text.h"
-#include "encounter/file_columns.h"
 #include "encounter/well_clear.h"
 
 namespace sigs {
@@ -63,42 +63,20 @@ constexpr auto kKnown = std::to_array<KnownColumn>({
     {"st", Quantity::time, "s"},
 });
 
-UnitKind kind_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::name:
-      return UnitKind::none;
-    case Quantity::east:
-    case Quantity::north:
-    case Quantity::up:
-      return UnitKind::length;
-    case Quantity::latitude:
-    case Quantity::longitude:
-    case Quantity::course:
-      return UnitKind::angle;
-    case Quantity::time:
-      return UnitKind::time;
-    default:
-      return UnitKind::speed;
-  }
-}
-
 struct DaaColumn {
   std::string name;
   std::size_t index = 0;
-  double factor = 1;
+  FileUnit unit;
 };
-using Columns = std::map<Quantity, DaaColumn>;
 
 struct Header {
-  Columns columns;
-  std::size_t count = 0;           // of values in a line
-  std::vector<std::string> names;  // of all columns
+  std::map<Quantity, DaaColumn> columns;
+  std::size_t count = 0;  // of values in a line
 };
 
 Result<Header> header_of(std::string_view line, int number, EncounterFile& read, const std::string& file) {
   Header header;
   for (const std::string_view name : file_values(line)) {
-    header.names.emplace_back(name);
     const std::size_t index = header.count++;
     const auto* const known = std::find_if(kKnown.begin(), kKnown.end(),
                                            [&](const KnownColumn& column) { return column.name == lower_case(name); });
@@ -106,8 +84,7 @@ Result<Header> header_of(std::string_view line, int number, EncounterFile& read,
       read.warnings.push_back({file_place(file, number, name), "is not read"});
       continue;
     }
-    const double factor = file_unit(known->unit)->factor;
-    if (!header.columns.emplace(known->quantity, DaaColumn{std::string(name), index, factor}).second)
+    if (!header.columns.emplace(known->quantity, DaaColumn{std::string(name), index, *file_unit(known->unit)}).second)
       return fail(file_place(file, number, name), "is a second column of the same quantity");
   }
   return header;
@@ -127,12 +104,6 @@ Result<void> check_complete(const Header& header, int number, const std::string&
   return {};
 }
 
-// Whether a line has units in place of values: no number under the time.
-bool is_units_line(const std::vector<std::string_view>& values, const Header& header) {
-  const std::size_t index = header.columns.at(Quantity::time).index;
-  return index < values.size() && !file_time_s(values[index]);
-}
-
 Result<void> take_units(Header& header, const std::vector<std::string_view>& values, int number,
                         const std::string& file) {
   if (values.size() != header.count)
@@ -141,10 +112,10 @@ Result<void> take_units(Header& header, const std::vector<std::string_view>& val
   for (auto& [quantity, column] : header.columns) {
     const std::string_view text = values[column.index];
     const std::optional<FileUnit> unit = file_unit(text);
-    if (!unit || (unit->kind != kind_of(quantity)))
+    if (!unit || unit->kind != column.unit.kind)
       return fail(file_place(file, number, column.name),
                   fmt::format("\"{}\" is no unit for it that is known", shown_value(text)));
-    column.factor = unit->factor;
+    column.unit = *unit;
   }
   return {};
 }
@@ -171,16 +142,17 @@ Result<Line> line_of(const std::vector<std::string_view>& values, const Header& 
       line.name = text;
       continue;
     }
-    const std::optional<double> value = quantity == Quantity::time ? file_time_s(text) : file_number(text);
+    const std::optional<double> value = quantity == Quantity::time ? file_time_s(text) : finite_number(text);
     if (!value) return fail(where, fmt::format("\"{}\" is no finite number", shown_value(text)));
     const bool is_place_on_earth = quantity == Quantity::latitude || quantity == Quantity::longitude;
-    const double scaled = *value * column.factor / (is_place_on_earth ? kDegree_rad : 1);
-    const double limit = quantity == Quantity::latitude          ? 90
-                         : quantity == Quantity::longitude       ? 360
-                         : quantity == Quantity::time            ? kMaxTime_s
-                         : kind_of(quantity) == UnitKind::length ? kMaxPlace_m
-                         : kind_of(quantity) == UnitKind::speed  ? kMaxSpeed_mps
-                                                                 : 1e6;
+    const double scaled = *value * column.unit.factor / (is_place_on_earth ? kDegree_rad : 1);
+    const UnitKind kind = column.unit.kind;
+    const double limit = quantity == Quantity::latitude    ? 90
+                         : quantity == Quantity::longitude ? 360
+                         : kind == UnitKind::time          ? kMaxTime_s
+                         : kind == UnitKind::length        ? kMaxPlace_m
+                         : kind == UnitKind::speed         ? kMaxSpeed_mps
+                                                           : 1e6;
     // Degrees may have gained a rounding on their way.
     if (std::abs(scaled) > limit * (1 + 1e-12))
       return fail(where, fmt::format("{} is beyond what it can be", shown_value(text)));
@@ -287,15 +259,15 @@ Result<EncounterFile> parse_daa(std::string_view text, const std::string& file) 
   if (!header) return fail(header.error());
   if (const Result<void> complete = check_complete(*header, number, file); !complete) return fail(complete.error());
   Aircraft aircraft(read, *header, file);
+  const std::size_t time_index = header->columns.at(Quantity::time).index;
   bool may_be_units = true;
   for (auto line = next_spoken_line(text, number); line; line = next_spoken_line(text, number)) {
     const std::vector<std::string_view> values = file_values(*line);
-    if (may_be_units && is_units_line(values, *header)) {
+    // A line has units in place of values where no number stands under the time.
+    if (std::exchange(may_be_units, false) && time_index < values.size() && !file_time_s(values[time_index])) {
       if (const Result<void> taken = take_units(*header, values, number, file); !taken) return fail(taken.error());
-      may_be_units = false;
       continue;
     }
-    may_be_units = false;
     const Result<Line> state = line_of(values, *header, number, file);
     if (!state) return fail(state.error());
     if (const Result<void> added = aircraft.add(*state, number); !added) return fail(added.error());

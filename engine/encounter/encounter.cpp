@@ -30,6 +30,10 @@ double square_of(const glm::dvec2& v) {
   return v.x * v.x + v.y * v.y;
 }
 
+TermSum horizontal_rate(const RelativeState& r) {
+  return {dot(r), size_of_dot(r)};
+}
+
 // Functions whose signs alone decide whether well clear is lost: between two of their sign changes it is lost always or
 // never. Each is a polynomial of degree 10 at most where the flights are cubic.
 std::vector<MotionFunction> functions_of(const WellClearVolume& volume) {
@@ -47,7 +51,7 @@ std::vector<MotionFunction> functions_of(const WellClearVolume& volume) {
                                     return TermSum{square_of(r.horizontal_m) - d2, square_of(r.horizontal_m) + d2};
                                   }};
   if (t > 0) {
-    all.emplace_back([](const RelativeState& r) { return TermSum{dot(r), size_of_dot(r)}; });
+    all.emplace_back(horizontal_rate);
     all.emplace_back([=](const RelativeState& r) {
       return TermSum{square_of(r.horizontal_m) + t * dot(r) - d2, square_of(r.horizontal_m) + t * size_of_dot(r) + d2};
     });
@@ -133,13 +137,41 @@ class NearestSearch {
   std::vector<double> times_s_;
 };
 
-TermSum horizontal_rate(const RelativeState& r) {
-  return {dot(r), size_of_dot(r)};
-}
-
 TermSum slant_rate(const RelativeState& r) {
   const double vertical = r.vertical_m * r.vertical_mps;
   return {dot(r) + vertical, size_of_dot(r) + std::abs(vertical)};
+}
+
+// Of the positions' difference: some units in the last place of the largest coordinate, as some instants have it.
+double rounding_of(const EncounterTrack& own, const EncounterTrack& intruder, double first_s, double last_s) {
+  constexpr int kInstants = 64;
+  double largest_m = 0;
+  for (int i = 0; i <= kInstants; ++i) {
+    const double time_s = i == kInstants ? last_s : first_s + i * ((last_s - first_s) / kInstants);
+    for (const glm::dvec3& place : {own.at(time_s).position_m, intruder.at(time_s).position_m})
+      for (int axis = 0; axis < 3; ++axis) largest_m = std::max(largest_m, std::abs(place[axis]));
+  }
+  return 1e-15 * largest_m;
+}
+
+// By slant and by horizontal range, and what else looks at each smooth piece of the motion.
+NearestMoments nearest_of(const EncounterTrack& own, const EncounterTrack& intruder, const RelativeMotionAt& motion,
+                          const std::function<void(const SmoothPiece&)>& visit) {
+  const double first_s = std::max(own.first_s, intruder.first_s);
+  const double last_s = std::min(own.last_s, intruder.last_s);
+  const NearestMoment first = moment_at(motion, first_s);
+  NearestSearch slant(&NearestMoment::range_m, slant_rate, first);
+  NearestSearch horizontal(&NearestMoment::horizontal_m, horizontal_rate, first);
+  std::vector<double> knots_s;
+  std::merge(own.knots_s.begin(), own.knots_s.end(), intruder.knots_s.begin(), intruder.knots_s.end(),
+             std::back_inserter(knots_s));
+  for_each_smooth_piece(motion, first_s, last_s, knots_s, rounding_of(own, intruder, first_s, last_s),
+                        [&](const SmoothPiece& piece) {
+                          slant.visit(piece, motion);
+                          horizontal.visit(piece, motion);
+                          visit(piece);
+                        });
+  return {slant.nearest(), horizontal.nearest()};
 }
 
 // The greatest severity within a loss, into the outcome if it is greater than what is there.
@@ -206,24 +238,6 @@ void add_rows(EncounterSummary& summary, const EncounterTrack& own, const Encoun
   }
 }
 
-std::vector<double> merged(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> all;
-  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
-  return all;
-}
-
-// Of the positions' difference: some units in the last place of the largest coordinate, as some instants have it.
-double rounding_of(const EncounterTrack& own, const EncounterTrack& intruder, double first_s, double last_s) {
-  constexpr int kInstants = 64;
-  double largest_m = 0;
-  for (int i = 0; i <= kInstants; ++i) {
-    const double time_s = i == kInstants ? last_s : first_s + i * ((last_s - first_s) / kInstants);
-    for (const glm::dvec3& place : {own.at(time_s).position_m, intruder.at(time_s).position_m})
-      for (int axis = 0; axis < 3; ++axis) largest_m = std::max(largest_m, std::abs(place[axis]));
-  }
-  return 1e-15 * largest_m;
-}
-
 Result<void> check(const EncounterTrack& own, const EncounterTrack& intruder, const EncounterSettings& settings) {
   for (const WellClearVolume& volume : settings.volumes)
     if (const Result<void> sound = check_volume(volume); !sound) return sound;
@@ -250,19 +264,13 @@ Result<EncounterSummary> encounter_of(const EncounterTrack& own, const Encounter
                            .first_s = std::max(own.first_s, intruder.first_s),
                            .last_s = std::min(own.last_s, intruder.last_s)};
   const RelativeMotionAt motion = [&](double time_s) { return relative_state(own.at(time_s), intruder.at(time_s)); };
-  const NearestMoment first = moment_at(motion, summary.first_s);
-  NearestSearch slant(&NearestMoment::range_m, slant_rate, first);
-  NearestSearch horizontal(&NearestMoment::horizontal_m, horizontal_rate, first);
   std::vector<LossSearch> searches(settings.volumes.begin(), settings.volumes.end());
   searches.emplace_back(nmac_volume());
-  for_each_smooth_piece(motion, summary.first_s, summary.last_s, merged(own.knots_s, intruder.knots_s),
-                        rounding_of(own, intruder, summary.first_s, summary.last_s), [&](const SmoothPiece& piece) {
-                          slant.visit(piece, motion);
-                          horizontal.visit(piece, motion);
-                          for (LossSearch& search : searches) search.visit(piece, motion);
-                        });
-  summary.nearest = slant.nearest();
-  summary.nearest_horizontal = horizontal.nearest();
+  const NearestMoments nearest = nearest_of(own, intruder, motion, [&](const SmoothPiece& piece) {
+    for (LossSearch& search : searches) search.visit(piece, motion);
+  });
+  summary.nearest = nearest.slant;
+  summary.nearest_horizontal = nearest.horizontal;
   for (std::size_t i = 0; i < settings.volumes.size(); ++i)
     summary.volumes.push_back(outcome_of(settings.volumes[i], searches[i].losses(), motion));
   summary.nmac = outcome_of(nmac_volume(), searches.back().losses(), motion);
@@ -272,18 +280,8 @@ Result<EncounterSummary> encounter_of(const EncounterTrack& own, const Encounter
 
 Result<NearestMoments> nearest_moments(const EncounterTrack& own, const EncounterTrack& intruder) {
   if (const Result<void> sound = check(own, intruder, {}); !sound) return fail(sound.error());
-  const double first_s = std::max(own.first_s, intruder.first_s);
-  const double last_s = std::min(own.last_s, intruder.last_s);
   const RelativeMotionAt motion = [&](double time_s) { return relative_state(own.at(time_s), intruder.at(time_s)); };
-  const NearestMoment first = moment_at(motion, first_s);
-  NearestSearch slant(&NearestMoment::range_m, slant_rate, first);
-  NearestSearch horizontal(&NearestMoment::horizontal_m, horizontal_rate, first);
-  for_each_smooth_piece(motion, first_s, last_s, merged(own.knots_s, intruder.knots_s),
-                        rounding_of(own, intruder, first_s, last_s), [&](const SmoothPiece& piece) {
-                          slant.visit(piece, motion);
-                          horizontal.visit(piece, motion);
-                        });
-  return NearestMoments{slant.nearest(), horizontal.nearest()};
+  return nearest_of(own, intruder, motion, [](const SmoothPiece&) {});
 }
 
 Result<NearestMoment> nearest_horizontal_moment(const EncounterTrack& own, const EncounterTrack& intruder) {

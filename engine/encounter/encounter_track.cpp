@@ -33,10 +33,6 @@ double bearing_of(const AircraftState& own, const RelativeState& state) {
   return std::atan2(sum_of_products(course.x, s.y, -course.y, s.x), sum_of_products(course.x, s.x, course.y, s.y));
 }
 
-RelativeQuantities all_nan() {
-  return {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
-}
-
 }  // namespace
 
 RelativeState relative_state(const AircraftState& own, const AircraftState& intruder) {
@@ -87,7 +83,7 @@ double time_to_coaltitude_s(const RelativeState& state) {
 
 RelativeQuantities relative_quantities(const AircraftState& own, const AircraftState& intruder) {
   const RelativeState state = relative_state(own, intruder);
-  if (!is_finite(state)) return all_nan();
+  if (!is_finite(state)) return {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
   const HorizontalLine line = horizontal_line(state);
   RelativeQuantities all;
   all.horizontal_range_m = line.distance_m;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "encounter/file_columns.h"
+#include "encounter/daa_file.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <map>
 
 #include "base/text.h"
-#include "encounter/daa_file.h"
 #include "encounter/well_clear.h"
 
 namespace sigs {
@@ -61,6 +60,11 @@ constexpr auto kUnits = std::to_array<NamedUnit>({
     {"hr", {UnitKind::time, 3600}},
 });
 
+// With a sign and an exponent where it has them.
+std::optional<double> file_number(std::string_view text) {
+  return finite_number(trimmed(text));
+}
+
 }  // namespace
 
 std::optional<FileUnit> file_unit(std::string_view text) {
@@ -70,10 +74,6 @@ std::optional<FileUnit> file_unit(std::string_view text) {
   for (const NamedUnit& unit : kUnits)
     if (unit.name == name) return unit.unit;
   return {};
-}
-
-std::optional<double> file_number(std::string_view text) {
-  return finite_number(trimmed(text));
 }
 
 std::optional<double> file_time_s(std::string_view text) {
@@ -177,8 +177,7 @@ Result<PairHeader> pair_header_of(std::string_view line, int number, EncounterFi
       velocities += count_of_slot.contains(slot) ? 1 : 0;
     else if (!count_of_slot.contains(slot))
       return fail(file_place(file, number, ""),
-                  fmt::format("needs the column {}_{} with its unit, as {}_{}_ft",
-                              slot < static_cast<int>(kPerAircraft) ? "own" : "int", kQuantities[quantity],
+                  fmt::format("needs the column {0}_{1} with its unit, as {0}_{1}_ft",
                               slot < static_cast<int>(kPerAircraft) ? "own" : "int", kQuantities[quantity]));
   }
   if (velocities != 0 && velocities != 6)

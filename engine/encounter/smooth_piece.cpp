@@ -33,20 +33,9 @@ const std::array<double, kN>& node_places() {
 // --- Pieces.
 
 double component(const RelativeState& state, int index) {
-  switch (index) {
-    case 0:
-      return state.horizontal_m.x;
-    case 1:
-      return state.horizontal_m.y;
-    case 2:
-      return state.vertical_m;
-    case 3:
-      return state.horizontal_mps.x;
-    case 4:
-      return state.horizontal_mps.y;
-    default:
-      return state.vertical_mps;
-  }
+  if (index == 2) return state.vertical_m;
+  if (index == 5) return state.vertical_mps;
+  return index < 3 ? state.horizontal_m[index] : state.horizontal_mps[index - 3];
 }
 
 // The value at `place` of the polynomial through four of the values, those of the nodes 0, 3, 7 and 10.

@@ -16,17 +16,6 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-const std::array<WellClearVolume, 5>& all_volumes() {
-  static const std::array<WellClearVolume, 5> kAll{{
-      {"dwc-en-route", 4000 * kFoot_m, 4000 * kFoot_m, 35, 450 * kFoot_m, 0},
-      {"dwc-non-cooperative", 2200 * kFoot_m, 2200 * kFoot_m, 0, 450 * kFoot_m, 0},
-      {"dwc-terminal", 1500 * kFoot_m, 1500 * kFoot_m, 0, 450 * kFoot_m, 0},
-      {"small-uas", 2000 * kFoot_m, 2000 * kFoot_m, 0, 250 * kFoot_m, 0},
-      {"nmac", 500 * kFoot_m, 500 * kFoot_m, 0, 100 * kFoot_m, 0},
-  }};
-  return kAll;
-}
-
 // The roots of x^2 + 2 b x + c with the discriminant d = b^2 - c >= 0, ascending. The root of smaller size follows from
 // the product of both, since the sum would cancel.
 std::pair<double, double> roots(double b, double c, double d) {
@@ -86,16 +75,23 @@ double share_of(double value, double limit) {
 }  // namespace
 
 std::span<const WellClearVolume> well_clear_volumes() {
-  return all_volumes();
+  static const std::array<WellClearVolume, 5> kAll{{
+      {"dwc-en-route", 4000 * kFoot_m, 4000 * kFoot_m, 35, 450 * kFoot_m, 0},
+      {"dwc-non-cooperative", 2200 * kFoot_m, 2200 * kFoot_m, 0, 450 * kFoot_m, 0},
+      {"dwc-terminal", 1500 * kFoot_m, 1500 * kFoot_m, 0, 450 * kFoot_m, 0},
+      {"small-uas", 2000 * kFoot_m, 2000 * kFoot_m, 0, 250 * kFoot_m, 0},
+      {"nmac", 500 * kFoot_m, 500 * kFoot_m, 0, 100 * kFoot_m, 0},
+  }};
+  return kAll;
 }
 
 const WellClearVolume& nmac_volume() {
-  return all_volumes().back();
+  return well_clear_volumes().back();
 }
 
 Result<WellClearVolume> well_clear_volume(std::string_view name) {
   std::vector<std::string> names;
-  for (const WellClearVolume& volume : all_volumes()) {
+  for (const WellClearVolume& volume : well_clear_volumes()) {
     if (volume.name == lower_case(name)) return volume;
     names.push_back(volume.name);
   }

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/input_file.h"
 #include "base/text.h"
-#include "encounter_model/model_sections.h"
 
 namespace sigs {
 
@@ -20,51 +21,116 @@ constexpr std::size_t kMaxVariables = 64;  // the published ones have at most 16
 constexpr std::size_t kLongestLabel_bytes = 64;
 constexpr double kMaxBins = 10000;
 constexpr double kGreatestCount = 1e15;  // below 2^53, so that counts and their sums are exact
+constexpr int kMaxLines = 100000;
+constexpr std::size_t kMaxShown = 40;  // bytes of a stranger's text in a message
 
-// The sections and the file's name: what every part of the reader needs.
+std::string shown(std::string_view text) {
+  const std::string line = line_text(text.substr(0, kMaxShown));
+  return text.size() > kMaxShown ? line + "..." : line;
+}
+
+// Views point into the file's text.
+struct SectionLine {
+  int number = 0;  // in the file, from 1
+  std::string_view text;
+};
+
+struct ModelSection {
+  std::string_view name;           // "G_initial"
+  int line = 0;                    // of the heading
+  std::vector<SectionLine> lines;  // those with more than white space
+};
+
+// The sections in the file's order, and the file's name: what every part of the reader needs.
 class Sections {
  public:
-  Sections(std::vector<ModelSection> sections, std::string file)
-      : sections_(std::move(sections)), file_(std::move(file)) {}
-
-  [[nodiscard]] const ModelSection* find(std::string_view name) const {
-    const auto found = std::find_if(sections_.begin(), sections_.end(),
-                                    [&](const ModelSection& section) { return section.name == name; });
-    return found == sections_.end() ? nullptr : &*found;
+  // Error bad_data: text before the first heading, a section twice.
+  static Result<Sections> of(std::string_view text, const std::string& file) {
+    Sections sections(file);
+    text = without_bom(text);
+    for (int number = 1; !text.empty(); ++number) {
+      const std::string_view line = trimmed(next_line(text));
+      if (line.empty()) continue;
+      if (number > kMaxLines)
+        return fail(fmt::format("{}: line {}", file, number), "more lines than any encounter model has");
+      if (line.front() == '#') {
+        const std::string_view name = trimmed(line.substr(1));
+        if (sections.find(name))
+          return fail(sections.place(number, name), "this section is there twice; each may be there once");
+        if (sections.all_.size() >= 100)
+          return fail(sections.place(number, name), "more than 100 sections; this is not an encounter model");
+        sections.all_.push_back({.name = name, .line = number, .lines = {}});
+      } else if (sections.all_.empty()) {
+        return fail(
+            fmt::format("{}: line {}", file, number),
+            fmt::format("expected a section such as \"# labels_initial\", found \"{}\"; this is not an encounter model",
+                        shown(line)));
+      } else {
+        sections.all_.back().lines.push_back({number, line});
+      }
+    }
+    return sections;
   }
 
+  [[nodiscard]] const std::vector<ModelSection>& all() const { return all_; }
+  [[nodiscard]] const ModelSection* find(std::string_view name) const {
+    const auto found = std::ranges::find(all_, name, &ModelSection::name);
+    return found == all_.end() ? nullptr : &*found;
+  }
   [[nodiscard]] Result<const ModelSection*> get(std::string_view name) const {
     if (const ModelSection* const section = find(name)) return section;
     return fail(fmt::format("{}: # {}", file_, name), "this section is missing");
   }
 
+  // "FILE: line 7, # N_initial": where an error is.
+  [[nodiscard]] std::string place(int line, std::string_view section) const {
+    return fmt::format("{}: line {}, # {}", file_, line, shown(section));
+  }
+  [[nodiscard]] std::string place(const ModelSection& section) const { return place(section.line, section.name); }
+
+  // The numbers of one line. Error bad_data: what is no number, NaN or infinite, or lies outside [low, high].
+  [[nodiscard]] Result<std::vector<double>> numbers(const SectionLine& line, std::string_view section, double low,
+                                                    double high) const {
+    std::vector<double> numbers;
+    std::string_view rest = line.text;
+    for (std::string_view word = next_token(rest); !word.empty(); word = next_token(rest)) {
+      const std::optional<double> number = finite_number(word);
+      if (!number) return fail(place(line.number, section), fmt::format("\"{}\" is not a finite number", shown(word)));
+      if (*number < low || *number > high)
+        return fail(place(line.number, section), fmt::format("{} lies outside {} to {}", shown(word),
+                                                             short_number_text(low), short_number_text(high)));
+      numbers.push_back(*number);
+    }
+    return numbers;
+  }
+
+  // The numbers of all lines of a section. Error bad_data also where there are not exactly `expected`, which may be any
+  // number: memory grows with what is there.
   [[nodiscard]] Result<std::vector<double>> numbers(std::string_view name, double expected, double low,
                                                     double high) const {
     const Result<const ModelSection*> section = get(name);
     if (!section) return fail(section.error());
-    return numbers_in(**section, file_, expected, low, high);
-  }
-
-  [[nodiscard]] const std::vector<ModelSection>& all() const { return sections_; }
-  [[nodiscard]] const std::string& file() const { return file_; }
-  [[nodiscard]] std::string place(const ModelSection& section) const {
-    return place_in(file_, section.line, section.name);
+    std::vector<double> all;
+    for (const SectionLine& line : (*section)->lines) {
+      const Result<std::vector<double>> more = numbers(line, name, low, high);
+      if (!more) return more;
+      all.insert(all.end(), more->begin(), more->end());
+    }
+    if (static_cast<double>(all.size()) != expected)
+      return fail(place(**section),
+                  fmt::format("expected {} numbers, found {}",
+                              expected < 1e15 ? number_text(expected, 0) : short_number_text(expected), all.size()));
+    return all;
   }
 
  private:
-  std::vector<ModelSection> sections_;
+  explicit Sections(std::string file) : file_(std::move(file)) {}
+
+  std::vector<ModelSection> all_;
   std::string file_;
 };
 
 using Labels = std::vector<std::string>;
-
-Result<void> check_label(const Labels& before, std::string_view label, const std::string& place) {
-  if (label.empty()) return fail(place, "a label is empty");
-  if (label.size() > kLongestLabel_bytes) return fail(place, "a label has more than 64 bytes");
-  if (std::find(before.begin(), before.end(), label) != before.end())
-    return fail(place, fmt::format("the label {} is there twice", line_text(label)));
-  return {};
-}
 
 Result<Labels> labels_in(const Sections& sections, std::string_view name) {
   const Result<const ModelSection*> section = sections.get(name);
@@ -73,7 +139,10 @@ Result<Labels> labels_in(const Sections& sections, std::string_view name) {
   Labels labels;
   for (const SectionLine& line : (*section)->lines) {
     for (const std::string_view label : csv_fields(line.text)) {
-      if (const Result<void> good = check_label(labels, label, place); !good) return fail(good.error());
+      if (label.empty()) return fail(place, "a label is empty");
+      if (label.size() > kLongestLabel_bytes) return fail(place, "a label has more than 64 bytes");
+      if (std::ranges::find(labels, label) != labels.end())
+        return fail(place, fmt::format("the label {} is there twice", line_text(label)));
       labels.emplace_back(line_text(label));
       if (labels.size() > kMaxVariables) return fail(place, "more than 64 labels");
     }
@@ -115,23 +184,14 @@ std::vector<int> order_of(const std::vector<std::vector<int>>& parents) {
     return !is_placed[variable] && std::all_of(parents[variable].begin(), parents[variable].end(),
                                                [&](int parent) { return is_placed[static_cast<std::size_t>(parent)]; });
   };
-  for (bool is_found = true; is_found;) {
-    is_found = false;
-    for (std::size_t variable = 0; variable < parents.size() && !is_found; ++variable) {
-      if (!is_next(variable)) continue;
-      is_placed[variable] = true;
-      order.push_back(static_cast<int>(variable));
-      is_found = true;
-    }
+  while (true) {
+    std::size_t next = 0;
+    while (next < parents.size() && !is_next(next)) ++next;
+    if (next == parents.size()) return order;
+    is_placed[next] = true;
+    order.push_back(static_cast<int>(next));
   }
-  return order;
 }
-
-// Names of the sections of one of the two networks.
-struct NetworkNames {
-  std::string_view edges;
-  std::string_view counts;
-};
 
 // A double, since it may be beyond any integer.
 double table_size(const std::vector<int>& bins, const std::vector<int>& parents, std::size_t variable) {
@@ -157,28 +217,27 @@ Result<std::vector<CountTable>> tables_in(const Sections& sections, std::string_
   return tables;
 }
 
-Result<CountNetwork> network_in(const Sections& sections, const NetworkNames& names, const std::vector<int>& bins,
-                                std::size_t first) {
-  Result<std::vector<std::vector<int>>> parents = parents_in(sections, names.edges, bins.size());
+// By the names of the sections of its edges and counts.
+Result<CountNetwork> network_in(const Sections& sections, std::string_view edges, std::string_view counts,
+                                const std::vector<int>& bins, std::size_t first) {
+  Result<std::vector<std::vector<int>>> parents = parents_in(sections, edges, bins.size());
   if (!parents) return fail(parents.error());
-  const std::string place = sections.place(*sections.find(names.edges));
+  const std::string place = sections.place(*sections.find(edges));
   for (std::size_t i = 0; i < first; ++i)
     if (!(*parents)[i].empty())
       return fail(place, fmt::format("column {}: only labels with (t+1) have parents", i + 1));
-  CountNetwork network;
-  network.order = order_of(*parents);
-  if (network.order.size() < bins.size()) return fail(place, "a variable is its own ancestor");
-  Result<std::vector<CountTable>> tables = tables_in(sections, names.counts, bins, std::move(*parents), first);
+  std::vector<int> order = order_of(*parents);
+  if (order.size() < bins.size()) return fail(place, "a variable is its own ancestor");
+  Result<std::vector<CountTable>> tables = tables_in(sections, counts, bins, std::move(*parents), first);
   if (!tables) return fail(tables.error());
-  network.tables = std::move(*tables);
-  return network;
+  return CountNetwork{.tables = std::move(*tables), .order = std::move(order)};
 }
 
-Result<std::vector<double>> boundaries_in(const SectionLine& line, const std::string& file, int bins) {
+Result<std::vector<double>> boundaries_in(const Sections& sections, const SectionLine& line, int bins) {
   if (line.text == "*") return std::vector<double>();
-  Result<std::vector<double>> limits = numbers_in(line, "boundaries", file, -1e9, 1e9);
+  Result<std::vector<double>> limits = sections.numbers(line, "boundaries", -1e9, 1e9);
   if (!limits) return limits;
-  const std::string place = place_in(file, line.number, "boundaries");
+  const std::string place = sections.place(line.number, "boundaries");
   if (limits->size() != static_cast<std::size_t>(bins) + 1)
     return fail(place, fmt::format("expected {} limits of {} bins, or *; found {}", bins + 1, bins, limits->size()));
   for (std::size_t i = 1; i < limits->size(); ++i)
@@ -187,10 +246,9 @@ Result<std::vector<double>> boundaries_in(const SectionLine& line, const std::st
 }
 
 std::optional<int> bin_around_zero(const std::vector<double>& boundaries) {
-  if (boundaries.size() <= 2) return std::nullopt;
-  for (std::size_t i = 1; i < boundaries.size(); ++i)
-    if (boundaries[i - 1] < 0 && boundaries[i] > 0) return static_cast<int>(i) - 1;
-  return std::nullopt;
+  const auto low = std::ranges::adjacent_find(boundaries, [](double a, double b) { return a < 0 && b > 0; });
+  if (boundaries.size() <= 2 || low == boundaries.end()) return std::nullopt;
+  return static_cast<int>(low - boundaries.begin());
 }
 
 // The lines of a section that has one for each variable.
@@ -204,15 +262,6 @@ Result<const std::vector<SectionLine>*> line_for_each(const Sections& sections, 
   return &(*section)->lines;
 }
 
-Result<std::optional<int>> zero_bin_in(const SectionLine& line, const std::string& file, int bins) {
-  if (line.text == "*") return std::optional<int>();
-  const Result<std::vector<double>> number = numbers_in(line, "zero_bins", file, 1, bins);
-  if (!number) return fail(number.error());
-  if (number->size() != 1 || number->front() != std::floor(number->front()))
-    return fail(place_in(file, line.number, "zero_bins"), "expected one bin, from 1, or *");
-  return std::optional<int>(static_cast<int>(number->front()) - 1);
-}
-
 Result<void> read_zero_bins(const Sections& sections, std::vector<ModelVariable>& variables) {
   if (!sections.find("zero_bins")) {
     for (ModelVariable& variable : variables) variable.zero_bin = bin_around_zero(variable.boundaries);
@@ -221,9 +270,13 @@ Result<void> read_zero_bins(const Sections& sections, std::vector<ModelVariable>
   const auto lines = line_for_each(sections, "zero_bins", variables.size());
   if (!lines) return fail(lines.error());
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    const Result<std::optional<int>> bin = zero_bin_in((**lines)[i], sections.file(), variables[i].bins);
-    if (!bin) return fail(bin.error());
-    variables[i].zero_bin = *bin;
+    const SectionLine& line = (**lines)[i];
+    if (line.text == "*") continue;
+    const Result<std::vector<double>> number = sections.numbers(line, "zero_bins", 1, variables[i].bins);
+    if (!number) return fail(number.error());
+    if (number->size() != 1 || number->front() != std::floor(number->front()))
+      return fail(sections.place(line.number, "zero_bins"), "expected one bin, from 1, or *");
+    variables[i].zero_bin = static_cast<int>(number->front()) - 1;
   }
   return {};
 }
@@ -240,7 +293,7 @@ Result<std::vector<ModelVariable>> variables_in(const Sections& sections) {
   if (!rates) return fail(rates.error());
   std::vector<ModelVariable> variables;
   for (std::size_t i = 0; i < labels->size(); ++i) {
-    Result<std::vector<double>> limits = boundaries_in((**lines)[i], sections.file(), (*bins)[i]);
+    Result<std::vector<double>> limits = boundaries_in(sections, (**lines)[i], (*bins)[i]);
     if (!limits) return fail(limits.error());
     variables.push_back({(*labels)[i], (*bins)[i], std::move(*limits), std::nullopt, (*rates)[i]});
   }
@@ -267,8 +320,8 @@ Result<std::vector<int>> next_of(const Sections& sections, const std::vector<Mod
   for (std::size_t i = variables.size(); i < labels.size(); ++i) {
     if (changing.erase(labels[i]) == 0)
       return fail(place, fmt::format("{}: there is no such label with (t) in place of (t+1)", labels[i]));
-    const auto now = std::find_if(variables.begin(), variables.end(),
-                                  [&](const ModelVariable& variable) { return labels[i] == variable.label + "(t+1)"; });
+    // Without its "(t+1)".
+    const auto now = std::ranges::find(variables, labels[i].substr(0, labels[i].size() - 5), &ModelVariable::label);
     next.push_back(static_cast<int>(now - variables.begin()));
   }
   if (!changing.empty()) return fail(place, fmt::format("{} is missing", *changing.begin()));
@@ -291,7 +344,7 @@ Result<void> read_transition(const Sections& sections, EncounterModel& model) {
                   fmt::format("{} has {} bins here and {} in # r_initial", (*labels)[i], (*bins)[i],
                               model.variables[same].bins));
   }
-  Result<CountNetwork> network = network_in(sections, {"G_transition", "N_transition"}, *bins, count);
+  Result<CountNetwork> network = network_in(sections, "G_transition", "N_transition", *bins, count);
   if (!network) return fail(network.error());
   model.transition = std::move(*network);
   return {};
@@ -317,16 +370,15 @@ std::optional<int> EncounterModel::find(const std::string& label) const {
 }
 
 Result<EncounterModel> encounter_model_of(std::string_view text, const std::string& name) {
-  Result<std::vector<ModelSection>> parts = model_sections(text, name);
+  const Result<Sections> parts = Sections::of(text, name);
   if (!parts) return fail(parts.error());
-  const Sections sections(std::move(*parts), name);
-  EncounterModel model;
+  const Sections& sections = *parts;
   Result<std::vector<ModelVariable>> variables = variables_in(sections);
   if (!variables) return fail(variables.error());
-  model.variables = std::move(*variables);
+  EncounterModel model{.variables = std::move(*variables)};
   std::vector<int> bins;
   for (const ModelVariable& variable : model.variables) bins.push_back(variable.bins);
-  Result<CountNetwork> initial = network_in(sections, {"G_initial", "N_initial"}, bins, 0);
+  Result<CountNetwork> initial = network_in(sections, "G_initial", "N_initial", bins, 0);
   if (!initial) return fail(initial.error());
   model.initial = std::move(*initial);
   if (const Result<void> rest = read_transition(sections, model); !rest) return fail(rest.error());

@@ -54,12 +54,6 @@ TurnIntegrals turn_integrals(double angle_rad) {
           .s_sin = (s - angle_rad * c) / (angle_rad * angle_rad)};
 }
 
-// How long the aircraft moves within `after_s`: less than that where its speed falls to 0.
-double moving_time_s(const SampledPoint& point, double after_s) {
-  if (point.acceleration_mps2 >= 0) return after_s;
-  return std::min(after_s, point.speed_mps / -point.acceleration_mps2);
-}
-
 // Variables by what they do.
 struct FlightVariables {
   std::optional<int> altitude;
@@ -133,7 +127,9 @@ ModelFlight drawn_once(const EncounterModel& model, const ModelFlightSettings& s
 }  // namespace
 
 SampledPoint moved_on(const SampledPoint& point, double after_s) {
-  const double moving_s = moving_time_s(point, after_s);
+  // Less than after_s where the speed falls to 0.
+  const double moving_s =
+      point.acceleration_mps2 >= 0 ? after_s : std::min(after_s, point.speed_mps / -point.acceleration_mps2);
   const TurnIntegrals turn = turn_integrals(point.turn_rate_radps * moving_s);
   const double by_speed_m = point.speed_mps * moving_s;
   const double by_acceleration_m = point.acceleration_mps2 * moving_s * moving_s;

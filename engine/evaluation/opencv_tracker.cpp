@@ -76,12 +76,6 @@ std::unique_ptr<TrackerAdapter> new_tracker(std::string_view name) {
   return std::make_unique<LegacyTracker>(legacy::TrackerBoosting::create());
 }
 
-std::string known_names() {
-  std::string names;
-  for (const std::string_view name : kTrackerNames) names.append(names.empty() ? "" : ", ").append(name);
-  return names;
-}
-
 // Of the trackers these draw from the C library's generator, which all threads share.
 bool uses_c_generator(std::string_view name) {
   return name == "mil" || name == "tld" || name == "boosting";
@@ -143,10 +137,6 @@ std::string one_line(const std::exception& thrown) {
   return text;
 }
 
-std::string frame_text(int frame) {
-  return fmt::format("frame {}", frame);
-}
-
 }  // namespace
 
 struct OpenCvTracker::Impl {
@@ -155,16 +145,18 @@ struct OpenCvTracker::Impl {
   double spent_s = 0;
   int followed = 0;
 
+  // For errors.
+  [[nodiscard]] std::string place(int frame) const { return fmt::format("{}: frame {}", results.name, frame); }
+
   // Calls OpenCV; no exception of its own gets out.
   Result<void> guarded(int frame, const char* what, const std::function<Result<void>()>& call) const {
-    const std::string where = results.name + ": " + frame_text(frame);
     std::unique_lock<std::mutex> lock(c_generator_mutex(), std::defer_lock);
     if (uses_c_generator(results.name)) lock.lock();
     try {
       seed(results.name, frame);
       return call();
     } catch (const std::exception& thrown) {
-      return fail(where, fmt::format("OpenCV cannot {} it: {}", what, one_line(thrown)));
+      return fail(place(frame), fmt::format("OpenCV cannot {} it: {}", what, one_line(thrown)));
     }
   }
 };
@@ -180,7 +172,7 @@ std::span<const std::string_view> tracker_names() {
 
 Result<OpenCvTracker> OpenCvTracker::make(std::string_view name) {
   if (std::find(kTrackerNames.begin(), kTrackerNames.end(), name) == kTrackerNames.end())
-    return fail(std::string(name), "no such tracker; there are " + known_names(), ErrorKind::usage);
+    return fail(std::string(name), "no such tracker; there are " + listed(kTrackerNames), ErrorKind::usage);
   auto impl = std::make_unique<Impl>();
   impl->results.name = name;
   return OpenCvTracker(std::move(impl));
@@ -190,17 +182,14 @@ Result<void> OpenCvTracker::start(int frame, const cv::Mat& image, const Box& bo
   ENSURE(image.type() == CV_8UC3);
   Impl& in = *impl_;
   ENSURE(!in.tracker);
-  if (!lies_in(box, image.size()))
-    return fail(in.results.name + ": " + frame_text(frame), "cannot be started with a box outside the image");
+  if (!lies_in(box, image.size())) return fail(in.place(frame), "cannot be started with a box outside the image");
   const cv::Rect pixels = pixels_of(box, image.size());
   if (!is_large_enough(in.results.name, pixels))
-    return fail(
-        in.results.name + ": " + frame_text(frame),
-        fmt::format("cannot be started with a box of {} px: it takes 8x4 or more", image_size_text(pixels.size())));
+    return fail(in.place(frame), fmt::format("cannot be started with a box of {} px: it takes 8x4 or more",
+                                             image_size_text(pixels.size())));
   return in.guarded(frame, "start on", [&]() -> Result<void> {
     std::unique_ptr<TrackerAdapter> tracker = new_tracker(in.results.name);
-    if (!tracker->init(image, pixels))
-      return fail(in.results.name + ": " + frame_text(frame), "OpenCV cannot start on it");
+    if (!tracker->init(image, pixels)) return fail(in.place(frame), "OpenCV cannot start on it");
     in.tracker = std::move(tracker);
     in.results.frames[frame] = {{.box = *reported_box(cv::Rect2d(pixels))}};
     return {};

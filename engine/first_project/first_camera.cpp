@@ -13,7 +13,7 @@
 #include "scene/camera_track.h"
 #include "scene/scene_at.h"
 #include "telemetry/gpmf.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 namespace sigs {
 
@@ -214,7 +214,7 @@ Result<FirstLog> log_of_video(const fs::path& video, const std::atomic<bool>* ca
   for (const fs::path& candidate : candidates) {
     std::error_code code;
     if (log.track || !fs::is_regular_file(candidate, code)) continue;
-    Result<Track> track = read_track(candidate, {.cancel = cancel});
+    Result<Track> track = read_track(candidate, cancel);
     if (!track && track.error().kind == ErrorKind::interrupted) return fail(track.error());
     if (!track) {
       if (log.unusable.empty() && carries_telemetry(candidate))

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "base/statistics.h"
-#include "evaluation/metrics/overlap.h"
 #include "labels/label_text.h"
 
 namespace sigs {

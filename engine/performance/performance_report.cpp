@@ -201,9 +201,7 @@ std::string domain_bin_text(const Json& bin) {
 
 std::string coverage_html(const Json& coverage) {
   if (!coverage.is_object()) return "";
-  std::vector<TableColumn> columns;
-  for (const char* const title : {"condition", "bin", "frames", "encounters", ""})
-    columns.push_back(text_column(title, ""));
+  std::vector<TableColumn> columns{{"condition", ""}, {"bin", ""}, {"frames", ""}, {"encounters", ""}, {"", ""}};
   const auto least = coverage.at("min_encounters").get<std::int64_t>();
   for (const Json& condition : coverage.at("conditions"))
     for (const Json& bin : condition.at("bins")) {

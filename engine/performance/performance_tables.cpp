@@ -86,10 +86,9 @@ std::string verdict_line(const PerformanceReport& report) {
 }  // namespace
 
 std::vector<TableColumn> range_table(const Performance& performance) {
-  std::vector<TableColumn> columns{text_column("range", ""),  text_column("encounters", ""),
-                                   text_column("frames", ""), text_column("P(detect)", "in a frame"),
-                                   text_column("95 %", ""),   text_column("P(declared)", "by then"),
-                                   text_column("95 %", "")};
+  std::vector<TableColumn> columns{
+      {"range", ""}, {"encounters", ""},         {"frames", ""}, {"P(detect)", "in a frame"},
+      {"95 %", ""},  {"P(declared)", "by then"}, {"95 %", ""}};
   for (const RangeBin& bin : performance.detected.bins) {
     const auto declared = std::ranges::find_if(performance.declared.bins,
                                                [&](const RangeBin& other) { return other.low_m == bin.low_m; });
@@ -101,14 +100,9 @@ std::vector<TableColumn> range_table(const Performance& performance) {
 }
 
 std::vector<TableColumn> condition_table(const Performance& performance) {
-  std::vector<TableColumn> columns{text_column("condition", ""),
-                                   text_column("", ""),
-                                   text_column("encounters", ""),
-                                   text_column("frames", ""),
-                                   text_column("P(detect)", "in a frame"),
-                                   text_column("95 %", ""),
-                                   text_column("range at P = 0.5", "95 %"),
-                                   text_column("", "")};
+  std::vector<TableColumn> columns{
+      {"condition", ""},           {"", ""},     {"encounters", ""},           {"frames", ""},
+      {"P(detect)", "in a frame"}, {"95 %", ""}, {"range at P = 0.5", "95 %"}, {"", ""}};
   for (const Condition& condition : performance.conditions) {
     const RangeCurve& curve = condition.detected;
     add_row(columns,
@@ -120,13 +114,9 @@ std::vector<TableColumn> condition_table(const Performance& performance) {
 }
 
 std::vector<TableColumn> needed_table(const PerformanceReport& report) {
-  std::vector<TableColumn> columns{text_column("geometry", ""),
-                                   text_column("volume", ""),
-                                   text_column("closing", "m/s"),
-                                   text_column("needed", "m"),
-                                   text_column("reached", "declared, P = 0.95"),
-                                   text_column("encounters", ""),
-                                   text_column("suffices", "")};
+  std::vector<TableColumn> columns{
+      {"geometry", ""},   {"volume", ""},  {"closing", "m/s"}, {"needed", "m"}, {"reached", "declared, P = 0.95"},
+      {"encounters", ""}, {"suffices", ""}};
   for (const NeededRange& one : report.needed)
     add_row(columns,
             {name_of(one.geometry), one.volume, fixed_text(one.closing_speed_mps, 1), fixed_text(one.needed_m, 0),

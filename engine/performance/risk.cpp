@@ -10,7 +10,6 @@
 #include "base/pose.h"
 #include "base/text.h"
 #include "base/threads.h"
-#include "performance/risk_flight.h"
 
 namespace sigs {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "encounter_model/model_flight.h"
-#include "performance/risk_flight.h"
+#include "performance/risk.h"
 
 namespace sigs {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "performance/risk_flight.h"
+#include "performance/risk.h"
 
 #include <algorithm>
 #include <cmath>

@@ -217,14 +217,14 @@ Result<Json> merged_risk_json(const std::vector<RiskShard>& shards, const std::v
 }
 
 std::vector<TableColumn> risk_table(const Json& json) {
-  std::vector<TableColumn> columns{text_column("class", ""),
-                                   text_column("encounters", ""),
-                                   text_column("risk ratio NMAC", "95 %"),
-                                   text_column("risk ratio well clear", "95 %"),
-                                   text_column("P(NMAC) without", ""),
-                                   text_column("induced", "of these"),
-                                   text_column("declared", ""),
-                                   text_column("unnecessary", "manoeuvres")};
+  std::vector<TableColumn> columns{{"class", ""},
+                                   {"encounters", ""},
+                                   {"risk ratio NMAC", "95 %"},
+                                   {"risk ratio well clear", "95 %"},
+                                   {"P(NMAC) without", ""},
+                                   {"induced", "of these"},
+                                   {"declared", ""},
+                                   {"unnecessary", "manoeuvres"}};
   for (const Json& one : json.at("classes"))
     add_row(columns,
             {one.at("class").get<std::string>(), std::to_string(one.at("encounters").get<std::int64_t>()),

@@ -19,6 +19,8 @@ constexpr int kDrawsOfCheck = 40;
 
 enum Term { kHorizon = 1, kAspect = 2 };
 
+using Encounters = std::vector<const ObservedEncounter*>;
+
 // Frames of one class within 1 % of a range.
 struct ModelCell {
   double log_range = 0;
@@ -27,7 +29,7 @@ struct ModelCell {
   double whole = 0;
 };
 
-std::vector<ModelCell> cells_of(const std::vector<const ObservedEncounter*>& encounters) {
+std::vector<ModelCell> cells_of(const Encounters& encounters) {
   std::map<std::array<int, 3>, ModelCell> cells;
   for (const ObservedEncounter* encounter : encounters)
     for (const SeenFrame& frame : encounter->frames) {
@@ -46,35 +48,24 @@ std::vector<ModelCell> cells_of(const std::vector<const ObservedEncounter*>& enc
 
 // --- The fit: a probit regression whose curve falls with range.
 
-// Parameters: the quantile at the first knot, how much it falls over each segment, and what the classes add.
-struct Parameters {
-  double first = 0;
-  std::array<double, kSegments> falls{};  // at least 0
-  std::array<double, 2> horizon{};        // on, below
-  std::array<double, 2> aspect{};         // side, behind
-
-  [[nodiscard]] double* at(int i) {
-    if (i == 0) return &first;
-    if (i <= kSegments) return &falls[static_cast<std::size_t>(i - 1)];
-    if (i <= kSegments + 2) return &horizon[static_cast<std::size_t>(i - kSegments - 1)];
-    return &aspect[static_cast<std::size_t>(i - kSegments - 3)];
-  }
-};
-constexpr int kParameters = kSegments + 5;
+// The quantile at the first knot, how much it falls over each segment (at least 0), and what the classes add: on and
+// below the horizon, from the side and from behind.
+constexpr std::size_t kOfHorizon = kSegments + 1, kOfAspect = kSegments + 3, kParameters = kSegments + 5;
+using Parameters = std::array<double, kParameters>;
 
 using Knots = std::array<double, kSegments + 1>;  // logarithms of ranges
 
 // By how much each parameter counts in a cell.
-std::array<double, kParameters> row_of(const ModelCell& cell, const Knots& knots, int terms) {
-  std::array<double, kParameters> row{};
+Parameters row_of(const ModelCell& cell, const Knots& knots, int terms) {
+  Parameters row{};
   row[0] = 1;
   for (std::size_t i = 0; i < kSegments; ++i) {
     const double width = knots[i + 1] - knots[i];
     const double part = width > 0 ? (cell.log_range - knots[i]) / width : (cell.log_range > knots[i] ? 1.0 : 0.0);
     row[i + 1] = -std::clamp(part, 0.0, 1.0);
   }
-  if ((terms & kHorizon) && cell.at.horizon > 0) row[static_cast<std::size_t>(kSegments + cell.at.horizon)] = 1;
-  if ((terms & kAspect) && cell.at.aspect > 0) row[static_cast<std::size_t>(kSegments + 2 + cell.at.aspect)] = 1;
+  if ((terms & kHorizon) && cell.at.horizon > 0) row[kOfHorizon - 1 + static_cast<std::size_t>(cell.at.horizon)] = 1;
+  if ((terms & kAspect) && cell.at.aspect > 0) row[kOfAspect - 1 + static_cast<std::size_t>(cell.at.aspect)] = 1;
   return row;
 }
 
@@ -105,19 +96,18 @@ Knots knots_of(const std::vector<ModelCell>& cells) {
 }
 
 Parameters fitted(const std::vector<ModelCell>& cells, const Knots& knots, int terms) {
-  std::vector<std::array<double, kParameters>> rows;
+  std::vector<Parameters> rows;
   for (const ModelCell& cell : cells) rows.push_back(row_of(cell, knots, terms));
-  Parameters parameters;
+  Parameters parameters{};
   std::vector<double> quantiles(cells.size());
   // One parameter at a time, by Fisher's scoring; a weak prior (that of one frame) holds what no frame tells.
   constexpr double kPrior = 1;
   for (int sweep = 0; sweep < 300; ++sweep) {
     double moved = 0;
-    for (int j = 0; j < kParameters; ++j) {
-      const auto column = static_cast<std::size_t>(j);
-      double slope = -kPrior * *parameters.at(j), curvature = kPrior;
+    for (std::size_t j = 0; j < kParameters; ++j) {
+      double slope = -kPrior * parameters[j], curvature = kPrior;
       for (std::size_t i = 0; i < cells.size(); ++i) {
-        const double x = rows[i][column];
+        const double x = rows[i][j];
         if (x == 0) continue;
         const double q = std::clamp(quantiles[i], -kQuantileLimit, kQuantileLimit);
         const double p = std::clamp(normal_share_below(q), 1e-12, 1 - 1e-12);
@@ -126,11 +116,10 @@ Parameters fitted(const std::vector<ModelCell>& cells, const Knots& knots, int t
         curvature += x * x * cells[i].whole * density * density / (p * (1 - p));
       }
       double step = std::clamp(slope / curvature, -1.0, 1.0);
-      double* const value = parameters.at(j);
-      if (j >= 1 && j <= kSegments) step = std::max(step, -*value);
-      *value += step;
+      if (j >= 1 && j <= kSegments) step = std::max(step, -parameters[j]);
+      parameters[j] += step;
       moved = std::max(moved, std::abs(step));
-      for (std::size_t i = 0; i < cells.size(); ++i) quantiles[i] += rows[i][column] * step;
+      for (std::size_t i = 0; i < cells.size(); ++i) quantiles[i] += rows[i][j] * step;
     }
     if (moved < 1e-6) break;
   }
@@ -140,9 +129,9 @@ Parameters fitted(const std::vector<ModelCell>& cells, const Knots& knots, int t
 void set_curve(SensorModel& model, const Parameters& parameters, const Knots& knots) {
   model.range_m.clear();
   model.quantiles.clear();
-  double quantile = parameters.first;
+  double quantile = parameters[0];
   for (std::size_t i = 0; i < knots.size(); ++i) {
-    if (i > 0) quantile -= parameters.falls[i - 1];
+    if (i > 0) quantile -= parameters[i];
     if (!model.range_m.empty() && !(std::exp(knots[i]) > model.range_m.back())) {
       model.quantiles.back() = quantile;
       continue;
@@ -150,10 +139,10 @@ void set_curve(SensorModel& model, const Parameters& parameters, const Knots& kn
     model.range_m.push_back(std::exp(knots[i]));
     model.quantiles.push_back(quantile);
   }
-  model.on_horizon = parameters.horizon[0];
-  model.below_horizon = parameters.horizon[1];
-  model.from_side = parameters.aspect[0];
-  model.from_behind = parameters.aspect[1];
+  model.on_horizon = parameters[kOfHorizon];
+  model.below_horizon = parameters[kOfHorizon + 1];
+  model.from_side = parameters[kOfAspect];
+  model.from_behind = parameters[kOfAspect + 1];
 }
 
 double loss_of(const std::vector<ModelCell>& cells, const SensorModel& model, double& frames) {
@@ -172,15 +161,18 @@ double loss_of(const std::vector<ModelCell>& cells, const SensorModel& model, do
   return loss;
 }
 
-std::vector<const ObservedEncounter*> encounters_where(const Performance& performance,
-                                                       const std::function<bool(std::size_t)>& has) {
-  std::vector<const ObservedEncounter*> chosen;
-  for (std::size_t i = 0; i < performance.encounters.size(); ++i)
-    if (has(i)) chosen.push_back(&performance.encounters[i]);
-  return chosen;
+// Calls visit(kept, held) with each fifth of the encounters held out, where neither part is empty.
+template <class Visit>
+void for_each_fold(const Performance& performance, const Visit& visit) {
+  for (std::size_t fold = 0; fold < kFolds; ++fold) {
+    Encounters kept, held;
+    for (std::size_t i = 0; i < performance.encounters.size(); ++i)
+      (i % kFolds == fold ? held : kept).push_back(&performance.encounters[i]);
+    if (!kept.empty() && !held.empty()) visit(kept, held);
+  }
 }
 
-SensorModel curve_of(const std::vector<const ObservedEncounter*>& encounters, int terms) {
+SensorModel curve_of(const Encounters& encounters, int terms) {
   SensorModel model;
   const std::vector<ModelCell> cells = cells_of(encounters);
   const Knots knots = knots_of(cells);
@@ -190,13 +182,9 @@ SensorModel curve_of(const std::vector<const ObservedEncounter*>& encounters, in
 
 double held_out_loss(const Performance& performance, int terms) {
   double loss = 0, frames = 0;
-  for (int fold = 0; fold < kFolds; ++fold) {
-    const auto is_held = [&](std::size_t i) { return static_cast<int>(i % kFolds) == fold; };
-    const auto kept = encounters_where(performance, [&](std::size_t i) { return !is_held(i); });
-    const auto held = encounters_where(performance, is_held);
-    if (kept.empty() || held.empty()) continue;
+  for_each_fold(performance, [&](const Encounters& kept, const Encounters& held) {
     loss += loss_of(cells_of(held), curve_of(kept, terms), frames);
-  }
+  });
   return frames > 0 ? loss / frames : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -214,8 +202,7 @@ struct FramePair {
   bool both = false;
 };
 
-std::vector<FramePair> pairs_at(const std::vector<const ObservedEncounter*>& encounters, const SensorModel& model,
-                                int lag) {
+std::vector<FramePair> pairs_at(const Encounters& encounters, const SensorModel& model, int lag) {
   std::vector<FramePair> pairs;
   for (const ObservedEncounter* encounter : encounters) {
     const std::vector<SeenFrame>& frames = encounter->frames;
@@ -253,7 +240,7 @@ double correlation_of(const std::vector<FramePair>& pairs) {
   return (low + high) / 2;
 }
 
-void set_correlation(SensorModel& model, const std::vector<const ObservedEncounter*>& encounters) {
+void set_correlation(SensorModel& model, const Encounters& encounters) {
   std::vector<LagCorrelation> lags;
   int last = 0;
   for (double lag = 1; lag < 2000; lag = std::max(lag + 1, lag * 1.6)) {
@@ -299,8 +286,7 @@ int best_terms(const Performance& performance, SensorFit& fit) {
   return best;
 }
 
-SensorModel model_of(const Performance& performance, const std::vector<const ObservedEncounter*>& encounters,
-                     int terms) {
+SensorModel model_of(const Performance& performance, const Encounters& encounters, int terms) {
   SensorModel model = curve_of(encounters, terms);
   model.detector = performance.detector;
   model.encounters = static_cast<int>(encounters.size());
@@ -344,7 +330,9 @@ Result<SensorFit> fitted_sensor_model(const Performance& performance, const std:
                 fmt::format("needs at least two encounters in view, there are {}", performance.encounters.size()));
   SensorFit fit;
   const int terms = best_terms(performance, fit);
-  fit.model = model_of(performance, encounters_where(performance, [](std::size_t) { return true; }), terms);
+  Encounters all;
+  for (const ObservedEncounter& encounter : performance.encounters) all.push_back(&encounter);
+  fit.model = model_of(performance, all, terms);
   SensorModel& model = fit.model;
   if (field_of_view) model.field_of_view = *field_of_view;
   model.is_field_known = field_of_view.has_value();
@@ -364,11 +352,7 @@ SensorModelCheck checked_sensor_model(const Performance& performance) {
   SensorModelCheck check;
   SensorFit fit;
   const int terms = best_terms(performance, fit);
-  for (int fold = 0; fold < kFolds; ++fold) {
-    const auto is_held = [&](std::size_t i) { return static_cast<int>(i % kFolds) == fold; };
-    const auto kept = encounters_where(performance, [&](std::size_t i) { return !is_held(i); });
-    const auto held = encounters_where(performance, is_held);
-    if (kept.empty() || held.empty()) continue;
+  for_each_fold(performance, [&](const Encounters& kept, const Encounters& held) {
     const SensorModel model = model_of(performance, kept, terms);
     for (const ObservedEncounter* encounter : held) {
       check.images_m.push_back(encounter->declared ? encounter->declared->range_m : 0);
@@ -377,7 +361,7 @@ SensorModelCheck checked_sensor_model(const Performance& performance) {
         check.model_m.push_back(drawn_declaration_m(model, *encounter, random));
       }
     }
-  }
+  });
   // So many draws stand for the model's own distribution: the number of the images' encounters decides.
   check.distance = distribution_distance(check.images_m, check.model_m);
   const auto share = [](const std::vector<double>& ranges) {

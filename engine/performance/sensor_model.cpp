@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -40,12 +41,8 @@ ViewClass view_class_of(HorizonSide horizon, double aspect_rad) {
 double SensorModel::quantile_at(double place_m, HorizonSide horizon, double aspect_rad) const {
   if (range_m.empty() || !(place_m <= range_m.back())) return -std::numeric_limits<double>::infinity();
   const ViewClass at = view_class_of(horizon, aspect_rad);
-  const double shift = (at.horizon == 1   ? on_horizon
-                        : at.horizon == 2 ? below_horizon
-                                          : 0) +
-                       (at.aspect == 1   ? from_side
-                        : at.aspect == 2 ? from_behind
-                                         : 0);
+  const double shift = std::array{0.0, on_horizon, below_horizon}.at(static_cast<std::size_t>(at.horizon)) +
+                       std::array{0.0, from_side, from_behind}.at(static_cast<std::size_t>(at.aspect));
   if (place_m <= range_m.front()) return quantiles.front() + shift;
   const auto next = static_cast<std::size_t>(std::ranges::lower_bound(range_m, place_m) - range_m.begin());
   const double part = std::log(place_m / range_m[next - 1]) / std::log(range_m[next] / range_m[next - 1]);

@@ -111,7 +111,7 @@ enum class TrackMountChoice { automatic, attitude_deg, none };
 // What happens with a log that is damaged or does not cover all frames: it is an error, or its sound part is used.
 enum class IncompleteTrackChoice { refuse, use };
 
-// The flight log by which the camera moves (telemetry/read_track.h).
+// The flight log by which the camera moves (telemetry/track.h).
 struct TrackSettings {
   std::string file;     // empty: none
   double offset_s = 0;  // time in the log at the footage's frame 0

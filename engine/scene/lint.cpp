@@ -12,7 +12,7 @@
 #include "scene/scene_at.h"
 #include "scene/scene_parts.h"
 #include "telemetry/gpmf.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 namespace sigs {
 

@@ -25,7 +25,7 @@
 #include "base/text.h"
 #include "mesh/model_files.h"
 #include "scene/opened_project.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 namespace sigs {
 

@@ -95,7 +95,7 @@ class SceneFiles {
   // read_attitude_file
   [[nodiscard]] Result<std::vector<AttitudeAtFrame>> attitudes(const std::filesystem::path& file);
 
-  // read_track (telemetry/read_track.h). The same file gives the same object for as long as it is in use.
+  // read_track (telemetry/track.h). The same file gives the same object for as long as it is in use.
   [[nodiscard]] Result<std::shared_ptr<const Track>> track(const std::filesystem::path& file);
 
   // read_own_body_mask. The samples are shared with the cache: not to be written to.

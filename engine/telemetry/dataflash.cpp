@@ -10,7 +10,7 @@
 
 #include "base/pose.h"
 #include "base/text.h"
-#include "telemetry/dataflash_messages.h"
+#include "telemetry/log_messages.h"
 #include "telemetry/log_samples.h"
 
 namespace sigs {
@@ -64,8 +64,7 @@ class DataflashReading {
   }
 
   void take(std::string_view name, Values v) {
-    const auto found = messages().find(name);
-    if (found == messages().end()) return;
+    const auto found = messages().find(name);  // there, since columns of it were wanted
     if (v[2] >= 1) {
       other_instances_.insert(found->first);
       return;
@@ -201,10 +200,6 @@ Track DataflashReading::track(const DataflashContents& log, const std::filesyste
 }
 
 }  // namespace
-
-bool is_dataflash(std::string_view head) {
-  return has_dataflash_magic(head);
-}
 
 Result<Track> dataflash_track(std::string_view bytes, const std::filesystem::path& file) {
   DataflashReading reading;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/dataflash_messages.h"
+#include "telemetry/log_messages.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "telemetry/binary_numbers.h"
+#include "telemetry/log_formats.h"
 
 namespace sigs {
 namespace {
@@ -58,20 +59,13 @@ struct Column {
   double scale = 1;
 };
 
-// A wanted column at its place.
-struct Place {
-  std::size_t offset = 0;
-  NumberType type;
-  double scale = 1;
-};
-
 struct MessageType {
   std::size_t bytes = 0;  // with its header; 0: not defined
   std::string name;
   std::string definition;  // the bytes of its FMT message
   std::vector<Column> columns;
-  std::string multipliers;  // letters, one for each column; empty: none stated
-  std::vector<std::optional<Place>> places;
+  std::string multipliers;                    // letters, one for each column; empty: none stated
+  std::vector<std::optional<Column>> wanted;  // those of the reader, with the scale that it wants
   bool is_placed = false;
 };
 
@@ -157,10 +151,10 @@ class Walk {
     if (type.name == "MULT") return take_multiplier(type, message);
     if (type.name == "MSG") return take_text(type, message);
     if (!type.is_placed) place(type);
-    if (type.places.empty()) return;
+    if (type.wanted.empty()) return;
     values_.clear();
-    for (const std::optional<Place>& p : type.places)
-      values_.push_back(p ? number_at(message, p->offset, p->type) * p->scale
+    for (const std::optional<Column>& c : type.wanted)
+      values_.push_back(c ? number_at(message, c->offset, c->type) * c->scale
                           : std::numeric_limits<double>::quiet_NaN());
     reader_.take(type.name, values_);
   }
@@ -178,9 +172,8 @@ class Walk {
   }
 
   static const Column* column(const MessageType& type, std::string_view name) {
-    for (const Column& column : type.columns)
-      if (column.name == name) return &column;
-    return nullptr;
+    const auto found = std::ranges::find(type.columns, name, &Column::name);
+    return found != type.columns.end() ? &*found : nullptr;
   }
 
   // FMTU: the type that it is about, the letters of the units, and those of the multipliers.
@@ -210,14 +203,13 @@ class Walk {
 
   void place(MessageType& type) {
     type.is_placed = true;
-    type.places.clear();
+    type.wanted.clear();
     for (const DataflashColumn& wanted : reader_.wanted(type.name)) {
-      type.places.emplace_back();
+      std::optional<Column>& place = type.wanted.emplace_back();
       for (std::size_t i = 0; i < type.columns.size(); ++i) {
-        const Column& column = type.columns[i];
-        if (column.name != wanted.name || !column.type.number_of) continue;
-        const double scale = wanted.is_scaled ? scale_of(type, i) : 1;
-        type.places.back() = Place{.offset = column.offset, .type = column.type, .scale = scale};
+        if (type.columns[i].name != wanted.name || !type.columns[i].type.number_of) continue;
+        place = type.columns[i];
+        place->scale = wanted.is_scaled ? scale_of(type, i) : 1;
       }
     }
   }
@@ -242,15 +234,16 @@ class Walk {
 
 }  // namespace
 
-bool has_dataflash_magic(std::string_view bytes) {
-  return bytes.size() >= kFormat_bytes && bytes.starts_with(
-                                              "\xA3\x95\x80\x80\x59"
-                                              "FMT\0"sv);
+// It begins with the FMT message that describes FMT messages.
+bool is_dataflash(std::string_view head) {
+  return head.size() >= kFormat_bytes && head.starts_with(
+                                             "\xA3\x95\x80\x80\x59"
+                                             "FMT\0"sv);
 }
 
 Result<DataflashContents> read_dataflash_messages(std::string_view bytes, const std::string& name,
                                                   const DataflashReader& reader) {
-  if (!has_dataflash_magic(bytes)) return fail(name, "does not begin as a dataflash log does");
+  if (!is_dataflash(bytes)) return fail(name, "does not begin as a dataflash log does");
   return Walk(bytes, reader).contents();
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/pose.h"
 #include "base/text.h"
+#include "telemetry/dji_cues.h"
 #include "telemetry/log_samples.h"
 
 namespace sigs {
@@ -18,10 +19,8 @@ constexpr int kCoarseDecimals = 5;  // a step of the last decimal is 1.1 m or mo
 constexpr double kMetresPerDegree = 111e3;
 constexpr double kSlow_s = 0.5;
 
-using HeightOf = std::optional<double> DjiValues::*;
-
 struct HeightKind {
-  HeightOf field;
+  std::optional<double> DjiValues::*field;
   const char* what;
 };
 constexpr HeightKind kHeightKinds[] = {
@@ -208,6 +207,16 @@ class DjiReading {
   std::size_t without_time_ = 0;
 };
 
+Result<Track> track_of_cues(const std::vector<DjiCue>& cues, const std::filesystem::path& file) {
+  if (cues.empty()) return fail(file.string(), "has no subtitle: the recording may have been broken off at its start");
+  DjiReading reading(cues);
+  if (!reading.has_values())
+    return fail(file.string(), "its subtitles have neither place nor exposure, as those of DJI have");
+  Track track = reading.track(file);
+  if (!has_samples(track)) return fail(file.string(), "has no subtitle with a time and a possible place or exposure");
+  return track;
+}
+
 // A subtitle's number, and nothing else.
 bool is_lone_number(std::string_view text) {
   text = trimmed(without_bom(text));
@@ -235,18 +244,8 @@ bool is_dji_subtitle_stream(const DataStream& stream) {
   return stream.kind == DataKind::subtitles;
 }
 
-Result<Track> dji_cues_track(const std::vector<DjiCue>& cues, const std::filesystem::path& file) {
-  if (cues.empty()) return fail(file.string(), "has no subtitle: the recording may have been broken off at its start");
-  DjiReading reading(cues);
-  if (!reading.has_values())
-    return fail(file.string(), "its subtitles have neither place nor exposure, as those of DJI have");
-  Track track = reading.track(file);
-  if (!has_samples(track)) return fail(file.string(), "has no subtitle with a time and a possible place or exposure");
-  return track;
-}
-
 Result<Track> dji_subtitles_track(std::string_view text, const std::filesystem::path& file) {
-  return dji_cues_track(dji_cues(text), file);
+  return track_of_cues(dji_cues(text), file);
 }
 
 Result<Track> dji_stream_track(const std::filesystem::path& file, const DataStream& stream,
@@ -256,7 +255,7 @@ Result<Track> dji_stream_track(const std::filesystem::path& file, const DataStre
     const std::string_view text = stream.codec == "mov_text" ? stream_text(payload.bytes) : payload.bytes;
     if (!trimmed(text).empty()) cues.push_back({.text = text, .footage_s = payload.time_s});
   }
-  Result<Track> track = dji_cues_track(cues, file);
+  Result<Track> track = track_of_cues(cues, file);
   if (!track) return track;
   track->on_footage_time = payloads.on_footage_time;
   track->damaged |= payloads.broke_off;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "base/pose.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "geo/utc_time.h"
 #include "telemetry/gopro_stream.h"
 #include "telemetry/log_samples.h"
 
@@ -21,8 +23,36 @@ namespace {
 const std::vector<std::string> kKeys = {"GYRO", "ACCL", "CORI", "IORI", "GRAV", "SHUT", "SROT",
                                         "GPS5", "GPS9", "ATTD", "LNED", "GLPI", "SYST"};
 constexpr double kDaysTo2000 = 10957;  // from 1970-01-01 to 2000-01-01
+constexpr double kSecondsPerDay = 86400;
 
 using Row = std::span<const double>;
+
+// Samples of a stream that are left out for one reason: how many, and when.
+struct LeftOutSpan {
+  int count = 0;
+  double first_s = 0;
+  double last_s = 0;
+
+  void add(double time_s) {
+    if (count++ == 0) first_s = time_s;
+    last_s = time_s;
+  }
+  // "at 1.20 s", "from 1.20 to 3.40 s"
+  [[nodiscard]] std::string text() const {
+    if (first_s == last_s) return "at " + fixed_text(first_s, 2) + " s";
+    return "from " + fixed_text(first_s, 2) + " to " + fixed_text(last_s, 2) + " s";
+  }
+};
+
+// UTC of GPSU's "yymmddhhmmss.sss", seconds since 1970 without leap seconds; nothing where it is no date.
+std::optional<double> utc_of_gpsu(const std::string& text) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
+  double second = 0;
+  if (std::sscanf(text.c_str(), "%2d%2d%2d%2d%2d%lf", &year, &month, &day, &hour, &minute, &second) != 6) return {};
+  const std::optional<double> day_s = utc_of_day(2000 + year, month, day);
+  if (!day_s || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0 && second < 61)) return {};
+  return *day_s + hour * 3600 + minute * 60 + second;
+}
 
 class Reading {
  public:
@@ -113,7 +143,7 @@ class Reading {
     }
     if (unsound.count > 0)
       warn(stream.key, fmt::format("{} that {} no number left out, {}", count_text(unsound.count, "sample"),
-                                   unsound.count == 1 ? "is" : "are", span_text(unsound.first_s, unsound.last_s)));
+                                   unsound.count == 1 ? "is" : "are", unsound.text()));
     if (!channel.values.empty()) channel.clock = clock_of(times);
     return channel.values.empty() ? Channel<T>() : channel;
   }
@@ -214,8 +244,7 @@ class Reading {
     }
     const auto say = [&](const LeftOutSpan& left, const char* what) {
       if (left.count > 0)
-        warn(stream->key,
-             fmt::format("{} {}, {}", count_text(left.count, "sample"), what, span_text(left.first_s, left.last_s)));
+        warn(stream->key, fmt::format("{} {}, {}", count_text(left.count, "sample"), what, left.text()));
     };
     say(no_fix, "without a fix (GPSF) left out");
     say(at_zero, "at latitude 0, longitude 0 left out");
@@ -261,15 +290,14 @@ class Reading {
     track_.ned_from_airframe = drone_channel<glm::dquat>(attitude, o, [](Row row) {
       return rotation_of({row[1], row[2], row[3]});
     });
-    track_.airframe_rate_radps =
-        drone_channel<glm::dvec3>(attitude, o, [](Row row) { return glm::dvec3(row[4], row[5], row[6]); });
-    track_.local_position_ned_m =
-        drone_channel<glm::dvec3>(local, o, [](Row row) { return glm::dvec3(row[1], row[2], row[3]); });
-    track_.velocity_ned_mps =
-        drone_channel<glm::dvec3>(local, o, [](Row row) { return glm::dvec3(row[4], row[5], row[6]); });
-    if (track_.velocity_ned_mps.empty())
-      track_.velocity_ned_mps =
-          drone_channel<glm::dvec3>(global, o, [](Row row) { return glm::dvec3(row[5], row[6], row[7]); });
+    const auto vectors = [&](const GoproStream* stream, std::size_t first) {
+      return drone_channel<glm::dvec3>(
+          stream, o, [first](Row row) { return glm::dvec3(row[first], row[first + 1], row[first + 2]); });
+    };
+    track_.airframe_rate_radps = vectors(attitude, 4);
+    track_.local_position_ned_m = vectors(local, 1);
+    track_.velocity_ned_mps = vectors(local, 4);
+    if (track_.velocity_ned_mps.empty()) track_.velocity_ned_mps = vectors(global, 5);
     Channel<GeodeticPosition> position = drone_channel<GeodeticPosition>(global, o, [](Row row) {
       const bool nowhere = row[1] == 0 && row[2] == 0;
       return GeodeticPosition{nowhere ? NAN : row[1], row[2], row[3]};

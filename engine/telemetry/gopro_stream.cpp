@@ -5,19 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "base/statistics.h"
-#include "base/text.h"
-#include "geo/utc_time.h"
-#include "telemetry/log_samples.h"
 
 namespace sigs {
 namespace {
 
 // More numbers than a recording of ten hours has; a file that claims more is no recording.
 constexpr std::size_t kMaxNumbers = std::size_t{1} << 26;
+constexpr std::int64_t kElementHead_bytes = 8;
 
 // What one STRM says about its samples.
 struct Description {
@@ -104,13 +101,11 @@ class Collector {
   }
 
   void add_device(const GpmfElement& device) {
-    constexpr std::int64_t kHeader = 8;
     std::string name;
-    for (const GpmfElement& element : level(device.value, device.at + kHeader)) {
+    for (const GpmfElement& element : level(device.value, device.at + kElementHead_bytes)) {
       if (element.key == "DVNM") {
         name = gpmf_text(element);
-        if (std::find(into_.devices.begin(), into_.devices.end(), name) == into_.devices.end() &&
-            into_.devices.size() < 64)
+        if (std::ranges::find(into_.devices, name) == into_.devices.end() && into_.devices.size() < 64)
           into_.devices.push_back(name);
       }
       if (element.key == "STRM" && element.type == 0) add_stream(element, name);
@@ -118,13 +113,12 @@ class Collector {
   }
 
   void add_stream(const GpmfElement& stream, const std::string& device) {
-    constexpr std::int64_t kHeader = 8;
     Description description;
     description.stream.device = device;
-    for (const GpmfElement& element : level(stream.value, stream.at + kHeader)) {
+    for (const GpmfElement& element : level(stream.value, stream.at + kElementHead_bytes)) {
       if (describe(description, element)) continue;
       const std::string key(element.key);
-      if (std::find(keys_.begin(), keys_.end(), key) == keys_.end()) {
+      if (std::ranges::find(keys_, key) == keys_.end()) {
         if (into_.unused.size() < 1000 || into_.unused.contains(key)) ++into_.unused[key];
       } else {
         add_samples(description, element);
@@ -289,20 +283,6 @@ std::optional<ClockOffset> clock_offset(const std::vector<const GoproStream*>& s
   const double offset_s = median(middles_s);
   for (double& middle_s : middles_s) middle_s = std::abs(middle_s - offset_s);
   return ClockOffset{offset_s, median(middles_s), false};
-}
-
-std::optional<double> utc_of_gpsu(const std::string& text) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
-  double second = 0;
-  if (std::sscanf(text.c_str(), "%2d%2d%2d%2d%2d%lf", &year, &month, &day, &hour, &minute, &second) != 6) return {};
-  const std::optional<double> day_s = utc_of_day(2000 + year, month, day);
-  if (!day_s || hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(second >= 0 && second < 61)) return {};
-  return *day_s + hour * 3600 + minute * 60 + second;
-}
-
-std::string span_text(double first_s, double last_s) {
-  if (first_s == last_s) return "at " + fixed_text(first_s, 2) + " s";
-  return "from " + fixed_text(first_s, 2) + " to " + fixed_text(last_s, 2) + " s";
 }
 
 }  // namespace sigs

@@ -83,28 +83,6 @@ struct ClockOffset {
 };
 [[nodiscard]] std::optional<ClockOffset> clock_offset(const std::vector<const GoproStream*>& streams, int column);
 
-// Values and warnings of the streams.
-
-inline constexpr double kSecondsPerDay = 86400;
-
-// UTC of GPSU's "yymmddhhmmss.sss", seconds since 1970 without leap seconds; nothing where it is no date.
-[[nodiscard]] std::optional<double> utc_of_gpsu(const std::string& text);
-
-// "at 1.20 s", "from 1.20 to 3.40 s"
-[[nodiscard]] std::string span_text(double first_s, double last_s);
-
-// Samples of a stream that are left out for one reason: how many, and when.
-struct LeftOutSpan {
-  int count = 0;
-  double first_s = 0;
-  double last_s = 0;
-
-  void add(double time_s) {
-    if (count++ == 0) first_s = time_s;
-    last_s = time_s;
-  }
-};
-
 // Axes of a GoPro's inertial sensors. GoPro names them of the camera as it stands upright, seen from behind: X to the
 // left, Y backwards (towards the photographer), Z up; right-handed. Of the HERO5 on a Karma this was checked against
 // the footage: the first column of GYRO (Z) is the image's motion to the right, r = 0.998; the first of ACCL is +9.8

@@ -43,11 +43,6 @@ int size_of_type(char type) {
   return static_cast<int>(type_of_letter(kGpmfTypes, type).type.bytes);
 }
 
-double gpmf_number(const LetterType& letter, std::string_view bytes) {
-  return letter.type.number_of ? letter.type.number_of(big_endian(bytes)) * letter.scale
-                               : std::numeric_limits<double>::quiet_NaN();
-}
-
 // The count in brackets behind a type, taken off the structure: "[8]L" gives 8 and leaves "L". 1 where there is none.
 std::size_t count_behind(std::string_view& structure) {
   if (!structure.starts_with('[')) return 1;
@@ -83,10 +78,6 @@ bool is_key(std::string_view key) {
   return std::all_of(key.begin(), key.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
-bool is_padding(std::string_view rest) {
-  return std::all_of(rest.begin(), rest.end(), [](char c) { return c == 0; });
-}
-
 }  // namespace
 
 GpmfLevel gpmf_level(std::string_view value, std::int64_t at) {
@@ -96,7 +87,7 @@ GpmfLevel gpmf_level(std::string_view value, std::int64_t at) {
     const std::string_view rest = value.substr(i);
     const std::int64_t here = at + static_cast<std::int64_t>(i);
     if (rest.size() < kElementHeader_bytes || !is_key(rest.substr(0, 4))) {
-      if (!is_padding(rest)) level.broken_at = here;
+      if (rest.find_first_not_of('\0') != std::string_view::npos) level.broken_at = here;  // else it is padding
       return level;
     }
     GpmfElement element{.key = rest.substr(0, 4), .type = rest[4], .at = here};
@@ -128,7 +119,9 @@ std::optional<GpmfNumbers> gpmf_numbers(const GpmfElement& element, std::string_
   for (int row = 0; row < element.repeat; ++row) {
     for (const char type : types) {
       const LetterType letter = type_of_letter(kGpmfTypes, type);
-      numbers.values.push_back(gpmf_number(letter, rest.substr(0, letter.type.bytes)));
+      numbers.values.push_back(letter.type.number_of
+                                   ? letter.type.number_of(big_endian(rest.substr(0, letter.type.bytes))) * letter.scale
+                                   : std::numeric_limits<double>::quiet_NaN());
       rest.remove_prefix(letter.type.bytes);
     }
   }
@@ -205,10 +198,9 @@ void take_all(std::string_view value, int depth, GoproHeader& header) {
 
 std::optional<LoggedLens> GoproHeader::lens() const {
   if (!diagonal_fov_deg) return std::nullopt;
-  const bool is_fisheye = fov_letter != 'L';
   return LoggedLens{.source = "GPMF ZFOV, " + number_text(*diagonal_fov_deg, 1) + " degrees across the diagonal",
                     .diagonal_fov_rad = rad_of_deg(*diagonal_fov_deg),
-                    .is_fisheye = is_fisheye};
+                    .is_fisheye = fov_letter != 'L'};
 }
 
 std::optional<GoproHeader> read_gopro_header(const std::filesystem::path& file) {

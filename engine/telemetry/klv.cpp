@@ -46,13 +46,6 @@ bool has_place(const KlvPacket& packet) {
          (ellipsoid_height_m(packet) || packet.sensor_altitude_m);
 }
 
-// All packets with a place have the height above the ellipsoid.
-bool has_ellipsoid_heights(const std::vector<TimedKlvPacket>& packets) {
-  return std::all_of(packets.begin(), packets.end(), [](const TimedKlvPacket& timed) {
-    return !has_place(timed.packet) || ellipsoid_height_m(timed.packet);
-  });
-}
-
 struct KlvSamples {
   explicit KlvSamples(const std::string& clock)
       : position("tags 13, 14 and a height", clock),
@@ -88,7 +81,11 @@ void add_utc(Track& track, const std::vector<TimedKlvPacket>& packets, bool on_f
   track.utc_at_zero_s = *first.packet.unix_s - (on_footage_time ? *first.footage_s : 0);
 }
 
-void warn_of_packets(std::vector<Warning>& warnings, const KlvPackets& read) {
+// With what is wrong with the packets.
+Result<Track> finished(Result<Track> track, const KlvPackets& read) {
+  if (!track) return track;
+  std::vector<Warning>& warnings = track->warnings;
+  const std::size_t before = warnings.size();
   if (read.bad_checksums > 0)
     warnings.push_back({"checksum", count_text(read.bad_checksums, "packet") + " left out: the checksum is wrong"});
   if (read.broken > 0)
@@ -96,16 +93,7 @@ void warn_of_packets(std::vector<Warning>& warnings, const KlvPackets& read) {
   if (read.skipped_bytes > 0)
     warnings.push_back({"", count_text(read.skipped_bytes, "byte") + " skipped that belong to no packet"});
   if (read.cut_off) warnings.push_back({"", "a packet is cut off, or its length is damaged"});
-}
-
-bool is_damaged(const KlvPackets& read) {
-  return read.bad_checksums > 0 || read.broken > 0 || read.skipped_bytes > 0 || read.cut_off;
-}
-
-Result<Track> finished(Result<Track> track, const KlvPackets& all) {
-  if (!track) return track;
-  warn_of_packets(track->warnings, all);
-  track->damaged |= is_damaged(all);
+  track->damaged |= warnings.size() > before;
   return track;
 }
 
@@ -115,20 +103,16 @@ bool is_klv_stream(const DataStream& stream) {
   return stream.kind == DataKind::klv;
 }
 
-bool is_klv(std::string_view head) {
-  // Not a container that has KLV in it: there the packets are cut into pieces.
-  return head.substr(0, 64).find("\x06\x0E\x2B\x34") != std::string_view::npos && has_klv_key(head) &&
-         !head.starts_with('G');
-}
-
 Result<Track> klv_track(const std::vector<TimedKlvPacket>& packets, const std::filesystem::path& file) {
-  const bool on_footage_time = !packets.empty() && std::all_of(packets.begin(), packets.end(),
-                                                               [](const auto& timed) { return timed.footage_s; });
+  const bool on_footage_time =
+      !packets.empty() && std::ranges::all_of(packets, [](const auto& timed) { return timed.footage_s.has_value(); });
   Track track{.file = file, .format = "MISB ST 0601", .on_footage_time = on_footage_time};
   for (const TimedKlvPacket& timed : packets)
     if (const std::optional<double>& fov_deg = timed.packet.horizontal_fov_deg; !track.lens && fov_deg && *fov_deg > 0)
       track.lens = LoggedLens{.source = "tag 16", .horizontal_fov_rad = rad_of_deg(*fov_deg)};
-  const bool by_ellipsoid = has_ellipsoid_heights(packets);
+  const bool by_ellipsoid = std::ranges::all_of(packets, [](const TimedKlvPacket& timed) {
+    return !has_place(timed.packet) || ellipsoid_height_m(timed.packet);
+  });
   add_utc(track, packets, on_footage_time);
   const double zero_s = on_footage_time ? 0 : track.utc_at_zero_s.value_or(0);
   KlvSamples samples(on_footage_time ? "footage" : "UTC");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "telemetry/binary_numbers.h"
+#include "telemetry/log_formats.h"
 
 namespace sigs {
 namespace {
@@ -159,8 +160,10 @@ std::size_t strange_bytes(std::string_view before, std::size_t packet_bytes) {
 
 }  // namespace
 
-bool has_klv_key(std::string_view bytes) {
-  return bytes.find(kKey) != std::string_view::npos;
+bool is_klv(std::string_view head) {
+  // Not a container that has KLV in it: there the packets are cut into pieces.
+  return head.substr(0, 64).find(kAnyKey) != std::string_view::npos && head.find(kKey) != std::string_view::npos &&
+         !head.starts_with('G');
 }
 
 KlvPackets klv_packets(std::string_view bytes) {

@@ -52,9 +52,6 @@ struct KlvPackets {
   std::size_t bytes_reread = 0;    // of packets that were left out, in which others were looked for
 };
 
-// Whether the bytes hold the key of ST 0601.
-[[nodiscard]] bool has_klv_key(std::string_view bytes);
-
 // Reads all packets with the key of ST 0601. Packets with another key are passed over, as are the 5 bytes of a metadata
 // access unit's header (ISO/IEC 13818-1, 2.12.4) that may stand before each packet. The length of a packet that is left
 // out may be what is damaged, so that others are looked for in it: until as many bytes were read again as there are,

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "telemetry/dji_cues.h"
 #include "telemetry/klv_packets.h"
 #include "telemetry/track.h"
 #include "video/data_streams.h"

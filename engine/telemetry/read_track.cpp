@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 #include <algorithm>
 #include <fstream>
@@ -21,7 +21,7 @@ namespace {
 struct FileFormat {
   const char* name;
   bool (*recognises)(std::string_view head);
-  Result<Track> (*track_of)(std::string_view bytes, const std::filesystem::path& file, const ReadTrackOptions& options);
+  Result<Track> (*track_of)(std::string_view bytes, const std::filesystem::path& file, const std::atomic<bool>* cancel);
   std::uint64_t limit_bytes = kLogLimit_bytes;
 };
 
@@ -34,16 +34,16 @@ struct StreamFormat {
 
 // Of a format that is read so fast that nobody stops it.
 template <auto kTrackOf>
-Result<Track> without_options(std::string_view bytes, const std::filesystem::path& file, const ReadTrackOptions&) {
+Result<Track> without_cancel(std::string_view bytes, const std::filesystem::path& file, const std::atomic<bool>*) {
   return kTrackOf(bytes, file);
 }
 
 // The first that recognises a file reads it. To add a format: one line here, and README.md.
 constexpr FileFormat kFileFormats[] = {
-    {"PX4 ULog", is_ulog, without_options<ulog_track>},
-    {"ArduPilot dataflash", is_dataflash, without_options<dataflash_track>},
-    {"DJI subtitles", is_dji_subtitles, without_options<dji_subtitles_track>, kTextLimit_bytes},
-    {"MISB ST 0601", is_klv, without_options<klv_file_track>},
+    {"PX4 ULog", is_ulog, without_cancel<ulog_track>},
+    {"ArduPilot dataflash", is_dataflash, without_cancel<dataflash_track>},
+    {"DJI subtitles", is_dji_subtitles, without_cancel<dji_subtitles_track>, kTextLimit_bytes},
+    {"MISB ST 0601", is_klv, without_cancel<klv_file_track>},
     {"CSV", is_track_csv, track_of_csv, kTextLimit_bytes},
 };
 constexpr StreamFormat kStreamFormats[] = {
@@ -79,43 +79,41 @@ tl::unexpected<Error> no_format(const std::filesystem::path& file, const std::ve
 }
 
 // What reads the file, in the format that recognises it. Errors: no_format(), those of data_streams_of().
-Result<std::function<Result<Track>()>> reader_of(const std::filesystem::path& file, const ReadTrackOptions& options) {
+Result<std::function<Result<Track>()>> reader_of(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
   const std::string head = head_of(file);
   for (const FileFormat& format : kFileFormats)
     if (format.recognises(head))
-      return [&]() -> Result<Track> {
+      return [&, cancel]() -> Result<Track> {
         const Result<std::string> bytes = read_text(file, format.limit_bytes);
-        return bytes ? format.track_of(*bytes, file, options) : fail(bytes.error());
+        return bytes ? format.track_of(*bytes, file, cancel) : fail(bytes.error());
       };
-  const Result<std::vector<DataStream>> streams = data_streams_of(file, options.cancel);
+  const Result<std::vector<DataStream>> streams = data_streams_of(file, cancel);
   // What FFmpeg says of a file that is no container would mislead; of an MP4 that was cut short it helps.
   if (!streams) return streams.error().kind == ErrorKind::cannot_read ? no_format(file, {}) : fail(streams.error());
   for (const StreamFormat& format : kStreamFormats)
     for (const DataStream& stream : *streams)
       if (format.recognises(stream))
-        return [&, stream]() -> Result<Track> {
-          const Result<DataPackets> payloads = read_data_stream(file, stream.index, options.cancel);
+        return [&, cancel, stream]() -> Result<Track> {
+          const Result<DataPackets> payloads = read_data_stream(file, stream.index, cancel);
           return payloads ? format.track_of(file, stream, *payloads) : fail(payloads.error());
         };
   return no_format(file, *streams);
 }
 
-Result<Track> read(const std::filesystem::path& file, const ReadTrackOptions& options) {
-  const Result<std::function<Result<Track>()>> reader = reader_of(file, options);
-  return reader ? (*reader)() : fail(reader.error());
-}
-
 }  // namespace
 
-Result<Track> read_track(const std::filesystem::path& file, const ReadTrackOptions& options) {
+Result<Track> read_track(const std::filesystem::path& file, const std::atomic<bool>* cancel) {
   if (const Result<void> there = check_input_file(file, "flight log"); !there) return fail(there.error());
   if (!std::ifstream(file, std::ios::binary))
     return fail(file.string(), "may not be read: permission denied", ErrorKind::cannot_read);
-  return guarded([&] { return read(file, options); });
+  return guarded([&]() -> Result<Track> {
+    const Result<std::function<Result<Track>()>> reader = reader_of(file, cancel);
+    return reader ? (*reader)() : fail(reader.error());
+  });
 }
 
 bool carries_telemetry(const std::filesystem::path& file) {
-  return guarded([&]() -> Result<bool> { return reader_of(file, {}).has_value(); }).value_or(false);
+  return guarded([&]() -> Result<bool> { return reader_of(file, nullptr).has_value(); }).value_or(false);
 }
 
 }  // namespace sigs

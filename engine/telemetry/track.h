@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -73,8 +74,7 @@ struct Track {
   std::optional<double> readout_s = {};  // of the rolling shutter, first to last row
 
   // What is wrong or doubtful, each with its channel and time: GPS without fix, places at 0/0, jumps of the clock,
-  // gaps, samples that were left out. Samples that a warning names as unsound are not in the channels unless the
-  // reading was told to keep them (ReadTrackOptions).
+  // gaps, samples that were left out. Samples that a warning names as unsound are not in the channels.
   std::vector<Warning> warnings = {};
   std::vector<std::string> unused_streams = {};  // by their names in the file: they are there, nothing is made of them
   bool damaged = false;                          // the file is cut off or broken: what stands before the damage is here
@@ -101,5 +101,15 @@ void for_each_channel(TrackType& track, const Visit& visit) {
   visit("exposure_s", track.exposure_s);
   visit("white_cdpm2", track.white_cdpm2);
 }
+
+// Reads a flight log; the format is recognised by the content, not by the name: a video with GoPro GPMF, DJI subtitles
+// or MISB KLV in it, DJI .srt, PX4 ULog, ArduPilot dataflash, a bare KLV stream, CSV with named columns.
+// A damaged file gives what stands before the damage, with `damaged` set and a warning that says where.
+//   cancel  set to true: ends soon with the error `interrupted`
+// Errors: cannot_read, bad_data (no known format, no telemetry in it, or nothing sound), interrupted.
+[[nodiscard]] Result<Track> read_track(const std::filesystem::path& file, const std::atomic<bool>* cancel = nullptr);
+
+// Whether one of these formats recognises the file or a stream in it, though nothing in it may be sound.
+[[nodiscard]] bool carries_telemetry(const std::filesystem::path& file);
 
 }  // namespace sigs

@@ -161,7 +161,7 @@ struct Sink {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& file, const ReadTrackOptions& options) : file_(file), options_(options) {
+  Reader(const std::filesystem::path& file, const std::atomic<bool>* cancel) : file_(file), cancel_(cancel) {
     track_.file = file;
     track_.format = "CSV";
   }
@@ -175,7 +175,7 @@ class Reader {
     find_channels(names, settings);
     while (!text.empty()) {
       if (line_ % 1024 == 0)
-        if (const Result<void> goes_on = check_interrupt(options_.cancel); !goes_on) return fail(goes_on.error());
+        if (const Result<void> goes_on = check_interrupt(cancel_); !goes_on) return fail(goes_on.error());
       const std::string_view line = next_line(text);
       ++line_;
       if (const std::string_view there = trimmed(line); !there.empty() && there.front() != '#') add_row(line);
@@ -321,14 +321,12 @@ class Reader {
   }
 
   Result<Track> finished() {
-    bool any = false;
     for_each_channel(track_, [&](std::string_view name, auto& channel) {
       for (const Sink& sink : sinks_)
         if (sink.name == name && !sink.own_is_complete) channel.own_times_s.clear();
       if (channel.empty()) channel = {};
-      any = any || !channel.empty();
     });
-    if (!any) return fail(file_.string(), "there is not one row in it with all columns of a channel");
+    if (!has_samples(track_)) return fail(file_.string(), "there is not one row in it with all columns of a channel");
     return std::move(track_);
   }
 
@@ -336,7 +334,7 @@ class Reader {
   [[nodiscard]] double row_s() const { return row_s_ > 0 ? row_s_ : 1; }
 
   std::filesystem::path file_;
-  ReadTrackOptions options_;
+  const std::atomic<bool>* cancel_;
   Track track_;
   std::vector<Sink> sinks_;
   int line_ = 0;
@@ -378,8 +376,8 @@ bool is_track_csv(std::string_view head) {
   return any;
 }
 
-Result<Track> track_of_csv(std::string_view text, const std::filesystem::path& file, const ReadTrackOptions& options) {
-  return Reader(file, options).read(text);
+Result<Track> track_of_csv(std::string_view text, const std::filesystem::path& file, const std::atomic<bool>* cancel) {
+  return Reader(file, cancel).read(text);
 }
 
 }  // namespace sigs

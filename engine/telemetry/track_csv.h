@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "telemetry/read_track.h"
 #include "telemetry/track.h"
 
 namespace sigs {
@@ -57,9 +56,10 @@ namespace sigs {
 // Reads its text. Cells that are no numbers, rows whose time does not go with those around them (StampedValues), and
 // columns that are not known are left out with a warning. A channel without all of its columns is left out with a
 // warning; height_m may be missing, it is 0 then. Errors as those of read_track().
-//   file  for the messages
+//   file    for the messages
+//   cancel  as that of read_track()
 [[nodiscard]] Result<Track> track_of_csv(std::string_view text, const std::filesystem::path& file,
-                                         const ReadTrackOptions& options = {});
+                                         const std::atomic<bool>* cancel = nullptr);
 
 // How a channel's values stand in the columns of track_csv.h: the names of the columns, and values as numbers and back.
 

@@ -46,14 +46,6 @@ std::string name_of_jump(double jump_s, double slack_s) {
   return jump_s < 0 ? "goes back" : "goes ahead";
 }
 
-ClockJump jump_of(double at_s, double jump_s, double slack_s) {
-  ClockJump jump;
-  jump.at_s = at_s;
-  jump.jump_s = jump_s;
-  jump.what = name_of_jump(jump_s, slack_s);
-  return jump;
-}
-
 // Places need more digits than six.
 std::string range_text(const Range& range, double value) {
   const bool of_place = range.column == "latitude_deg" || range.column == "longitude_deg";
@@ -74,7 +66,8 @@ void find_jumps(ChannelReport& report, const std::vector<double>& times_s, const
   for (std::size_t i = 1; i < own_s.size() && i < times_s.size(); ++i) {
     const double own_step_s = own_s[i] - own_s[i - 1];
     const double jump_s = own_step_s - (times_s[i] - times_s[i - 1]);
-    if (own_step_s < 0 || std::abs(jump_s) > slack_s) report.jumps.push_back(jump_of(times_s[i], jump_s, slack_s));
+    if (own_step_s < 0 || std::abs(jump_s) > slack_s)
+      report.jumps.push_back({times_s[i], jump_s, name_of_jump(jump_s, slack_s)});
   }
 }
 
@@ -228,20 +221,6 @@ void add_attitude(std::vector<PlotSeries>& list, const std::string& prefix, cons
   for (PlotSeries& angle : angles) list.push_back(std::move(angle));
 }
 
-std::vector<PlotSeries> attitude_series(const Track& track) {
-  std::vector<PlotSeries> list;
-  add_attitude(list, "", track.ned_from_airframe);
-  add_attitude(list, "camera ", track.ned_from_camera);
-  return list;
-}
-
-std::vector<PlotSeries> start_series(const Track& track) {
-  std::vector<PlotSeries> list;
-  if (track.ned_from_airframe.empty() && track.ned_from_camera.empty())
-    add_attitude(list, "camera ", track.start_from_camera);
-  return list;
-}
-
 std::vector<PlotSeries> rate_series(const Channel<glm::dvec3>& channel) {
   if (channel.empty()) return {};
   std::vector<PlotSeries> list{line_of("X forward"), line_of("Y right"), line_of("Z down")};
@@ -291,8 +270,12 @@ cv::Mat track_plot(const Track& track) {
                      .series = std::move(series),
                      .height = kPanel_px});
   };
-  add("attitude, degrees", attitude_series(track));
-  add("attitude of the camera against its start, degrees", start_series(track));
+  std::vector<PlotSeries> attitudes, since_start;
+  add_attitude(attitudes, "", track.ned_from_airframe);
+  add_attitude(attitudes, "camera ", track.ned_from_camera);
+  if (attitudes.empty()) add_attitude(since_start, "camera ", track.start_from_camera);
+  add("attitude, degrees", std::move(attitudes));
+  add("attitude of the camera against its start, degrees", std::move(since_start));
   add("angular rate of the camera, degrees/s", rate_series(track.camera_rate_radps));
   add("angular rate of the airframe, degrees/s", rate_series(track.airframe_rate_radps));
   add("height, m", height_series(track));

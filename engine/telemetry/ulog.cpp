@@ -11,8 +11,8 @@
 #include "base/pose.h"
 #include "base/text.h"
 #include "geo/geodetic.h"
+#include "telemetry/log_messages.h"
 #include "telemetry/log_samples.h"
-#include "telemetry/ulog_messages.h"
 
 namespace sigs {
 namespace {
@@ -323,10 +323,6 @@ Track UlogReading::track(const UlogContents& log, const std::filesystem::path& f
 }
 
 }  // namespace
-
-bool is_ulog(std::string_view head) {
-  return has_ulog_magic(head);
-}
 
 Result<Track> ulog_track(std::string_view bytes, const std::filesystem::path& file) {
   UlogReading reading;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "telemetry/ulog_messages.h"
+#include "telemetry/log_messages.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "telemetry/binary_numbers.h"
+#include "telemetry/log_formats.h"
 
 namespace sigs {
 namespace {
@@ -40,12 +41,6 @@ constexpr FieldType kFieldTypes[] = {
     {"float", kNumberType<float>},          {"double", kNumberType<double>},
     {"bool", kNumberType<std::uint8_t>},    {"char", kNumberType<std::uint8_t>},
 };
-
-std::optional<NumberType> number_type(std::string_view name) {
-  for (const FieldType& field : kFieldTypes)
-    if (field.name == name) return field.type;
-  return {};
-}
 
 struct MessagePlace {
   std::size_t offset = 0;
@@ -94,15 +89,16 @@ class Layout {
     const auto [type, count] = array_type(type_text);
     const bool is_array = type.size() != type_text.size();
     if (count == 0 || ++fields_ > kMaxTopic_bytes) return false;
-    const std::optional<NumberType> number = number_type(type);
+    const FieldType* const number = std::ranges::find(kFieldTypes, type, &FieldType::name);
+    const bool is_number = number != std::end(kFieldTypes);
     for (std::size_t i = 0; i < count; ++i) {
       const std::string element = is_array ? name + "[" + std::to_string(i) + "]" : name;
-      if (!number) {
+      if (!is_number) {
         if (++fields_ > kMaxTopic_bytes || !add_topic(type, element + ".", depth + 1)) return false;
         continue;
       }
-      note(element, *number);
-      size_ += number->bytes;
+      note(element, number->type);
+      size_ += number->type.bytes;
       if (size_ > kMaxTopic_bytes) return false;
     }
     return true;
@@ -130,7 +126,7 @@ class MessageWalk {
   MessageWalk(std::string_view bytes, const UlogReader& reader) : bytes_(bytes), reader_(reader) {}
 
   Result<UlogContents> contents(const std::string& name) {
-    if (!has_ulog_magic(bytes_) || bytes_.size() < kUlogHeader_bytes) return fail(name, "is no ULog");
+    if (!is_ulog(bytes_) || bytes_.size() < kUlogHeader_bytes) return fail(name, "is no ULog");
     const int version = static_cast<unsigned char>(bytes_[7]);
     if (version > 1) return fail(name + ": byte 7", "ULog version " + std::to_string(version) + ", known are 0 and 1");
     contents_.start_s = number_at(bytes_, 8, kNumberType<std::uint64_t>) * 1e-6;
@@ -322,8 +318,8 @@ class MessageWalk {
 
 }  // namespace
 
-bool has_ulog_magic(std::string_view bytes) {
-  return bytes.starts_with(kMagic);
+bool is_ulog(std::string_view head) {
+  return head.starts_with(kMagic);
 }
 
 Result<UlogContents> read_ulog_messages(std::string_view bytes, const std::string& name, const UlogReader& reader) {

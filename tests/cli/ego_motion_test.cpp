@@ -11,7 +11,7 @@
 #include "cli/program.h"
 #include "project/json.h"
 #include "support/test_data.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 #include "video/video_writer.h"
 
 using namespace sigs;

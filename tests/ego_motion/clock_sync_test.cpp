@@ -12,7 +12,7 @@
 #include "base/pose.h"
 #include "sphere_footage.h"
 #include "support/test_data.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 namespace sigs::test {
 

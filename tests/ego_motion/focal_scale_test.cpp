@@ -8,7 +8,6 @@
 #include "base/pose.h"
 #include "ego_motion/attitudes.h"
 #include "ego_motion/ego_motion.h"
-#include "ego_motion/focal_scale.h"
 #include "ego_motion/rotation_fit.h"
 #include "sphere_footage.h"
 #include "support/test_data.h"

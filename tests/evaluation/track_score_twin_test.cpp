@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "evaluation/clips.h"
-#include "evaluation/metrics/overlap.h"
+#include "evaluation/metrics/detection_score.h"
 #include "evaluation/metrics/track_score.h"
 
 namespace sigs::test {

@@ -7,7 +7,7 @@
 #include "base/pose.h"
 #include "camera/camera.h"
 #include "made_project.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 namespace sigs {
 

@@ -23,7 +23,7 @@
 #include "support/files.h"
 #include "support/process.h"
 #include "support/test_data.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 using namespace sigs;
 using test::made_and_opened;

@@ -7,7 +7,6 @@
 #include "base/json.h"
 #include "fuzz/fuzz_input.h"
 #include "performance/risk.h"
-#include "performance/risk_flight.h"
 
 namespace sigs::fuzz {
 

@@ -21,7 +21,7 @@
 #include "project/json.h"
 #include "scene/scene_files.h"
 #include "support/test_data.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 #include "video/frame_source.h"
 #include "video/image_sequence.h"
 

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "performance/risk_flight.h"
-
 namespace sigs::test {
 namespace {
 

@@ -13,7 +13,6 @@
 
 #include "base/pose.h"
 #include "support/test_data.h"
-#include "telemetry/read_track.h"
 #include "telemetry/track.h"
 
 using namespace sigs;

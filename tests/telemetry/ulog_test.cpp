@@ -9,7 +9,7 @@
 
 #include "broken_bytes.h"
 #include "support/test_data.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 using namespace sigs;
 using namespace sigs::test;

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "evaluation/metrics/overlap.h"
+#include "evaluation/metrics/detection_score.h"
 
 namespace sigs {
 

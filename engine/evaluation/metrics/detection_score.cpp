@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "base/ensure.h"
-#include "evaluation/metrics/overlap.h"
 #include "labels/label_text.h"
 
 namespace sigs {
@@ -66,18 +65,12 @@ std::vector<EncounterSpan> encounters_of(const TargetTruth& target, double rate_
   const double max_gap_frames = policy.max_gap_s * rate_hz + kFrameRounding;
   for (int frame = 0; frame < static_cast<int>(target.frames.size()); ++frame) {
     if (!is_seen_in_range(frame_at(target, frame), policy)) continue;
-    const bool continues = !found.empty() && frame - found.back().last - 1 <= max_gap_frames;
-    if (continues) {
+    if (!found.empty() && frame - found.back().last - 1 <= max_gap_frames)
       found.back().last = frame;
-    } else {
+    else
       found.push_back({frame, frame});
-    }
   }
   return found;
-}
-
-bool is_long_enough(const EncounterSpan& encounter, double rate_hz, const DetectionPolicy& policy) {
-  return length_of(encounter) >= policy.min_encounter_s * rate_hz - kFrameRounding;
 }
 
 // The last frame of the first window in which one track matches the target in at least min_window_share of the frames
@@ -160,32 +153,19 @@ EncounterScore score_of(const MatchedTarget& matched_target, const EncounterSpan
   return score;
 }
 
-void count(DetectionRate& rate, bool is_detected) {
-  ++rate.encounters;
-  rate.detected += is_detected;
-}
-
-DetectionRate& rate_of(DetectionScore& sum, HorizonSide side) {
-  switch (side) {
-    case HorizonSide::above:
-      return sum.above_horizon;
-    case HorizonSide::on:
-      return sum.on_horizon;
-    case HorizonSide::below:
-      return sum.below_horizon;
-    case HorizonSide::unknown:
-      break;
-  }
-  return sum.unknown_horizon;
-}
+// In the order of HorizonSide.
+constexpr std::array kRatesByHorizon{&DetectionScore::below_horizon, &DetectionScore::on_horizon,
+                                     &DetectionScore::above_horizon, &DetectionScore::unknown_horizon};
 
 void add_encounter(DetectionScore& sum, EncounterScore encounter, const DetectionPolicy& policy) {
   if (encounter.min_range_m > policy.max_closest_range_m) {
     ++sum.encounters_too_far;
     return;
   }
-  count(sum.all, encounter.is_detected);
-  count(rate_of(sum, encounter.horizon), encounter.is_detected);
+  for (const auto rate : {&DetectionScore::all, kRatesByHorizon.at(static_cast<std::size_t>(encounter.horizon))}) {
+    ++(sum.*rate).encounters;
+    (sum.*rate).detected += encounter.is_detected;
+  }
   sum.encounters.push_back(std::move(encounter));
 }
 
@@ -210,7 +190,7 @@ void add_clip(DetectionScore& sum, Pairs& pairs, const DetectedClip& clip, const
     const std::vector<EncounterSpan> encounters =
         has_encounters ? encounters_of(matched_target.target, rate_hz, policy) : std::vector<EncounterSpan>();
     for (const EncounterSpan& encounter : encounters) {
-      if (is_long_enough(encounter, rate_hz, policy))
+      if (length_of(encounter) >= policy.min_encounter_s * rate_hz - kFrameRounding)
         add_encounter(sum, score_of(matched_target, encounter, policy), policy);
       else
         ++sum.encounters_too_short;
@@ -356,11 +336,10 @@ ClipMatches matches_of(const DetectedClip& clip, const DetectionPolicy& policy) 
       if (matches_or_is_near(truth, static_cast<std::size_t>(frame), reported, policy, matches)) continue;
       ++matches.false_boxes;
       matches.false_reports.emplace_back(frame, reported);
-      if (reported.track == kNoTrack) {
+      if (reported.track == kNoTrack)
         ++matches.untracked_false_boxes;
-      } else {
+      else
         matches.false_tracks.insert(reported.track);
-      }
     }
   }
   return matches;

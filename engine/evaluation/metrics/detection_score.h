@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <span>
@@ -95,6 +96,24 @@ struct DetectionScore {
 
 // Mean frame rate of a clip; of a single frame, its nominal one.
 [[nodiscard]] double rate_hz_of(const ClipTruth& clip);
+
+// Intersection over union (Jaccard index) of the areas of two boxes, 0 to 1. 0 where they do not intersect or one has
+// no area.
+[[nodiscard]] inline double overlap(const Box& a, const Box& b) {
+  const double width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+  const double height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+  if (!(width > 0 && height > 0)) return 0;
+  const double both = width * height;
+  const double either = a.width * a.height + b.width * b.height - both;
+  return std::clamp(both / either, 0.0, 1.0);  // either > 0: it is at least the larger area
+}
+
+// Whether value is greater than threshold by more than 1e-9, so that rounding of decimals does not matter: 5 px may be
+// stored as 5.000000000000001.
+[[nodiscard]] inline bool exceeds(double value, double threshold) {
+  constexpr double kRounding = 1e-9;
+  return value > threshold + kRounding;
+}
 
 // Overlap that tolerates a pixel or two where the true box is tiny: if its area is less than min_area_px2, it and the
 // reported box, where that is smaller too, are first enlarged to that area about their centres, keeping their aspect

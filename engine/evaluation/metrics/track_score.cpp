@@ -8,7 +8,6 @@
 
 #include "base/ensure.h"
 #include "base/statistics.h"
-#include "evaluation/metrics/overlap.h"
 
 namespace sigs {
 

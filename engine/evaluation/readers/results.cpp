@@ -17,7 +17,9 @@ namespace sigs {
 
 namespace {
 
+// In the order of ResultsFormat, the readers from otb on.
 constexpr std::array<std::string_view, 7> kFormatNames = {"auto", "otb", "vot", "mot", "csv", "aot", "coco"};
+constexpr std::array kReaders{read_otb, read_vot, read_mot, read_csv, read_aot, read_coco};
 
 // First line that is not empty.
 std::optional<TextLine> first_line(const std::string& text) {
@@ -66,23 +68,6 @@ Result<ResultsFormat> detected_format(const ResultsFile& file) {
                                 fields.size()));
 }
 
-Result<Results> read_as(ResultsFormat format, const ResultsFile& file) {
-  switch (format) {
-    case ResultsFormat::otb:
-      return read_otb(file);
-    case ResultsFormat::vot:
-      return read_vot(file);
-    case ResultsFormat::mot:
-      return read_mot(file);
-    case ResultsFormat::csv:
-      return read_csv(file);
-    case ResultsFormat::coco:
-      return read_coco(file);
-    default:
-      return read_aot(file);
-  }
-}
-
 }  // namespace
 
 const ReportedBox* Results::best_at(int frame) const {
@@ -113,7 +98,7 @@ Result<Results> read_results(const std::filesystem::path& path, const FootageTru
         path.string(),
         "tells of several clips and is not in the layout coco, nor aot with a truth that names images; name a file "
         "for each clip");
-  Result<Results> results = read_as(format, file);
+  Result<Results> results = kReaders.at(static_cast<std::size_t>(format) - 1)(file);
   if (results) results->name = results_name(path);
   return results;
 }

@@ -84,8 +84,7 @@ struct TableColumn {
   std::vector<bool> is_partial = {};  // no mean, since few frames have a report; empty: none
 };
 
-// A column to which add_row() adds a cell; none is the best of its column.
-[[nodiscard]] TableColumn text_column(std::string title, std::string unit);
+// Adds a cell to each column; none is the best of its column.
 void add_row(std::vector<TableColumn>& columns, const std::vector<std::string>& cells);
 
 // A table of a page, with a sentence on each mark below it.

@@ -45,11 +45,9 @@ std::string detection_text(const std::optional<RigDetection>& detection, const s
 }
 
 std::vector<TableColumn> rig_table(const RigDetectionReport& report) {
-  std::vector<TableColumn> columns{text_column("detector", ""),    text_column("intruder", ""),
-                                   text_column("camera", ""),      text_column("seen", "s"),
-                                   text_column("detected", "s"),   text_column("share", ""),
-                                   text_column("first seen", "s"), text_column("detected", "first, s"),
-                                   text_column("range", "m"),      text_column("bearing", "deg")};
+  std::vector<TableColumn> columns{{"detector", ""},  {"intruder", ""},  {"camera", ""},      {"seen", "s"},
+                                   {"detected", "s"}, {"share", ""},     {"first seen", "s"}, {"detected", "first, s"},
+                                   {"range", "m"},    {"bearing", "deg"}};
   for (const RigLine& line : rig_lines_of(report)) {
     const std::optional<RigDetection>& first = line.share.first;
     add_row(
@@ -65,10 +63,9 @@ std::vector<TableColumn> rig_table(const RigDetectionReport& report) {
 }
 
 std::vector<TableColumn> handover_table(const RigDetectionReport& report) {
-  std::vector<TableColumn> columns{text_column("detector", ""),      text_column("intruder", ""),
-                                   text_column("handover", ""),      text_column("at", "s"),
-                                   text_column("gap", "s"),          text_column("last detected", "before, s"),
-                                   text_column("first", "after, s"), text_column("loss", "s")};
+  std::vector<TableColumn> columns{{"detector", ""},      {"intruder", ""}, {"handover", ""},
+                                   {"at", "s"},           {"gap", "s"},     {"last detected", "before, s"},
+                                   {"first", "after, s"}, {"loss", "s"}};
   for (const RigScore& score : report.scores)
     for (const RigTargetScore& target : score.targets)
       for (const RigHandoverScore& one : target.handovers)

@@ -86,17 +86,13 @@ TableColumn error_column(const std::vector<TrackScore>& scores, std::string titl
   return out;
 }
 
-std::string frame_range_text(const EncounterScore& encounter) {
-  return fmt::format("{} to {}", encounter.first_frame, encounter.last_frame);
-}
-
 // Of a table of slices: what they are by, their names and numbers of frames, and a column for each tracker or detector.
 template <class Slice, class Text>
 std::vector<TableColumn> slice_columns(const std::string& title, const std::string& unit,
                                        const std::vector<std::string>& names,
                                        const std::vector<std::vector<Slice>>& slices, const Text& text_of) {
-  std::vector<TableColumn> columns{text_column(title, "by"), {}, text_column("frames", "")};
-  for (const std::string& name : names) columns.push_back(text_column(line_text(name), unit));
+  std::vector<TableColumn> columns{{title, "by"}, {}, {"frames", ""}};
+  for (const std::string& name : names) columns.push_back({line_text(name), unit});
   for (std::size_t s = 0; !slices.empty() && s < slices.front().size(); ++s) {
     // A tracker that was given the truth on its way is not scored there, so trackers may differ in frames.
     int most = 0;
@@ -107,12 +103,6 @@ std::vector<TableColumn> slice_columns(const std::string& title, const std::stri
     add_row(columns, cells);
   }
   return columns;
-}
-
-std::vector<GroupShare> encounter_shares(const DetectionScore& score) {
-  std::vector<GroupShare> shares;
-  for (const EncounterScore& encounter : score.encounters) shares.push_back({encounter.is_detected ? 1.0 : 0.0, 1});
-  return shares;
 }
 
 std::string interval_text(const Interval& interval) {
@@ -134,21 +124,7 @@ std::string interval_lines(const std::string& title, const std::vector<std::stri
   return text;
 }
 
-std::string padded(const std::string& text, std::size_t width, bool to_left) {
-  const std::string blank(width - columns_of(text), ' ');
-  return to_left ? text + blank : blank + text;
-}
-
-std::string right_trimmed(std::string line) {
-  line.erase(line.find_last_not_of(' ') + 1);
-  return line;
-}
-
 }  // namespace
-
-TableColumn text_column(std::string title, std::string unit) {
-  return {.title = std::move(title), .unit = std::move(unit)};
-}
 
 void add_row(std::vector<TableColumn>& columns, const std::vector<std::string>& cells) {
   ENSURE(cells.size() == columns.size());
@@ -242,20 +218,20 @@ std::vector<TableColumn> slices_of(const TrackSetReport& report) {
 }
 
 std::vector<TableColumn> encounters_of(const DetectionReport& report) {
-  std::vector<TableColumn> columns{
-      text_column("detector", ""),        text_column("film", ""),          text_column("intruder", ""),
-      text_column("frames", ""),          text_column("horizon", ""),       text_column("nearest", "m"),
-      text_column("detected", "in time"), text_column("first seen", "m"),   text_column("first seen", "after s"),
-      text_column("matched", "frames"),   text_column("in range", "frames")};
+  std::vector<TableColumn> columns{{"detector", ""},        {"film", ""},          {"intruder", ""},
+                                   {"frames", ""},          {"horizon", ""},       {"nearest", "m"},
+                                   {"detected", "in time"}, {"first seen", "m"},   {"first seen", "after s"},
+                                   {"matched", "frames"},   {"in range", "frames"}};
   for (const DetectionScore& score : report.scores)
     for (const EncounterScore& encounter : score.encounters) {
       const double none = std::numeric_limits<double>::quiet_NaN();
-      add_row(columns, {line_text(score.name), line_text(encounter.clip), std::to_string(encounter.target),
-                        frame_range_text(encounter), std::string(name_of(encounter.horizon)),
-                        fixed_text(encounter.min_range_m, 0), encounter.is_detected ? "yes" : "no",
-                        fixed_text(encounter.first_detection_range_m.value_or(none), 0),
-                        fixed_text(encounter.first_detection_time_s.value_or(none), 2),
-                        std::to_string(encounter.frames_matched), std::to_string(encounter.frames_visible)});
+      add_row(columns,
+              {line_text(score.name), line_text(encounter.clip), std::to_string(encounter.target),
+               fmt::format("{} to {}", encounter.first_frame, encounter.last_frame),
+               std::string(name_of(encounter.horizon)), fixed_text(encounter.min_range_m, 0),
+               encounter.is_detected ? "yes" : "no", fixed_text(encounter.first_detection_range_m.value_or(none), 0),
+               fixed_text(encounter.first_detection_time_s.value_or(none), 2), std::to_string(encounter.frames_matched),
+               std::to_string(encounter.frames_visible)});
     }
   return columns;
 }
@@ -282,11 +258,13 @@ std::string aligned(const std::vector<TableColumn>& columns) {
     ENSURE(lines.size() == rows.size());
     std::size_t width = 0;
     for (const std::string& line : lines) width = std::max(width, columns_of(line));
-    for (std::size_t row = 0; row < rows.size(); ++row)
-      rows[row] += (c == 0 ? "" : "  ") + padded(lines[row], width, c == 0);
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      const std::string blank(width - columns_of(lines[row]), ' ');
+      rows[row] += c == 0 ? lines[row] + blank : "  " + blank + lines[row];
+    }
   }
   std::string text;
-  for (const std::string& row : rows) text += right_trimmed(row) + "\n";
+  for (const std::string& row : rows) text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
   return text;
 }
 
@@ -335,7 +313,9 @@ std::string intervals_text(const DetectionReport& report) {
   std::vector<std::string> names;
   for (const DetectionScore& score : report.scores) {
     names.push_back(score.name);
-    shares.push_back(encounter_shares(score));
+    shares.emplace_back();
+    for (const EncounterScore& encounter : score.encounters)
+      shares.back().push_back({encounter.is_detected ? 1.0 : 0.0, 1});
   }
   return interval_lines("EDR, 95 % when encounters are drawn anew", names, shares);
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 #include <utility>
@@ -63,8 +64,15 @@ class Aircraft {
     return draft;
   }
 
+  // Unless it surely is the same message as the point before, repeated in a later snapshot: at the same place, at a
+  // time that differs by less than rounding makes it.
   void add(PathDraft& draft, const DraftPoint& point) {
-    if (!is_repeated(draft, point)) draft.points.push_back(point);
+    constexpr double kRounding_s = 0.5;  // readsb rounds the age of a position to 0.1 s
+    const DraftPoint* const last = draft.points.empty() ? nullptr : &draft.points.back();
+    if (last && last->latitude_deg == point.latitude_deg && last->longitude_deg == point.longitude_deg &&
+        last->time_s && point.time_s && std::abs(*last->time_s - *point.time_s) < kRounding_s)
+      return;
+    draft.points.push_back(point);
   }
 
   [[nodiscard]] std::vector<PathDraft> take() {

@@ -37,15 +37,12 @@ bool is_usable_place(const DraftPoint& point) {
   return !is_nowhere && check_place({point.latitude_deg, point.longitude_deg, 0}).has_value();
 }
 
-// Some programs count longitudes from 0 to 360 degrees, or beyond 180 where a line crosses the antimeridian.
-void bring_longitude_into_range(DraftPoint& point) {
-  const double size_deg = std::abs(point.longitude_deg);
-  if (size_deg > 180 && size_deg <= 360) point.longitude_deg = std::remainder(point.longitude_deg, 360.0);
-}
-
 void drop_unusable_places(Repair& repair) {
   std::vector<DraftPoint>& points = repair.points();
-  for (DraftPoint& point : points) bring_longitude_into_range(point);
+  // Some programs count longitudes from 0 to 360 degrees, or beyond 180 where a line crosses the antimeridian.
+  for (DraftPoint& point : points)
+    if (const double size_deg = std::abs(point.longitude_deg); size_deg > 180 && size_deg <= 360)
+      point.longitude_deg = std::remainder(point.longitude_deg, 360.0);
   const auto first = std::find_if_not(points.begin(), points.end(), is_usable_place);
   if (first == points.end()) return;
   const auto number = first - points.begin() + 1;
@@ -76,10 +73,6 @@ bool settle_times(Repair& repair) {
   return true;
 }
 
-bool is_earlier(const DraftPoint& a, const DraftPoint& b) {
-  return *a.time_s < *b.time_s;
-}
-
 void bring_into_order(Repair& repair) {
   std::vector<DraftPoint>& points = repair.points();
   std::int64_t back = 0;
@@ -90,10 +83,10 @@ void bring_into_order(Repair& repair) {
   }
   if (back > 0) {
     repair.note(fmt::format("times go back at {}; put in order of time", count_text(back, "point")));
-    std::stable_sort(points.begin(), points.end(), is_earlier);
+    std::ranges::stable_sort(points, {}, &DraftPoint::time_s);
   }
-  const auto has_same_time = [](const DraftPoint& a, const DraftPoint& b) { return *a.time_s == *b.time_s; };
-  const auto end = std::unique(points.begin(), points.end(), has_same_time);
+  const auto end = std::unique(points.begin(), points.end(),
+                               [](const DraftPoint& a, const DraftPoint& b) { return a.time_s == b.time_s; });
   if (end == points.end()) return;
   repair.note(fmt::format("{} left out for the time of an earlier one", count_text(points.end() - end, "point")));
   points.erase(end, points.end());
@@ -162,16 +155,14 @@ void take_from_pressure(Repair& repair, OptionalNumbers& heights) {
                     count_text(taken, "height")));
 }
 
-std::string_view warning_of(HeightReference reference) {
-  static constexpr std::array<std::string_view, 5> kWarnings{
-      "",
-      "heights count from the sea (the geoid, or what the recorder took for it), which lies up to 107 m from the "
-      "ellipsoid; they are not converted",
-      "heights are those of the pressure in the standard atmosphere; without the QNH they cannot be compared with "
-      "heights of GPS",
-      "heights count from the ground, whose own height is not in the file", "has no heights; all are 0"};
-  return kWarnings.at(static_cast<std::size_t>(reference));
-}
+// In the order of HeightReference.
+constexpr std::array<std::string_view, 5> kHeightWarnings{
+    "",
+    "heights count from the sea (the geoid, or what the recorder took for it), which lies up to 107 m from the "
+    "ellipsoid; they are not converted",
+    "heights are those of the pressure in the standard atmosphere; without the QNH they cannot be compared with "
+    "heights of GPS",
+    "heights count from the ground, whose own height is not in the file", "has no heights; all are 0"};
 
 // The height of each point, and what they count from.
 std::pair<std::vector<double>, HeightReference> settle_heights(Repair& repair) {
@@ -230,7 +221,7 @@ std::optional<RecordedPath> repaired(PathDraft draft, const std::string& where) 
   if (path.has_times && !path.utc) repair.note("times do not count from a known instant");
   const auto [heights, reference] = settle_heights(repair);
   path.height = reference;
-  if (const std::string_view warning = warning_of(reference); !warning.empty()) repair.note(warning);
+  if (reference != HeightReference::ellipsoid) repair.note(kHeightWarnings.at(static_cast<std::size_t>(reference)));
   if (path.has_times) note_gaps(repair);
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const DraftPoint& point = repair.points()[i];
@@ -268,10 +259,8 @@ void drop_lines_of_timed_paths(std::vector<RecordedPath>& paths) {
     const auto found = timed.find(shape_of_path(path));
     if (found != timed.end() && has_same_places(path, *found->second)) doubled.insert(&path);
   }
-  std::vector<RecordedPath> kept;
-  for (RecordedPath& path : paths)
-    if (!doubled.contains(&path)) kept.push_back(std::move(path));
-  paths = std::move(kept);
+  // Each is looked at in its old place.
+  std::erase_if(paths, [&](const RecordedPath& path) { return doubled.contains(&path); });
 }
 
 }  // namespace
@@ -287,14 +276,6 @@ double file_number_or_nan(std::string_view text) {
 std::string file_name_text(std::string_view text) {
   constexpr std::size_t kMaxBytes = 200;
   return std::string(trimmed(line_text(text.substr(0, kMaxBytes)), " "));
-}
-
-bool is_repeated(const PathDraft& draft, const DraftPoint& point) {
-  constexpr double kRounding_s = 0.5;  // readsb rounds the age of a position to 0.1 s
-  if (draft.points.empty()) return false;
-  const DraftPoint& last = draft.points.back();
-  return last.latitude_deg == point.latitude_deg && last.longitude_deg == point.longitude_deg && last.time_s &&
-         point.time_s && std::abs(*last.time_s - *point.time_s) < kRounding_s;
 }
 
 Result<std::vector<RecordedPath>> repair_paths(std::vector<PathDraft> drafts, const std::string& where) {

@@ -46,10 +46,6 @@ struct PathDraft {
 // A name from a file on one line of UTF-8 without blanks at its ends, of at most 200 bytes or so.
 [[nodiscard]] std::string file_name_text(std::string_view text);
 
-// Whether two points are surely the same message of an aircraft, repeated in a later snapshot: at the same place, at
-// times that differ by less than rounding makes them.
-[[nodiscard]] bool is_repeated(const PathDraft& draft, const DraftPoint& point);
-
 // One reader for each kind of text. Each returns what the text says, unchecked; repair_paths() checks it.
 //   text   without byte order mark
 //   where  the file, for messages

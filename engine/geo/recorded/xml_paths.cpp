@@ -77,14 +77,6 @@ PathDraft draft_of_gpx(const pugi::xml_node& node) {
   return draft;
 }
 
-// The paths in a document whose root is <gpx>, not nested deeper than kMaxNesting; the same for <kml>.
-std::vector<PathDraft> drafts_of_gpx(const pugi::xml_node& root) {
-  std::vector<PathDraft> drafts;
-  for (const pugi::xml_node& node : root.children())
-    if (local_name(node) == "trk" || local_name(node) == "rte") drafts.push_back(draft_of_gpx(node));
-  return drafts;
-}
-
 // KML 2.2 (OGC 07-147r2) with Google's extension gx:Track, which KML 2.3 (OGC 12-007r2) has as Track.
 
 constexpr std::string_view kKmlSpace = " \t\r\n";
@@ -244,12 +236,6 @@ class KmlPaths {
   std::vector<PathDraft> drafts_;
 };
 
-std::vector<PathDraft> drafts_of_kml(const pugi::xml_node& root) {
-  KmlPaths paths;
-  paths.add_folder(root);
-  return paths.take();
-}
-
 }  // namespace
 
 Result<std::vector<PathDraft>> drafts_of_xml(std::string_view text, const std::string& where) {
@@ -262,8 +248,17 @@ Result<std::vector<PathDraft>> drafts_of_xml(std::string_view text, const std::s
     return fail(fmt::format("{}: {}", where, text_position(text, static_cast<std::size_t>(parsed.offset) + 1)),
                 std::string("is not XML from here on: ") + parsed.description());
   const pugi::xml_node root = document.document_element();
-  if (local_name(root) == "gpx") return drafts_of_gpx(root);
-  if (local_name(root) == "kml") return drafts_of_kml(root);
+  if (local_name(root) == "gpx") {
+    std::vector<PathDraft> drafts;
+    for (const pugi::xml_node& node : root.children())
+      if (local_name(node) == "trk" || local_name(node) == "rte") drafts.push_back(draft_of_gpx(node));
+    return drafts;
+  }
+  if (local_name(root) == "kml") {
+    KmlPaths paths;
+    paths.add_folder(root);
+    return paths.take();
+  }
   return fail(where, fmt::format("is XML, but neither GPX nor KML: its root is <{}>", file_name_text(root.name())));
 }
 

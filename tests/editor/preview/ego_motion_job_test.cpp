@@ -9,7 +9,7 @@
 #include "comes_true.h"
 #include "project/json.h"
 #include "support/test_data.h"
-#include "telemetry/read_track.h"
+#include "telemetry/track.h"
 
 using namespace sigs;
 using namespace sigs::editor;
