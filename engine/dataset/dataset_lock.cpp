@@ -22,7 +22,7 @@
 
 #include "base/paths.h"
 #include "dataset/index.h"
-#include "dataset/video_name.h"
+#include "dataset/recipe.h"
 
 namespace sigs {
 

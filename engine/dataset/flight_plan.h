@@ -12,9 +12,7 @@
 #include "base/pose.h"
 #include "camera/camera.h"
 #include "dataset/encounter.h"
-#include "dataset/flight_quantities.h"
-#include "dataset/flown_track.h"
-#include "dataset/sample.h"
+#include "dataset/recipe.h"
 #include "project/project.h"
 #include "scene/scene.h"
 
@@ -80,6 +78,11 @@ struct FlightEnds {
 // lens has no ray there, or one more than 75 degrees from the optical axis: the ray of the nearest place on the line to
 // the optical axis that has one.
 [[nodiscard]] glm::dvec3 ray_of_place(const Camera& camera, const glm::dvec2& place_percent);
+
+// The place at a time: the mean over smoothing_s seconds, half of them before, of the straight lines between the
+// points. Near the ends the mean is over fewer seconds, equally many before and after. Times beyond the ends count as
+// the ends. smoothing_s >= 0; with 0 the lines themselves, whose direction jumps at points.
+[[nodiscard]] glm::dvec3 place_at(const FlownTrack& track, double time_s, double smoothing_s);
 
 // Plans a flight of kind encounter_model or recorded: a flight that was drawn or recorded is turned about the vertical
 // and moved as a whole, so that its closest approach to the camera is as asked (encounter_model/model_flight.h):

@@ -9,7 +9,7 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "dataset/index.h"
-#include "dataset/video_name.h"
+#include "dataset/recipe.h"
 #include "project/project.h"
 
 namespace sigs {

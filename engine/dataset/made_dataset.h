@@ -16,7 +16,7 @@ namespace sigs {
 
 // A video of the index.
 struct IndexedVideo {
-  std::string name;                         // a name that is allowed (dataset/video_name.h)
+  std::string name;                         // a name that is allowed (dataset/recipe.h)
   std::string split;                        // empty: none
   std::map<std::string, std::string> tags;  // background, aircraft, flight and those of the recipe
   std::map<std::string, double> sampled;    // numbers that were sampled for it ("drawn")

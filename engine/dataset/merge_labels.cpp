@@ -10,7 +10,6 @@
 
 #include "base/text.h"
 #include "base/threads.h"
-#include "dataset/video_name.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
 #include "labels/labels.h"

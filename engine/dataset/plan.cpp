@@ -10,7 +10,6 @@
 #include "base/threads.h"
 #include "dataset/footage_cache.h"
 #include "dataset/sample.h"
-#include "dataset/video_name.h"
 #include "dataset/video_sample.h"
 #include "project/project.h"
 #include "project/validate.h"

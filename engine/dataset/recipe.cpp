@@ -11,7 +11,6 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "dataset/recipe_reading.h"
-#include "dataset/video_name.h"
 #include "project/fields.h"
 #include "project/json.h"
 #include "project/validate.h"

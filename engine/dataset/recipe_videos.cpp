@@ -12,7 +12,6 @@
 #include "base/text.h"
 #include "dataset/recipe.h"
 #include "dataset/recipe_reading.h"
-#include "dataset/video_name.h"
 #include "project/fields.h"
 #include "project/json.h"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/ensure.h"
+#include "base/interpolation.h"
 #include "base/text.h"
 #include "encounter_model/model_flight.h"
 #include "spline/trajectory.h"
@@ -28,6 +29,7 @@ constexpr double kMinStep_s = 1e-6;  // frames of footage may have the same time
 constexpr double kMaxGap_s = 30;     // of a recording
 constexpr int kTrackRedraws = 1000;  // of a drawn flight that leaves the model's limits
 constexpr double kMaxDrawn_s = 3600;
+constexpr int kSmoothingSteps = 32;  // places that a mean is made of
 
 // A flight in axes north, east, down, at seconds after the video's first frame.
 using PathNed = std::function<glm::dvec3(double since_first_s)>;
@@ -106,6 +108,15 @@ PathNed drawn_path(const EncounterModel& model, Random random, double length_s) 
 
 std::string seconds(double value_s) {
   return short_number_text(std::round(value_s * 1000) / 1000) + " s";
+}
+
+// The longest time between two neighbouring points from one time to another.
+double max_gap_s(const FlownTrack& track, double from_s, double to_s) {
+  double longest_s = 0;
+  for (std::size_t i = 1; i < track.times_s.size(); ++i)
+    if (track.times_s[i] > from_s && track.times_s[i - 1] < to_s)
+      longest_s = std::max(longest_s, track.times_s[i] - track.times_s[i - 1]);
+  return longest_s;
 }
 
 // The time in the recording at the video's first frame.
@@ -249,6 +260,15 @@ OrReason<void> add_derived_of_track(const FlightContext& context, const VideoTim
 }
 
 }  // namespace
+
+glm::dvec3 place_at(const FlownTrack& track, double time_s, double smoothing_s) {
+  const double half_s = std::min({smoothing_s / 2, time_s - track.times_s.front(), track.times_s.back() - time_s});
+  if (!(half_s > 0)) return value_at(track.times_s, track.places_ned_m, time_s);
+  glm::dvec3 sum_m(0);
+  for (int i = 0; i < kSmoothingSteps; ++i)
+    sum_m += value_at(track.times_s, track.places_ned_m, time_s + half_s * ((2 * i + 1.0) / kSmoothingSteps - 1));
+  return sum_m / double(kSmoothingSteps);
+}
 
 OrReason<PlannedFlight> planned_track_flight(FlightKind kind, const QuantityValues& values,
                                              const FlightContext& context) {
