@@ -95,17 +95,13 @@ constexpr std::array<std::string_view, 4> kParts{"background", "aircraft", "flig
 constexpr std::array<std::string_view, 5> kOwnNames{"labels", "splits", "index.json", "sha256sums",
                                                     "entry"};  // in lower case
 
-std::string numbered(int number) {
-  const std::string digits = std::to_string(number);
-  return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
-}
-
+// Of the pattern of a video's name.
 std::optional<std::string> part_of(std::string_view name, const NameParts& parts) {
-  if (name == kParts[0]) return parts.background;
-  if (name == kParts[1]) return parts.aircraft;
-  if (name == kParts[2]) return parts.flight;
-  if (name == kParts[3]) return numbered(parts.number);
-  return std::nullopt;
+  const auto* const part = std::ranges::find(kParts, name);
+  if (part == kParts.end()) return std::nullopt;
+  const std::array<std::string, kParts.size()> texts{parts.background, parts.aircraft, parts.flight,
+                                                     fmt::format("{:04}", parts.number)};
+  return texts.at(static_cast<std::size_t>(part - kParts.begin()));
 }
 
 }  // namespace
@@ -251,14 +247,14 @@ std::string wrong_with_pattern(const std::string& pattern) {
     const std::size_t end = pattern.find('}', begin);
     if (end == std::string::npos) return "has a { without a }";
     const std::string part = pattern.substr(begin + 1, end - begin - 1);
-    if (std::find(kParts.begin(), kParts.end(), part) == kParts.end())
+    if (std::ranges::count(kParts, part) == 0)
       return "has no such part: {" + part + "}; there are {background}, {aircraft}, {flight} and {number}";
   }
   return {};
 }
 
 std::string wrong_with_video_name(const std::string& name) {
-  if (std::find(kOwnNames.begin(), kOwnNames.end(), lower_case(name)) != kOwnNames.end())
+  if (std::ranges::count(kOwnNames, lower_case(name)) > 0)
     return "is kept for what the dataset has beside its videos; choose another name";
   return file_name_error(name);
 }
