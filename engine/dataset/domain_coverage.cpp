@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <pugixml.hpp>
 #include <set>
 #include <string_view>
 
@@ -11,7 +12,6 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "dataset/index.h"
-#include "dataset/made_dataset.h"
 #include "scene/scene_at.h"
 #include "scene/visibility.h"
 #include "truth/measure.h"
@@ -171,12 +171,9 @@ DomainEncounter encounter_of(const AnnotatedIntruder& intruder, const IndexedVid
   return encounter;
 }
 
-Result<void> count_domain_video(const std::filesystem::path& folder, const IndexedVideo& video,
-                                DomainCoverage& coverage) {
-  const Result<pugi::xml_document> document = annotations_of(folder, video.name);
-  if (!document) return fail(document.error());
+void count_domain_video(const IndexedVideo& video, pugi::xml_node annotations, DomainCoverage& coverage) {
   std::map<std::string, AnnotatedIntruder> intruders;  // by id
-  for (const pugi::xml_node frame : document->child("sigs").children("frame")) {
+  for (const pugi::xml_node frame : annotations.children("frame")) {
     ++coverage.frames;
     for (const pugi::xml_node node : frame.children("intruder")) {
       if (std::string_view(node.attribute("role").value()) == "distractor") continue;
@@ -188,9 +185,8 @@ Result<void> count_domain_video(const std::filesystem::path& folder, const Index
     }
   }
   ++coverage.videos;
-  std::map<std::string, std::string> kinds = categories_of(folder, video.name);
+  std::map<std::string, std::string> kinds = video.categories;
   for (const auto& [id, intruder] : intruders) coverage.add(encounter_of(intruder, video, kinds[id]));
-  return {};
 }
 
 }  // namespace
@@ -324,16 +320,13 @@ Result<DomainCoverage> predicted_domain_coverage(const DesignDomain& domain,
 
 Result<DomainCoverage> counted_domain_coverage(const DesignDomain& domain, const std::filesystem::path& folder,
                                                const std::atomic<bool>* cancel) {
-  const Result<Json> index = read_index(folder);
-  if (!index) return fail(index.error());
-  const Result<std::vector<IndexedVideo>> videos = videos_in_index(*index, folder / kIndexName);
-  if (!videos) return fail(videos.error());
   DomainCoverage coverage(domain);
-  for (const IndexedVideo& video : *videos) {
-    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-    if (const Result<void> counted = count_domain_video(folder, video, coverage); !counted)
-      return fail(counted.error());
-  }
+  const Result<Json> index = for_each_indexed_video(
+      folder, cancel, [&](const IndexedVideo& video, pugi::xml_node annotations) -> Result<void> {
+        count_domain_video(video, annotations, coverage);
+        return {};
+      });
+  if (!index) return fail(index.error());
   return coverage;
 }
 
