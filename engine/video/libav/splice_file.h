@@ -12,7 +12,6 @@
 
 #include "base/result.h"
 #include "video/libav/frame_decoder.h"
-#include "video/libav/frame_order.h"
 #include "video/libav/group_encoder.h"
 #include "video/libav/nal_units.h"
 #include "video/libav/video_file.h"
