@@ -70,13 +70,10 @@ class EncounterTally {
 
 // --- What a plan tells.
 
-double elevation_deg_of(const glm::dvec3& in_camera_m) {
-  return deg_of_rad(std::atan2(-in_camera_m.z, std::hypot(in_camera_m.x, in_camera_m.y)));
-}
-
 void set_place(DomainSight& sight, const glm::dvec3& in_camera_m) {
   number_of(sight, DomainNumber::bearing_deg) = deg_of_rad(std::atan2(in_camera_m.y, in_camera_m.x));
-  number_of(sight, DomainNumber::elevation_deg) = elevation_deg_of(in_camera_m);
+  number_of(sight, DomainNumber::elevation_deg) =
+      deg_of_rad(std::atan2(-in_camera_m.z, std::hypot(in_camera_m.x, in_camera_m.y)));
 }
 
 void set_camera(DomainSight& sight, const Attitude& camera) {
@@ -212,9 +209,8 @@ void DomainCoverage::add(const DomainEncounter& encounter) {
     for (PairCoverage& pair : pairs)
       if (at[pair.first].fit == Fit::bin && at[pair.second].fit == Fit::bin)
         tally.count(pair.cells[at[pair.first].bin * conditions[pair.second].bins.size() + at[pair.second].bin]);
-    const bool is_in_zone = domain.zones.empty() || std::ranges::any_of(domain.zones, [&](const DomainZone& zone) {
-                              return allows(zone, sight);
-                            });
+    const auto allows_sight = [&](const DomainZone& zone) { return allows(zone, sight); };
+    const bool is_in_zone = domain.zones.empty() || std::ranges::any_of(domain.zones, allows_sight);
     if (!is_in_zone || std::ranges::find(at, Fit::outside, &Placed::fit) != at.end()) tally.count(outside);
   }
 }
@@ -223,39 +219,24 @@ std::vector<DomainTarget> DomainCoverage::empty_bins() const {
   std::vector<DomainTarget> empty;
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (std::size_t bin = 0; bin < conditions[i].bins.size(); ++bin)
-      if (domain.has(i, bin) && conditions[i].bins[bin].encounters < domain.min_encounters)
-        empty.push_back({.condition = i, .bin = bin});
+      if (domain.has(i, bin) && is_empty(conditions[i].bins[bin])) empty.push_back({.condition = i, .bin = bin});
   return empty;
 }
 
-namespace {
-
-// Calls f(target, count) for each pair of bins of the domain.
-template <class Function>
-void for_each_pair(const DomainCoverage& coverage, const Function& f) {
-  for (const PairCoverage& pair : coverage.pairs) {
-    const std::size_t width = coverage.conditions[pair.second].bins.size();
-    for (std::size_t cell = 0; cell < pair.cells.size(); ++cell)
-      if (coverage.domain.has(pair.first, cell / width, pair.second, cell % width))
-        f(DomainTarget{pair.first, cell / width, std::pair{pair.second, cell % width}}, pair.cells[cell]);
-  }
-}
-
-}  // namespace
-
 std::vector<DomainTarget> DomainCoverage::empty_pairs() const {
   std::vector<DomainTarget> empty;
-  for_each_pair(*this, [&](const DomainTarget& target, const DomainCount& count) {
-    if (count.encounters < domain.min_encounters) empty.push_back(target);
+  for_each_pair([&](const DomainTarget& target, const DomainCount& count) {
+    if (has(target) && is_empty(count)) empty.push_back(target);
   });
   return empty;
 }
 
 std::pair<long long, long long> DomainCoverage::pairs_covered() const {
   std::pair<long long, long long> covered_and_all{0, 0};
-  for_each_pair(*this, [&](const DomainTarget&, const DomainCount& count) {
+  for_each_pair([&](const DomainTarget& target, const DomainCount& count) {
+    if (!has(target)) return;
     ++covered_and_all.second;
-    if (count.encounters >= domain.min_encounters) ++covered_and_all.first;
+    if (!is_empty(count)) ++covered_and_all.first;
   });
   return covered_and_all;
 }
