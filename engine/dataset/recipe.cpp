@@ -66,41 +66,6 @@ void put_section(Json section, const std::string& project_key, const std::string
   warn_of_unknown_keys(rest, key, log);
 }
 
-}  // namespace
-
-void make_paths_absolute(Project& project) {
-  std::error_code code;
-  const std::filesystem::path folder = std::filesystem::absolute(project.file, code).parent_path();
-  for (const Field& field : fields_of(project))
-    if (auto* const text = std::get_if<std::string*>(&field.value); field.is_path && text && !(*text)->empty())
-      **text = (folder / **text).lexically_normal().string();
-}
-
-void read_section(RecipeNode& node, const std::string& name, const std::string& project_key, Project& project) {
-  const std::string key = node.key_of(name);
-  if (const Json* const section = node.value(name); section != nullptr) {
-    if (!section->is_object()) return node.log().wrong(key, "expected { ... }");
-    put_section(*section, project_key, key, project, node.log());
-  }
-  make_paths_absolute(project);
-  for (const Problem& problem : validate(project))
-    if (problem.field.starts_with(project_key + "."))
-      node.log().wrong(key + problem.field.substr(project_key.size()), problem.what,
-                       problem.kind == ErrorKind::cannot_read ? problem.kind : ErrorKind::bad_data);
-}
-
-void apply_settings(const std::vector<std::string>& settings, Project& project) {
-  for (const std::string& setting : settings)
-    if (!set_field(project, setting)) return;  // add_settings() has reported it
-  make_paths_absolute(project);
-}
-
-void read_origin(RecipeNode& node) {
-  for (const char* const key : {"licence", "source"}) static_cast<void>(node.text(key));
-}
-
-namespace {
-
 // What is wrong with a setting for all videos; empty: nothing, and the project has it.
 std::string put_setting(const std::string& assignment, Project& base) {
   const std::string key = assignment.substr(0, assignment.find('='));
@@ -357,6 +322,37 @@ void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>&
 }
 
 }  // namespace
+
+void make_paths_absolute(Project& project) {
+  std::error_code code;
+  const std::filesystem::path folder = std::filesystem::absolute(project.file, code).parent_path();
+  for (const Field& field : fields_of(project))
+    if (auto* const text = std::get_if<std::string*>(&field.value); field.is_path && text && !(*text)->empty())
+      **text = (folder / **text).lexically_normal().string();
+}
+
+void read_section(RecipeNode& node, const std::string& name, const std::string& project_key, Project& project) {
+  const std::string key = node.key_of(name);
+  if (const Json* const section = node.value(name); section != nullptr) {
+    if (!section->is_object()) return node.log().wrong(key, "expected { ... }");
+    put_section(*section, project_key, key, project, node.log());
+  }
+  make_paths_absolute(project);
+  for (const Problem& problem : validate(project))
+    if (problem.field.starts_with(project_key + "."))
+      node.log().wrong(key + problem.field.substr(project_key.size()), problem.what,
+                       problem.kind == ErrorKind::cannot_read ? problem.kind : ErrorKind::bad_data);
+}
+
+void apply_settings(const std::vector<std::string>& settings, Project& project) {
+  for (const std::string& setting : settings)
+    if (!set_field(project, setting)) return;  // add_settings() has reported it
+  make_paths_absolute(project);
+}
+
+void read_origin(RecipeNode& node) {
+  for (const char* const key : {"licence", "source"}) static_cast<void>(node.text(key));
+}
 
 Result<ReadRecipe> parse_recipe(const std::string& text, const std::filesystem::path& path,
                                 const std::vector<std::string>& settings) {

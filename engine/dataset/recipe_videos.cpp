@@ -78,61 +78,6 @@ OthersPlan read_other(RecipeNode node, const Recipe& recipe) {
   return others;
 }
 
-}  // namespace
-
-std::map<std::string, Quantity> numbers_in(RecipeNode& node, const std::string& section,
-                                           const std::vector<std::string>& settings,
-                                           const std::vector<std::string>& left_out) {
-  std::map<std::string, Quantity> numbers;
-  Project project;
-  project.intruders.resize(1);
-  for (const Field& field : fields_of(project)) {
-    if (!field.key.starts_with(section + ".") || !is_one_number(field)) continue;
-    const std::string name = field.key.substr(section.size() + 1);
-    if (std::find(left_out.begin(), left_out.end(), name) != left_out.end()) continue;
-    const Json* const value = node.value(name);
-    if (value == nullptr || is_given_beside(settings, field.key)) continue;
-    if (const auto quantity = limited_quantity(*value, node.key_of(name), field, node.log()))
-      numbers[field.key] = *quantity;
-  }
-  return numbers;
-}
-
-std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
-                                             const std::vector<std::string>& settings,
-                                             const std::vector<std::string>& left_out) {
-  const Json* const json = group.value(section);
-  if (json == nullptr) return {};
-  const Json renamed = with_current_keys(*json, section, group);
-  RecipeNode node(renamed, group.key_of(section), group.log());
-  std::map<std::string, Quantity> numbers = numbers_in(node, section, settings, left_out);
-  node.done();
-  return numbers;
-}
-
-std::vector<OthersPlan> read_others(RecipeNode& group, const Recipe& recipe) {
-  std::vector<OthersPlan> others;
-  if (group.value("others") == nullptr) return others;
-  for (RecipeNode& node : group.nodes("others")) others.push_back(read_other(std::move(node), recipe));
-  return others;
-}
-
-std::vector<std::string> selected_names(RecipeNode& group, const char* key, const std::vector<std::string>& there,
-                                        const std::vector<std::string>& standard) {
-  std::vector<std::string> names = group.texts(key);
-  if (names.empty()) return standard;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string where = fmt::format("{}[{}]", group.key_of(key), i);
-    if (std::find(there.begin(), there.end(), names[i]) == there.end())
-      group.log().wrong(where, fmt::format("no such name: \"{}\"; there are {}", names[i], listed(there)));
-    if (std::count(names.begin(), names.end(), names[i]) > 1)
-      group.log().wrong(where, fmt::format("stands there twice: \"{}\"", names[i]));
-  }
-  return names;
-}
-
-namespace {
-
 // A field of a project's light and what its numbers are called among those sampled.
 struct LightField {
   const char* key;
@@ -333,6 +278,57 @@ VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<s
 }
 
 }  // namespace
+
+std::map<std::string, Quantity> numbers_in(RecipeNode& node, const std::string& section,
+                                           const std::vector<std::string>& settings,
+                                           const std::vector<std::string>& left_out) {
+  std::map<std::string, Quantity> numbers;
+  Project project;
+  project.intruders.resize(1);
+  for (const Field& field : fields_of(project)) {
+    if (!field.key.starts_with(section + ".") || !is_one_number(field)) continue;
+    const std::string name = field.key.substr(section.size() + 1);
+    if (std::find(left_out.begin(), left_out.end(), name) != left_out.end()) continue;
+    const Json* const value = node.value(name);
+    if (value == nullptr || is_given_beside(settings, field.key)) continue;
+    if (const auto quantity = limited_quantity(*value, node.key_of(name), field, node.log()))
+      numbers[field.key] = *quantity;
+  }
+  return numbers;
+}
+
+std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
+                                             const std::vector<std::string>& settings,
+                                             const std::vector<std::string>& left_out) {
+  const Json* const json = group.value(section);
+  if (json == nullptr) return {};
+  const Json renamed = with_current_keys(*json, section, group);
+  RecipeNode node(renamed, group.key_of(section), group.log());
+  std::map<std::string, Quantity> numbers = numbers_in(node, section, settings, left_out);
+  node.done();
+  return numbers;
+}
+
+std::vector<OthersPlan> read_others(RecipeNode& group, const Recipe& recipe) {
+  std::vector<OthersPlan> others;
+  if (group.value("others") == nullptr) return others;
+  for (RecipeNode& node : group.nodes("others")) others.push_back(read_other(std::move(node), recipe));
+  return others;
+}
+
+std::vector<std::string> selected_names(RecipeNode& group, const char* key, const std::vector<std::string>& there,
+                                        const std::vector<std::string>& standard) {
+  std::vector<std::string> names = group.texts(key);
+  if (names.empty()) return standard;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string where = fmt::format("{}[{}]", group.key_of(key), i);
+    if (std::find(there.begin(), there.end(), names[i]) == there.end())
+      group.log().wrong(where, fmt::format("no such name: \"{}\"; there are {}", names[i], listed(there)));
+    if (std::count(names.begin(), names.end(), names[i]) > 1)
+      group.log().wrong(where, fmt::format("stands there twice: \"{}\"", names[i]));
+  }
+  return names;
+}
 
 void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node) {
   for (const char* const own : {"background", "aircraft", "flight"})

@@ -73,14 +73,6 @@ void WriterThread::write_all() {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-}  // namespace
-
 bool fits(std::string_view path, std::string_view pattern) {
   if (pattern.empty()) return path.empty();
   const std::string_view rest = pattern.substr(1);
@@ -88,7 +80,7 @@ bool fits(std::string_view path, std::string_view pattern) {
     return fits(path, rest) || (!path.empty() && path.front() != '/' && fits(path.substr(1), pattern));
   if (path.empty()) return false;
   if (pattern.front() == '#')
-    return is_digit(path.front()) && (fits(path.substr(1), rest) || fits(path.substr(1), pattern));
+    return path.front() >= '0' && path.front() <= '9' && (fits(path.substr(1), rest) || fits(path.substr(1), pattern));
   return path.front() == pattern.front() && fits(path.substr(1), rest);
 }
 

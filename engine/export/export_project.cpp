@@ -251,6 +251,16 @@ Result<ExportReport> exported_frame(const ExportRequest& request, FrameRenderer&
   return report;
 }
 
+// Whether a reader that knows the nominal rate alone shows each frame at its time, to 1 ms: the tick of Matroska, whose
+// times of a constant rate are as uneven as that.
+bool has_even_times(const VideoInfo& footage) {
+  constexpr double kTick_s = 1e-3 + 1e-9;
+  const double interval_s = double(footage.frame_rate_den) / footage.frame_rate_num;
+  for (std::size_t n = 0; n < footage.times_s.size(); ++n)
+    if (std::abs(footage.times_s[n] - static_cast<double>(n) * interval_s) > kTick_s) return false;
+  return true;
+}
+
 }  // namespace
 
 Result<ExportReport> export_project(const ExportRequest& request, const ExportControl& control) {
@@ -263,20 +273,6 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
 Result<ExportReport> export_frame(const ExportRequest& request, FrameRenderer& renderer, const ExportControl& control) {
   return guarded([&] { return exported_frame(request, renderer, control); });
 }
-
-namespace {
-
-// Whether a reader that knows the nominal rate alone shows each frame at its time, to 1 ms: the tick of Matroska, whose
-// times of a constant rate are as uneven as that.
-bool has_even_times(const VideoInfo& footage) {
-  constexpr double kTick_s = 1e-3 + 1e-9;
-  const double interval_s = double(footage.frame_rate_den) / footage.frame_rate_num;
-  for (std::size_t n = 0; n < footage.times_s.size(); ++n)
-    if (std::abs(footage.times_s[n] - static_cast<double>(n) * interval_s) > kTick_s) return false;
-  return true;
-}
-
-}  // namespace
 
 Container container_of(const ExportSettings& output, const VideoInfo& footage) {
   switch (output.container) {

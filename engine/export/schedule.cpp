@@ -112,24 +112,6 @@ int wanted_batches(const std::vector<Batch>& batches, int jobs, int cores) {
   return (jobs > 0 ? jobs : std::max(1, cores / 4)) / static_cast<int>(largest);
 }
 
-}  // namespace
-
-int Schedule::jobs_of_each(const Batch& batch, int cores) const {
-  const int beside = batch.kind == Batch::Kind::shared ? static_cast<int>(batch.videos.size()) : 1;
-  return std::max(1, cores / (batches_at_a_time * beside) - 1);
-}
-
-Schedule schedule_of(const std::vector<PendingVideo>& videos, int jobs, int cores) {
-  Schedule schedule;
-  append_videos(videos, jobs > 0 ? std::min(jobs, kMaxSharing) : kMaxSharing, schedule.batches);
-  append_images(videos, schedule.batches);
-  const int most = std::max(1, static_cast<int>(schedule.batches.size()));
-  schedule.batches_at_a_time = std::clamp(wanted_batches(schedule.batches, jobs, cores), 1, most);
-  return schedule;
-}
-
-namespace {
-
 // One source for each video of the batch; none where the clip cannot be opened or cropped.
 std::vector<FrameSource> shared_sources(const Batch& batch, const std::vector<PendingVideo>& videos,
                                         const std::atomic<bool>* cancel) {
@@ -166,6 +148,20 @@ class FirstThrown {
 };
 
 }  // namespace
+
+int Schedule::jobs_of_each(const Batch& batch, int cores) const {
+  const int beside = batch.kind == Batch::Kind::shared ? static_cast<int>(batch.videos.size()) : 1;
+  return std::max(1, cores / (batches_at_a_time * beside) - 1);
+}
+
+Schedule schedule_of(const std::vector<PendingVideo>& videos, int jobs, int cores) {
+  Schedule schedule;
+  append_videos(videos, jobs > 0 ? std::min(jobs, kMaxSharing) : kMaxSharing, schedule.batches);
+  append_images(videos, schedule.batches);
+  const int most = std::max(1, static_cast<int>(schedule.batches.size()));
+  schedule.batches_at_a_time = std::clamp(wanted_batches(schedule.batches, jobs, cores), 1, most);
+  return schedule;
+}
 
 void make_sharing(const Batch& batch, const std::vector<PendingVideo>& videos, const std::atomic<bool>* cancel,
                   const std::function<void(std::size_t video, FrameSource* footage)>& make) {
