@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool has_labels(const PlannedVideo& video, std::string_view format) {
-  const std::vector<std::string>& labels = video.project.output.labels;
-  return std::find(labels.begin(), labels.end(), format) != labels.end();
+  return std::ranges::count(video.project.output.labels, format) > 0;
 }
 
 std::string category_list(const Project& project) {
