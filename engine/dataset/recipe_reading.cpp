@@ -229,6 +229,15 @@ std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name) {
   return std::nullopt;
 }
 
+std::optional<Quantity> quantity_between(RecipeNode& node, std::string_view name, double low, double high) {
+  const std::optional<Quantity> quantity = read_quantity(node, name);
+  const Span span = quantity ? span_of(*quantity) : Span{low, high};
+  if (span.low < low || span.high > high)
+    node.log().wrong(node.key_of(name),
+                     fmt::format("must lie between {} and {}", short_number_text(low), short_number_text(high)));
+  return quantity;
+}
+
 std::string name_from(const std::string& pattern, const NameParts& parts) {
   std::string name;
   for (std::size_t i = 0; i < pattern.size();) {

@@ -124,6 +124,10 @@ void read_origin(RecipeNode& node);
 // A quantity; none where there is no such key or it has another form, which is written to the log.
 [[nodiscard]] std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name);
 
+// The same, with an error in the log where it can lie outside these limits; it is returned all the same.
+[[nodiscard]] std::optional<Quantity> quantity_between(RecipeNode& node, std::string_view name, double low,
+                                                       double high);
+
 // Error in the log where a tag has a name that every video has as a tag of its own: background, aircraft, flight.
 void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node);
 
