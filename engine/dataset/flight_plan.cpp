@@ -30,8 +30,6 @@ constexpr double kMaxCoordinate_m = 1e8;  // of a waypoint from the origin, alon
 constexpr double kRounding_m = 1e-6;      // a position below the ground by no more than this is on it
 
 using Values = std::map<std::string, double>;
-template <class T>
-using Possible = tl::expected<T, std::string>;
 
 glm::dvec3 camera_velocity_mps(const FlightContext& context) {
   return {context.camera.speed_mps, 0, 0};

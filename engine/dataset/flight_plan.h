@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tl/expected.hpp>
 #include <vector>
 
 #include "base/pose.h"
@@ -54,12 +53,11 @@ struct FlightEnds {
 
 // The reason why the aircraft does not fly that fast, or nothing.
 //   change  the quantities on which the speed depends: "closing_speed_mps or bearing_deg"
-[[nodiscard]] tl::expected<void, std::string> check_speed(double speed_mps, const FlightContext& context,
-                                                          const std::string& change);
+[[nodiscard]] Possible<void> check_speed(double speed_mps, const FlightContext& context, const std::string& change);
 
 // The reason why a waypoint cannot be, or nothing: it is underground or farther than 1e8 m from the world's origin.
 //   height  the quantities on which its height depends
-[[nodiscard]] tl::expected<void, std::string> check_waypoint(const WaypointSettings& waypoint, const char* height);
+[[nodiscard]] Possible<void> check_waypoint(const WaypointSettings& waypoint, const char* height);
 
 // The frame in which a flight of the kind image_position has its place and size; none: time_s is after the last frame.
 [[nodiscard]] std::optional<int> frame_of_position(const std::map<std::string, double>& values,
@@ -69,9 +67,8 @@ struct FlightEnds {
 // no such flight: the reason in one line, which names the quantity. Reasons are an encounter that cannot be, a value
 // outside its limits, an intruder underground (z > 0 in any of the video's frames), a speed outside the aircraft's
 // limits, and a distance of more than 1e8 m from the world's origin.
-[[nodiscard]] tl::expected<PlannedFlight, std::string> planned_flight(FlightKind kind,
-                                                                      const std::map<std::string, double>& values,
-                                                                      const FlightContext& context);
+[[nodiscard]] Possible<PlannedFlight> planned_flight(FlightKind kind, const std::map<std::string, double>& values,
+                                                     const FlightContext& context);
 
 // Unit ray, in the camera frame, of a place in the image in percent of its width and height: (0, 0) is the upper left
 // corner of the image (not the centre of a pixel), (50, 50) its middle. Places outside the image are allowed. Where the
@@ -99,8 +96,7 @@ struct FlightEnds {
 //   values   within their limits, as planned_flight() checks; context.source has the model or tracks
 // Reasons name a quantity: as those of placed_intruder(), a flight that is shorter than the video needs, a gap of more
 // than 30 s in the recording, underground, speed beyond the aircraft's limits.
-[[nodiscard]] tl::expected<PlannedFlight, std::string> planned_track_flight(FlightKind kind,
-                                                                            const std::map<std::string, double>& values,
-                                                                            const FlightContext& context);
+[[nodiscard]] Possible<PlannedFlight> planned_track_flight(FlightKind kind, const std::map<std::string, double>& values,
+                                                           const FlightContext& context);
 
 }  // namespace sigs

@@ -152,8 +152,7 @@ class Planner {
 
  private:
   // A sample, or why it is impossible; where a video may be sampled again it must be visible, too.
-  [[nodiscard]] tl::expected<PlannedVideo, std::string> one_sample(const VideoSpec& spec,
-                                                                   const OpenedBackground& background, int again);
+  [[nodiscard]] Possible<PlannedVideo> one_sample(const VideoSpec& spec, const OpenedBackground& background, int again);
 
   const Recipe& recipe_;
   const std::vector<Result<OpenedBackground>>& backgrounds_;
@@ -177,9 +176,8 @@ Result<void> Planner::look_for_sky(const std::vector<VideoSpec>& specs, const st
   return {};
 }
 
-tl::expected<PlannedVideo, std::string> Planner::one_sample(const VideoSpec& spec, const OpenedBackground& background,
-                                                            int again) {
-  tl::expected<PlannedVideo, std::string> video = sampled_video(recipe_, spec, background, again, estimator_);
+Possible<PlannedVideo> Planner::one_sample(const VideoSpec& spec, const OpenedBackground& background, int again) {
+  Possible<PlannedVideo> video = sampled_video(recipe_, spec, background, again, estimator_);
   if (!video || !recipe_.groups[spec.group].resamples) return video;
   const auto is_never_visible = [&](const PlannedVideo& of_camera) {
     const std::optional<Visibility> view = estimator_.visibility_of(of_camera.project, kVisibilityFrames);
@@ -201,7 +199,7 @@ void Planner::add(const VideoSpec& spec, Plan& plan) {
       plan.unopened.push_back({spec.name, background.error()});
       return;
     }
-    tl::expected<PlannedVideo, std::string> video = one_sample(sampled, *background, again);
+    Possible<PlannedVideo> video = one_sample(sampled, *background, again);
     if (video) {
       video->resamples = std::move(failed);
       plan.videos.push_back(*std::move(video));

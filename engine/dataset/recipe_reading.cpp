@@ -31,15 +31,13 @@ constexpr double kMaxBoundDeviations =
     8;  // standard deviations from the mean beyond which the remaining probability is too small to sample
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-using Read = tl::expected<Quantity, std::string>;
-
 std::optional<double> number_of(const Json& json) {
   if (!json.is_number()) return std::nullopt;
   const double number = json.get<double>();
   return std::abs(number) <= kMaxNumber ? std::optional(number) : std::nullopt;
 }
 
-Read uniform_of(const Json& json) {
+Possible<Quantity> uniform_of(const Json& json) {
   const bool is_pair = json.is_array() && json.size() == 2;
   const std::optional<double> low = is_pair ? number_of(json[0]) : std::nullopt;
   const std::optional<double> high = is_pair ? number_of(json[1]) : std::nullopt;
@@ -48,15 +46,15 @@ Read uniform_of(const Json& json) {
   return Quantity{.kind = Quantity::Kind::uniform, .low = *low, .high = *high};
 }
 
-tl::expected<Quantity, std::string> log_uniform_of(const Json& json) {
-  tl::expected<Quantity, std::string> quantity = uniform_of(json);
+Possible<Quantity> log_uniform_of(const Json& json) {
+  Possible<Quantity> quantity = uniform_of(json);
   if (!quantity) return quantity;
   if (!(quantity->low > 0)) return tl::unexpected("\"log_uniform\" needs limits above 0, found " + shown(json));
   quantity->kind = Quantity::Kind::log_uniform;
   return quantity;
 }
 
-Read choice_of(const Json& json) {
+Possible<Quantity> choice_of(const Json& json) {
   Quantity quantity{.kind = Quantity::Kind::choice};
   if (json.is_array())
     for (const Json& item : json)
@@ -66,7 +64,7 @@ Read choice_of(const Json& json) {
   return quantity;
 }
 
-Read normal_of(const Json& json) {
+Possible<Quantity> normal_of(const Json& json) {
   const std::string expected =
       "expected {\"normal\": {\"mean\": m, \"deviation\": d, \"low\": a, \"high\": b}}, found " + shown(json);
   if (!json.is_object()) return tl::unexpected(expected);
@@ -203,7 +201,7 @@ void RecipeNode::done() {
       log_->warn(key_of(key), "unknown key, not used" + suggestion(known, key));
 }
 
-tl::expected<Quantity, std::string> quantity_of(const Json& json) {
+Possible<Quantity> quantity_of(const Json& json) {
   if (const std::optional<double> number = number_of(json))
     return Quantity{.kind = Quantity::Kind::fixed, .value = *number};
   if (json.is_object() && json.size() == 1) {
@@ -223,7 +221,7 @@ tl::expected<Quantity, std::string> quantity_of(const Json& json) {
 std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name) {
   const Json* const json = node.value(name);
   if (json == nullptr) return std::nullopt;
-  const tl::expected<Quantity, std::string> quantity = quantity_of(*json);
+  const Possible<Quantity> quantity = quantity_of(*json);
   if (quantity) return *quantity;
   node.log().wrong(node.key_of(name), quantity.error());
   return std::nullopt;

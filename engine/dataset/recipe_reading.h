@@ -7,7 +7,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <tl/expected.hpp>
 #include <vector>
 
 #include "base/json.h"
@@ -64,7 +63,7 @@ class RecipeNode {
 
 // A quantity as a recipe writes it: 5, {"uniform": [a, b]}, {"normal": {"mean": m, "deviation": d, "low": a,
 // "high": b}} (bounds may be left out) or {"choice": [a, b, ...]}. Otherwise what is wrong with it.
-[[nodiscard]] tl::expected<Quantity, std::string> quantity_of(const Json& json);
+[[nodiscard]] Possible<Quantity> quantity_of(const Json& json);
 
 // The recipe's "videos"; backgrounds and aircraft must have been read. Mistakes are written to the node's
 // log. settings: KEY=VALUE given beside the recipe, which override a group's values.

@@ -49,7 +49,7 @@ Json with_current_keys(const Json& json, const std::string& section, RecipeNode&
 // A quantity within limits of the project; none, and an error in the log: it is another, or beyond them.
 std::optional<Quantity> limited_quantity(const Json& json, const std::string& where, const Field& field,
                                          RecipeLog& log) {
-  const tl::expected<Quantity, std::string> quantity = quantity_of(json);
+  const Possible<Quantity> quantity = quantity_of(json);
   const Span span = quantity ? span_of(*quantity) : Span{};
   const bool is_within = span.low >= field.minimum && span.high <= field.maximum;
   if (quantity && is_within) return *quantity;

@@ -73,8 +73,7 @@ std::map<std::string, double> values_of(const FlightPlan& flight, const Sampler&
 }
 
 // The frames of a video, or why the background does not have them.
-tl::expected<FrameRange, std::string> frames_of(const VideoGroup& group, const Sampler& sampler,
-                                                const FrameRange& there) {
+Possible<FrameRange> frames_of(const VideoGroup& group, const Sampler& sampler, const FrameRange& there) {
   const int count = there.last - there.first + 1;
   const Quantity any{.kind = Quantity::Kind::uniform, .high = double(count)};
   const Quantity from = group.first_frame.value_or(group.is_images ? any : Quantity{});
@@ -173,7 +172,7 @@ bool have_common_area(const Box& a, const Box& b) {
 // Where the intruder that was placed in the image may not be there: the reason. Else what it is before, where that was
 // looked at.
 using Behind = std::optional<VideoVisibility::Behind>;
-tl::expected<Behind, std::string> checked_place(const VideoInWork& work, int frame) {
+Possible<Behind> checked_place(const VideoInWork& work, int frame) {
   const std::optional<VisibilityEstimate> seen = work.estimator.last_intruder_at(work.video.project, frame);
   if (!seen) return Behind();
   if (seen->visibility_state == VisibilityState::occluded)
@@ -233,7 +232,7 @@ void sample_look(const Flyer& flyer, const Sampler& sampler, IntruderSettings& i
 }
 
 // Adds a body to the project, or says why it cannot fly so.
-tl::expected<void, std::string> add_flyer(const Flyer& flyer, const VideoInWork& work) {
+Possible<void> add_flyer(const Flyer& flyer, const VideoInWork& work) {
   std::map<std::string, double> values = values_of(flyer.flight, work.sampler, flyer.prefix);
   IntruderSettings intruder = work.recipe.base.intruders.front();
   intruder.name = unused_name(work.video.project, flyer.aircraft.name);
@@ -255,7 +254,7 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const VideoInWork&
     const std::optional<VisibilityEstimate> seen = work.estimator.last_intruder_at(alone, frame);
     return seen ? std::optional(seen->size_px) : std::nullopt;
   };
-  tl::expected<PlannedFlight, std::string> planned = planned_flight(flyer.flight.kind, values, context);
+  Possible<PlannedFlight> planned = planned_flight(flyer.flight.kind, values, context);
   if (!planned) return tl::unexpected(planned.error());
   const std::optional<int> frame =
       flyer.flight.kind == FlightKind::image_position ? frame_of_position(values, context) : std::nullopt;
@@ -270,7 +269,7 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const VideoInWork&
   sample_look(flyer, work.sampler, intruder, work.video.sampled);
   work.video.project.intruders.push_back(std::move(intruder));
   if (!frame) return {};
-  const tl::expected<Behind, std::string> behind = checked_place(work, *frame);
+  const Possible<Behind> behind = checked_place(work, *frame);
   if (!behind) return tl::unexpected(behind.error());
   if (*behind) {
     work.video.sampled[flyer.prefix + "sky_percent"] = std::round(100 * (*behind)->sky);
@@ -280,7 +279,7 @@ tl::expected<void, std::string> add_flyer(const Flyer& flyer, const VideoInWork&
 }
 
 // What else flies. Keys of random numbers are those of the names in `drawn`, "other3.bearing_deg".
-tl::expected<void, std::string> add_others(const VideoInWork& work) {
+Possible<void> add_others(const VideoInWork& work) {
   int number = 0;
   for (std::size_t i = 0; i < work.group.others.size(); ++i) {
     const OthersPlan& others = work.group.others[i];
@@ -300,7 +299,7 @@ tl::expected<void, std::string> add_others(const VideoInWork& work) {
 }
 
 // The aircraft of the group's own: one of a video, of an image as many as its number says.
-tl::expected<void, std::string> add_flyers(const VideoSpec& spec, int count, const VideoInWork& work) {
+Possible<void> add_flyers(const VideoSpec& spec, int count, const VideoInWork& work) {
   const VideoGroup& group = work.group;
   for (int n = 0; n < count; ++n) {
     const std::string prefix = n == 0 ? "" : fmt::format("other{}.", n);
@@ -333,13 +332,12 @@ std::optional<int> frame_of_image(const Recipe& recipe, const VideoSpec& spec, c
   return range ? std::optional(range->first) : std::nullopt;
 }
 
-tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, const VideoSpec& spec,
-                                                      const OpenedBackground& background, int again,
-                                                      VideoVisibility& estimator) {
+Possible<PlannedVideo> sampled_video(const Recipe& recipe, const VideoSpec& spec, const OpenedBackground& background,
+                                     int again, VideoVisibility& estimator) {
   const VideoGroup& group = recipe.groups[spec.group];
   const Sampler sampler(recipe.seed, spec.name, again);
   const Sampler first = first_sampler(recipe, spec, again);
-  const tl::expected<FrameRange, std::string> frames = frames_of(group, first, background.frames);
+  const Possible<FrameRange> frames = frames_of(group, first, background.frames);
   if (!frames) return tl::unexpected(frames.error());
   const LightPlan* const light_plan = light_of(group, sampler);
   std::map<std::string, double> light;
@@ -355,7 +353,7 @@ tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, cons
       .camera = video.project.camera, .lens = background.lens, .footage = background.footage, .frames = *frames};
   const VideoInWork work{recipe, group, background, context, sampler, estimator, video};
   const auto count = static_cast<int>(first.number(group.per_image, "per_image"));
-  tl::expected<void, std::string> step = add_flyers(spec, count, work);
+  Possible<void> step = add_flyers(spec, count, work);
   if (step) step = add_others(work);
   if (!step) return tl::unexpected(step.error());
   if (count == 0) video.tags["aircraft"] = video.tags["flight"] = "none";
