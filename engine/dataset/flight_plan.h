@@ -32,11 +32,14 @@ struct FlightContext {
   std::function<std::optional<double>(const std::vector<WaypointSettings>& waypoints, int frame)> size_px_on;
 };
 
+// Values of a flight's quantities, by name.
+using FlightValues = std::map<std::string, double>;
+
 struct PlannedFlight {
   // Two: in the first frame and in the last one (of one frame: in the next). Of a drawn or recorded flight more, all of
   // which an interpolating trajectory has to pass at their frames.
   std::vector<WaypointSettings> waypoints;
-  std::map<std::string, double> derived;  // "speed_mps", "nearest_m" and, of an encounter, its timing
+  FlightValues derived;  // "speed_mps", "nearest_m" and, of an encounter, its timing
 };
 
 // The frames between which a flight is fixed: two different ones, so that a video of one frame has a velocity too.
@@ -60,14 +63,13 @@ struct FlightEnds {
 [[nodiscard]] Possible<void> check_waypoint(const WaypointSettings& waypoint, const char* height);
 
 // The frame in which a flight of the kind image_position has its place and size; none: time_s is after the last frame.
-[[nodiscard]] std::optional<int> frame_of_position(const std::map<std::string, double>& values,
-                                                   const FlightContext& context);
+[[nodiscard]] std::optional<int> frame_of_position(const FlightValues& values, const FlightContext& context);
 
 // The waypoints of a flight. values: one for each quantity of the kind that is given or has a default. Where there is
 // no such flight: the reason in one line, which names the quantity. Reasons are an encounter that cannot be, a value
 // outside its limits, an intruder underground (z > 0 in any of the video's frames), a speed outside the aircraft's
 // limits, and a distance of more than 1e8 m from the world's origin.
-[[nodiscard]] Possible<PlannedFlight> planned_flight(FlightKind kind, const std::map<std::string, double>& values,
+[[nodiscard]] Possible<PlannedFlight> planned_flight(FlightKind kind, const FlightValues& values,
                                                      const FlightContext& context);
 
 // Unit ray, in the camera frame, of a place in the image in percent of its width and height: (0, 0) is the upper left
@@ -96,7 +98,7 @@ struct FlightEnds {
 //   values   within their limits, as planned_flight() checks; context.source has the model or tracks
 // Reasons name a quantity: as those of placed_intruder(), a flight that is shorter than the video needs, a gap of more
 // than 30 s in the recording, underground, speed beyond the aircraft's limits.
-[[nodiscard]] Possible<PlannedFlight> planned_track_flight(FlightKind kind, const std::map<std::string, double>& values,
+[[nodiscard]] Possible<PlannedFlight> planned_track_flight(FlightKind kind, const FlightValues& values,
                                                            const FlightContext& context);
 
 }  // namespace sigs

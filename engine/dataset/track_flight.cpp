@@ -20,8 +20,6 @@ namespace sigs {
 
 namespace {
 
-using QuantityValues = std::map<std::string, double>;
-
 constexpr double kWaypointStep_s = 0.5;
 constexpr double kMinStep_s = 1e-6;  // frames of footage may have the same time
 constexpr double kMaxGap_s = 30;     // of a recording
@@ -40,7 +38,7 @@ struct VideoTimes {
   double closest_s = 0;         // of the closest approach, after the first frame
 };
 
-Possible<VideoTimes> video_times(const QuantityValues& values, const FlightContext& context) {
+Possible<VideoTimes> video_times(const FlightValues& values, const FlightContext& context) {
   VideoTimes times{.ends = ends_of(context)};
   const auto given = values.find("time_of_closest_approach_s");
   times.closest_s = given == values.end() ? times.ends.length_s : given->second;
@@ -118,7 +116,7 @@ double max_gap_s(const FlownTrack& track, double from_s, double to_s) {
 }
 
 // The time in the recording at the video's first frame.
-Possible<double> recorded_begin_s(const FlownTrack& track, const QuantityValues& values, const VideoTimes& times,
+Possible<double> recorded_begin_s(const FlownTrack& track, const FlightValues& values, const VideoTimes& times,
                                   double share) {
   const auto given = values.find("recorded_time_s");
   if (given == values.end()) return share * (track.length_s() - times.ends.length_s);
@@ -129,7 +127,7 @@ Possible<double> recorded_begin_s(const FlownTrack& track, const QuantityValues&
       seconds(begin_s), seconds(begin_s + times.ends.length_s), track.name, seconds(track.length_s())));
 }
 
-Possible<PathNed> recorded_path(const FlightContext& context, const QuantityValues& values, const VideoTimes& times) {
+Possible<PathNed> recorded_path(const FlightContext& context, const FlightValues& values, const VideoTimes& times) {
   std::vector<const FlownTrack*> long_enough;
   double longest_s = 0;
   for (const FlownTrack& track : context.source->tracks) {
@@ -170,7 +168,7 @@ struct PlacedPair {
   glm::dvec3 offset_ned_m{};  // from the ownship at the closest approach
 };
 
-Possible<void> place(PlacedPair& pair, const QuantityValues& values, double closest_s) {
+Possible<void> place(PlacedPair& pair, const FlightValues& values, double closest_s) {
   const SampledPoint intruder_motion = motion_at(pair.intruder_flown, closest_s);
   const Result<ModelFlight> placed = placed_intruder(
       {.points = {pair.own_motion}}, {.points = {intruder_motion}},
@@ -182,7 +180,7 @@ Possible<void> place(PlacedPair& pair, const QuantityValues& values, double clos
   return {};
 }
 
-Possible<PlacedPair> placed_pair(FlightKind kind, const QuantityValues& values, const FlightContext& context,
+Possible<PlacedPair> placed_pair(FlightKind kind, const FlightValues& values, const FlightContext& context,
                                  const VideoTimes& times) {
   const FlightSource& source = *context.source;
   if (kind == FlightKind::encounter_model && times.ends.length_s > kMaxDrawn_s)
@@ -268,7 +266,7 @@ glm::dvec3 place_at(const FlownTrack& track, double time_s, double smoothing_s) 
   return sum_m / double(kSmoothingSteps);
 }
 
-Possible<PlannedFlight> planned_track_flight(FlightKind kind, const QuantityValues& values,
+Possible<PlannedFlight> planned_track_flight(FlightKind kind, const FlightValues& values,
                                              const FlightContext& context) {
   ENSURE(context.source != nullptr && (kind == FlightKind::recorded || context.source->model.has_value()));
   const Possible<VideoTimes> times = video_times(values, context);

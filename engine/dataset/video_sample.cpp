@@ -60,8 +60,8 @@ std::map<std::string, std::string> tags_of(const Recipe& recipe, const VideoSpec
 }
 
 // `prefix` distinguishes the flights of one video.
-std::map<std::string, double> values_of(const FlightPlan& flight, const Sampler& sampler, const std::string& prefix) {
-  std::map<std::string, double> values;
+FlightValues values_of(const FlightPlan& flight, const Sampler& sampler, const std::string& prefix) {
+  FlightValues values;
   for (const FlightQuantity& quantity : quantities_of(flight.kind)) {
     const std::string name(quantity.name);
     if (const auto given = flight.quantities.find(name); given != flight.quantities.end())
@@ -193,7 +193,7 @@ Possible<Behind> checked_place(const VideoInWork& work, int frame) {
 }
 
 // By nose_deg, where it was drawn: one heading for the whole flight, since that quantity is of straight flights.
-void turn_nose(TrajectoryPlan& trajectory, const std::map<std::string, double>& values) {
+void turn_nose(TrajectoryPlan& trajectory, const FlightValues& values) {
   const auto nose_deg = values.find("nose_deg");
   if (nose_deg == values.end() || trajectory.attitude == AttitudeKind::path || trajectory.waypoints.empty()) return;
   const glm::dvec3 way_m = trajectory.waypoints.back().position_m - trajectory.waypoints.front().position_m;
@@ -233,7 +233,7 @@ void sample_look(const Flyer& flyer, const Sampler& sampler, IntruderSettings& i
 
 // Adds a body to the project, or says why it cannot fly so.
 Possible<void> add_flyer(const Flyer& flyer, const VideoInWork& work) {
-  std::map<std::string, double> values = values_of(flyer.flight, work.sampler, flyer.prefix);
+  FlightValues values = values_of(flyer.flight, work.sampler, flyer.prefix);
   IntruderSettings intruder = work.recipe.base.intruders.front();
   intruder.name = unused_name(work.video.project, flyer.aircraft.name);
   intruder.category = flyer.aircraft.category;
