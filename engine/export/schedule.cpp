@@ -131,22 +131,6 @@ std::vector<FrameSource> shared_sources(const Batch& batch, const std::vector<Pe
   return sources;
 }
 
-// What threads throw: the first of it is kept.
-class FirstThrown {
- public:
-  void keep() {
-    const std::lock_guard lock(mutex_);
-    if (!thrown_) thrown_ = std::current_exception();
-  }
-  void throw_again() const {
-    if (thrown_) std::rethrow_exception(thrown_);
-  }
-
- private:
-  std::mutex mutex_;
-  std::exception_ptr thrown_;
-};
-
 }  // namespace
 
 int Schedule::jobs_of_each(const Batch& batch, int cores) const {
@@ -168,7 +152,8 @@ void make_sharing(const Batch& batch, const std::vector<PendingVideo>& videos, c
   std::vector<FrameSource> opened = shared_sources(batch, videos, cancel);
   std::vector<std::optional<FrameSource>> sources(batch.videos.size());
   for (std::size_t i = 0; i < opened.size(); ++i) sources[i] = std::move(opened[i]);
-  FirstThrown thrown;
+  std::mutex mutex;
+  std::exception_ptr thrown;  // what a thread throws first
   std::vector<std::thread> threads;
   threads.reserve(batch.videos.size());
   std::vector<std::size_t> left;  // without a thread
@@ -177,7 +162,8 @@ void make_sharing(const Batch& batch, const std::vector<PendingVideo>& videos, c
       try {
         make(batch.videos[i], sources[i] ? &*sources[i] : nullptr);
       } catch (...) {
-        thrown.keep();
+        const std::lock_guard lock(mutex);
+        if (!thrown) thrown = std::current_exception();
       }
       sources[i].reset();  // no other reader waits for this one any more
     };
@@ -191,7 +177,7 @@ void make_sharing(const Batch& batch, const std::vector<PendingVideo>& videos, c
   }
   for (std::thread& thread : threads) thread.join();
   for (const std::size_t i : left) make(batch.videos[i], nullptr);
-  thrown.throw_again();
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace sigs
