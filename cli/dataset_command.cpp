@@ -131,12 +131,12 @@ Result<void> keep_only(Plan& plan, const std::set<std::string>& names) {
   std::set<std::string> unknown = names;
   for (const PlannedVideo& video : plan.videos) unknown.erase(video.name);
   for (const ImpossibleVideo& video : plan.impossible) unknown.erase(video.name);
-  for (const UnopenedVideo& video : plan.unopened) unknown.erase(video.name);
+  for (const VideoFailure& unopened : plan.unopened) unknown.erase(unopened.video);
   if (!unknown.empty())
     return fail("--only " + *unknown.begin(), "the recipe has no such video; --dry-run lists them", ErrorKind::usage);
   std::erase_if(plan.videos, [&](const PlannedVideo& video) { return !names.contains(video.name); });
   std::erase_if(plan.impossible, [&](const ImpossibleVideo& video) { return !names.contains(video.name); });
-  std::erase_if(plan.unopened, [&](const UnopenedVideo& video) { return !names.contains(video.name); });
+  std::erase_if(plan.unopened, [&](const VideoFailure& unopened) { return !names.contains(unopened.video); });
   return {};
 }
 
@@ -211,7 +211,8 @@ Result<void> list(const Recipe& recipe, const Plan& plan, const std::vector<cons
   warn_of_unseen(videos, visibilities);
   const Result<void> possible = check_impossible(plan, options.recipe);
   if (plan.unopened.empty()) return possible;
-  for (const UnopenedVideo& video : plan.unopened) print_error({video.name, video.error.text(), video.error.kind});
+  for (const VideoFailure& unopened : plan.unopened)
+    print_error({unopened.video, unopened.error.text(), unopened.error.kind});
   return fail("", count_text(plan.unopened.size(), "video") + " cannot be made", plan.unopened.front().error.kind);
 }
 

@@ -48,13 +48,6 @@ UniformGrid pixels_of(int first, int count) {
 }
 
 // Samples within target keep their positions; beyond the layer everything is empty.
-cv::Mat coverage_over(const cv::Rect& target, const Layer& layer) {
-  cv::Mat coverage = cv::Mat::zeros(target.size(), CV_32FC1);
-  const cv::Rect both = target & layer.rect;
-  if (!both.empty()) layer.coverage(both - layer.rect.tl()).copyTo(coverage(both - target.tl()));
-  return coverage;
-}
-
 // Exactly sigma_px along an axis without spread.
 glm::dvec2 remaining_sigma_px(double sigma_px, const glm::dvec2& spread_px2) {
   glm::dvec2 remaining_px(sigma_px);

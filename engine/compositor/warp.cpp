@@ -127,18 +127,36 @@ class ViewReader {
   AreaReader fine_;
 };
 
+// One of steps by steps parts of a quadrilateral: column x, row y.
+Quadrilateral part_of(const Quadrilateral& whole, int x, int y, int steps) {
+  const auto at = [&](int i, int j) {
+    const double across = double(i) / steps, down = double(j) / steps;
+    return glm::mix(glm::mix(whole[0], whole[1], across), glm::mix(whole[3], whole[2], across), down);
+  };
+  return {at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)};
+}
+
 }  // namespace
 
 Layer warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target,
              const RowTransform& row_transform) {
-  ENSURE(!views.empty());
+  return finely_warped(views, lens, target, 1, row_transform);
+}
+
+Layer finely_warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target, int steps,
+                    const RowTransform& row_transform) {
+  ENSURE(!views.empty() && steps >= 1);
   std::vector<ViewReader> readers(views.begin(), views.end());
-  Layer out{target, cv::Mat::zeros(target.size(), CV_32FC4), cv::Mat::zeros(target.size(), CV_32FC1)};
+  const cv::Rect rect(target.x * steps, target.y * steps, target.width * steps, target.height * steps);
+  Layer out{rect, cv::Mat::zeros(rect.size(), CV_32FC4), cv::Mat::zeros(rect.size(), CV_32FC1)};
   Quadrilaterals(views, lens, target, row_transform)
       .for_each([&](std::size_t view, int i, int j, const Quadrilateral& corners) {
-        const AreaMean mean = readers[view].mean_over(corners);
-        out.color.ptr<cv::Vec4f>(j)[i] = mean.color;
-        out.coverage.ptr<float>(j)[i] = mean.coverage;
+        for (int y = 0; y < steps; ++y)
+          for (int x = 0; x < steps; ++x) {
+            const AreaMean mean = readers[view].mean_over(steps == 1 ? corners : part_of(corners, x, y, steps));
+            out.color.ptr<cv::Vec4f>(j * steps + y)[i * steps + x] = mean.color;
+            out.coverage.ptr<float>(j * steps + y)[i * steps + x] = mean.coverage;
+          }
       });
   return out;
 }

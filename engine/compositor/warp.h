@@ -34,6 +34,12 @@ struct RenderedView {
 [[nodiscard]] Layer warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target,
                            const RowTransform& row_transform = nullptr);
 
+// The same with steps by steps samples for each pixel, evenly spread over it: sample (i, j) covers the square
+// [i, i + 1) x [j, j + 1) of steps of a pixel, from the corner of pixel (0, 0) on. Within a pixel the lens is taken to
+// be bilinear. For what is blurred before pixels average it; see averaged().
+[[nodiscard]] Layer finely_warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target,
+                                  int steps, const RowTransform& row_transform = nullptr);
+
 // The cells of each view that warped() reads in its fine layer, which need not be there yet: those that a pixel of the
 // target touches together with a rough one. All views have coarse ones. CV_8UC1, 255 or 0. None where pixels are so
 // large in a view that areas have to be summed.

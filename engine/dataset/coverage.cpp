@@ -16,7 +16,6 @@
 #include "base/threads.h"
 #include "dataset/footage_cache.h"
 #include "dataset/index.h"
-#include "dataset/made_dataset.h"
 #include "plot/plot.h"
 #include "scene/scene_at.h"
 #include "scene/visibility.h"
@@ -96,12 +95,9 @@ Result<Sight> sight_of(pugi::xml_node intruder, cv::Size image_px,
                               line_text(intruder.attribute("id").value())));
 }
 
-Result<void> count_video(const std::filesystem::path& folder, const IndexedVideo& video, Coverage& coverage) {
-  const Result<pugi::xml_document> document = annotations_of(folder, video.name);
-  if (!document) return fail(document.error());
+Result<void> count_video(const std::filesystem::path& folder, const IndexedVideo& video, pugi::xml_node root,
+                         Coverage& coverage) {
   const std::filesystem::path file = folder / video.name / (video.name + ".xml");
-  const pugi::xml_node root = document->child("sigs");
-  const std::map<std::string, std::string> categories = categories_of(folder, video.name);
   const pugi::xml_node footage = root.child("footage");
   const cv::Size image_px(footage.attribute("width").as_int(1), footage.attribute("height").as_int(1));
   ++coverage.videos;
@@ -109,7 +105,7 @@ Result<void> count_video(const std::filesystem::path& folder, const IndexedVideo
     ++coverage.frames;
     for (const pugi::xml_node intruder : frame.children("intruder")) {
       if (!intruder.child("box")) continue;
-      Result<Sight> sight = sight_of(intruder, image_px, categories);
+      Result<Sight> sight = sight_of(intruder, image_px, video.categories);
       if (!sight)
         return fail(file.string(),
                     fmt::format("frame {}: {}", line_text(frame.attribute("index").value()), sight.error().what));
@@ -165,15 +161,12 @@ Result<Coverage> predicted_coverage(const std::vector<const PlannedVideo*>& vide
 }
 
 Result<Coverage> counted_coverage(const std::filesystem::path& folder, const std::atomic<bool>* cancel) {
-  const Result<Json> index = read_index(folder);
-  if (!index) return fail(index.error());
-  const Result<std::vector<IndexedVideo>> videos = videos_in_index(*index, folder / kIndexName);
-  if (!videos) return fail(videos.error());
   Coverage coverage;
-  for (const IndexedVideo& video : *videos) {
-    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-    if (const Result<void> counted = count_video(folder, video, coverage); !counted) return fail(counted.error());
-  }
+  const Result<Json> index =
+      for_each_indexed_video(folder, cancel, [&](const IndexedVideo& video, pugi::xml_node annotations) {
+        return count_video(folder, video, annotations, coverage);
+      });
+  if (!index) return fail(index.error());
   return coverage;
 }
 

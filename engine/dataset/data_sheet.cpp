@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <pugixml.hpp>
 #include <set>
 #include <string_view>
 
@@ -12,7 +13,6 @@
 #include "camera/camera.h"
 #include "dataset/entry.h"
 #include "dataset/index.h"
-#include "dataset/made_dataset.h"
 #include "dataset/video_folder.h"
 #include "project/json.h"
 #include "project/project.h"
@@ -123,25 +123,21 @@ void add_project(const IndexedVideo& video, const Project& project, SheetFacts& 
   for (const std::string& kind : kinds) ++facts.categories[kind].videos;
 }
 
-Result<void> add_video(const fs::path& dataset, const IndexedVideo& video, SheetFacts& facts) {
-  const Result<pugi::xml_document> document = annotations_of(dataset, video.name);
-  if (!document) return fail(document.error());
+void add_video(const fs::path& dataset, const IndexedVideo& video, pugi::xml_node root, SheetFacts& facts) {
   SheetCount& split = facts.splits[video.split.empty() ? "all" : video.split];
   if (const Result<ReadProject> project = read_project(dataset / video.name / (video.name + ".json")); project)
     add_project(video, project_of_video(project->project, video.tags), facts, split);
-  const std::map<std::string, std::string> kinds = categories_of(dataset, video.name);
   const auto background = video.tags.find("background");
   SheetFootage& footage = facts.footage[background == video.tags.end() ? "" : background->second];
-  const pugi::xml_node root = document->child("sigs"), shape = root.child("footage");
+  const pugi::xml_node shape = root.child("footage");
   footage.width = shape.attribute("width").value();
   footage.height = shape.attribute("height").value();
   footage.frame_rate = shape.attribute("frame_rate").value();
   for (SheetCount* const count : {&facts.all, &split}) ++count->videos;
   for (const pugi::xml_node frame : root.children("frame")) {
     for (SheetCount* const count : {&facts.all, &split}) ++count->frames;
-    add_frame(frame, kinds, facts, footage, split);
+    add_frame(frame, video.categories, facts, footage, split);
   }
-  return {};
 }
 
 Json count_json(const SheetCount& count) {
@@ -280,15 +276,13 @@ std::optional<double> stated_reprojection_error_px(const std::string& calibratio
 
 Result<Json> data_sheet_of(const fs::path& dataset, const GuessesByBackground& guesses,
                            const std::atomic<bool>* cancel) {
-  const Result<Json> index = read_index(dataset);
-  if (!index) return fail(index.error());
-  const Result<std::vector<IndexedVideo>> videos = videos_in_index(*index, dataset / kIndexName);
-  if (!videos) return fail(videos.error());
   SheetFacts facts;
-  for (const IndexedVideo& video : *videos) {
-    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-    if (const Result<void> added = add_video(dataset, video, facts); !added) return fail(added.error());
-  }
+  const Result<Json> index = for_each_indexed_video(
+      dataset, cancel, [&](const IndexedVideo& video, pugi::xml_node annotations) -> Result<void> {
+        add_video(dataset, video, annotations, facts);
+        return {};
+      });
+  if (!index) return fail(index.error());
   const Json recipe = member(*index, "recipe");
   Json sheet{{"sigs_data_sheet", 1}};
   for (const char* const key : {"name", "program", "seed", "recipe_sha256", "checksum", "settings"})

@@ -22,7 +22,7 @@
 
 #include "base/paths.h"
 #include "dataset/index.h"
-#include "dataset/video_name.h"
+#include "dataset/recipe.h"
 
 namespace sigs {
 
@@ -132,6 +132,20 @@ bool is_needed(const fs::path& file) {
   return paths->size() > 1 && std::none_of(paths->begin(), paths->end(), is_other_lock);
 }
 
+bool has_index(const fs::path& dataset) {
+  std::error_code code;
+  return fs::exists(dataset / kIndexName, code);
+}
+
+// The first of the requested videos whose folder exists already.
+std::optional<std::string> video_there(const Plan& plan, const std::optional<Shard>& shard, const fs::path& dataset) {
+  for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i) {
+    std::error_code code;
+    if ((!shard || shard->has(i)) && fs::exists(dataset / plan.videos[i].name, code)) return plan.videos[i].name;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool overlap(const Shard& a, const Shard& b) {
@@ -200,24 +214,6 @@ DatasetLock::~DatasetLock() {
   unlink(file_.c_str());
   rmdir(file_.parent_path().c_str());  // refused where it is not empty
 }
-
-namespace {
-
-bool has_index(const fs::path& dataset) {
-  std::error_code code;
-  return fs::exists(dataset / kIndexName, code);
-}
-
-// The first of the requested videos whose folder exists already.
-std::optional<std::string> video_there(const Plan& plan, const std::optional<Shard>& shard, const fs::path& dataset) {
-  for (int i = 0; i < static_cast<int>(plan.videos.size()); ++i) {
-    std::error_code code;
-    if ((!shard || shard->has(i)) && fs::exists(dataset / plan.videos[i].name, code)) return plan.videos[i].name;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 Result<void> check_folder_names(const Plan& plan) {
   if (const std::string wrong = file_name_error(plan.name); !wrong.empty())

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <pugixml.hpp>
 #include <set>
 #include <string_view>
 
@@ -11,7 +12,6 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "dataset/index.h"
-#include "dataset/made_dataset.h"
 #include "scene/scene_at.h"
 #include "scene/visibility.h"
 #include "truth/measure.h"
@@ -70,13 +70,10 @@ class EncounterTally {
 
 // --- What a plan tells.
 
-double elevation_deg_of(const glm::dvec3& in_camera_m) {
-  return deg_of_rad(std::atan2(-in_camera_m.z, std::hypot(in_camera_m.x, in_camera_m.y)));
-}
-
 void set_place(DomainSight& sight, const glm::dvec3& in_camera_m) {
   number_of(sight, DomainNumber::bearing_deg) = deg_of_rad(std::atan2(in_camera_m.y, in_camera_m.x));
-  number_of(sight, DomainNumber::elevation_deg) = elevation_deg_of(in_camera_m);
+  number_of(sight, DomainNumber::elevation_deg) =
+      deg_of_rad(std::atan2(-in_camera_m.z, std::hypot(in_camera_m.x, in_camera_m.y)));
 }
 
 void set_camera(DomainSight& sight, const Attitude& camera) {
@@ -171,12 +168,9 @@ DomainEncounter encounter_of(const AnnotatedIntruder& intruder, const IndexedVid
   return encounter;
 }
 
-Result<void> count_domain_video(const std::filesystem::path& folder, const IndexedVideo& video,
-                                DomainCoverage& coverage) {
-  const Result<pugi::xml_document> document = annotations_of(folder, video.name);
-  if (!document) return fail(document.error());
+void count_domain_video(const IndexedVideo& video, pugi::xml_node annotations, DomainCoverage& coverage) {
   std::map<std::string, AnnotatedIntruder> intruders;  // by id
-  for (const pugi::xml_node frame : document->child("sigs").children("frame")) {
+  for (const pugi::xml_node frame : annotations.children("frame")) {
     ++coverage.frames;
     for (const pugi::xml_node node : frame.children("intruder")) {
       if (std::string_view(node.attribute("role").value()) == "distractor") continue;
@@ -188,9 +182,8 @@ Result<void> count_domain_video(const std::filesystem::path& folder, const Index
     }
   }
   ++coverage.videos;
-  std::map<std::string, std::string> kinds = categories_of(folder, video.name);
+  std::map<std::string, std::string> kinds = video.categories;
   for (const auto& [id, intruder] : intruders) coverage.add(encounter_of(intruder, video, kinds[id]));
-  return {};
 }
 
 }  // namespace
@@ -216,9 +209,8 @@ void DomainCoverage::add(const DomainEncounter& encounter) {
     for (PairCoverage& pair : pairs)
       if (at[pair.first].fit == Fit::bin && at[pair.second].fit == Fit::bin)
         tally.count(pair.cells[at[pair.first].bin * conditions[pair.second].bins.size() + at[pair.second].bin]);
-    const bool is_in_zone = domain.zones.empty() || std::ranges::any_of(domain.zones, [&](const DomainZone& zone) {
-                              return allows(zone, sight);
-                            });
+    const auto allows_sight = [&](const DomainZone& zone) { return allows(zone, sight); };
+    const bool is_in_zone = domain.zones.empty() || std::ranges::any_of(domain.zones, allows_sight);
     if (!is_in_zone || std::ranges::find(at, Fit::outside, &Placed::fit) != at.end()) tally.count(outside);
   }
 }
@@ -227,39 +219,24 @@ std::vector<DomainTarget> DomainCoverage::empty_bins() const {
   std::vector<DomainTarget> empty;
   for (std::size_t i = 0; i < conditions.size(); ++i)
     for (std::size_t bin = 0; bin < conditions[i].bins.size(); ++bin)
-      if (domain.has(i, bin) && conditions[i].bins[bin].encounters < domain.min_encounters)
-        empty.push_back({.condition = i, .bin = bin});
+      if (domain.has(i, bin) && is_empty(conditions[i].bins[bin])) empty.push_back({.condition = i, .bin = bin});
   return empty;
 }
 
-namespace {
-
-// Calls f(target, count) for each pair of bins of the domain.
-template <class Function>
-void for_each_pair(const DomainCoverage& coverage, const Function& f) {
-  for (const PairCoverage& pair : coverage.pairs) {
-    const std::size_t width = coverage.conditions[pair.second].bins.size();
-    for (std::size_t cell = 0; cell < pair.cells.size(); ++cell)
-      if (coverage.domain.has(pair.first, cell / width, pair.second, cell % width))
-        f(DomainTarget{pair.first, cell / width, std::pair{pair.second, cell % width}}, pair.cells[cell]);
-  }
-}
-
-}  // namespace
-
 std::vector<DomainTarget> DomainCoverage::empty_pairs() const {
   std::vector<DomainTarget> empty;
-  for_each_pair(*this, [&](const DomainTarget& target, const DomainCount& count) {
-    if (count.encounters < domain.min_encounters) empty.push_back(target);
+  for_each_pair([&](const DomainTarget& target, const DomainCount& count) {
+    if (has(target) && is_empty(count)) empty.push_back(target);
   });
   return empty;
 }
 
 std::pair<long long, long long> DomainCoverage::pairs_covered() const {
   std::pair<long long, long long> covered_and_all{0, 0};
-  for_each_pair(*this, [&](const DomainTarget&, const DomainCount& count) {
+  for_each_pair([&](const DomainTarget& target, const DomainCount& count) {
+    if (!has(target)) return;
     ++covered_and_all.second;
-    if (count.encounters >= domain.min_encounters) ++covered_and_all.first;
+    if (!is_empty(count)) ++covered_and_all.first;
   });
   return covered_and_all;
 }
@@ -324,16 +301,13 @@ Result<DomainCoverage> predicted_domain_coverage(const DesignDomain& domain,
 
 Result<DomainCoverage> counted_domain_coverage(const DesignDomain& domain, const std::filesystem::path& folder,
                                                const std::atomic<bool>* cancel) {
-  const Result<Json> index = read_index(folder);
-  if (!index) return fail(index.error());
-  const Result<std::vector<IndexedVideo>> videos = videos_in_index(*index, folder / kIndexName);
-  if (!videos) return fail(videos.error());
   DomainCoverage coverage(domain);
-  for (const IndexedVideo& video : *videos) {
-    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-    if (const Result<void> counted = count_domain_video(folder, video, coverage); !counted)
-      return fail(counted.error());
-  }
+  const Result<Json> index = for_each_indexed_video(
+      folder, cancel, [&](const IndexedVideo& video, pugi::xml_node annotations) -> Result<void> {
+        count_domain_video(video, annotations, coverage);
+        return {};
+      });
+  if (!index) return fail(index.error());
   return coverage;
 }
 

@@ -56,12 +56,31 @@ struct PairCoverage {
 struct DomainTarget {
   std::size_t condition = 0, bin = 0;
   std::optional<std::pair<std::size_t, std::size_t>> other = {};  // condition and bin
+
+  [[nodiscard]] auto operator<=>(const DomainTarget&) const = default;
 };
 
 struct DomainCoverage {
   explicit DomainCoverage(DesignDomain of);
 
   void add(const DomainEncounter& encounter);
+
+  // Calls f(target, count) for each pair of bins, of the domain or not.
+  template <class Function>
+  void for_each_pair(const Function& f) const {
+    for (const PairCoverage& pair : pairs) {
+      const std::size_t width = conditions[pair.second].bins.size();
+      for (std::size_t cell = 0; cell < pair.cells.size(); ++cell)
+        f(DomainTarget{pair.first, cell / width, std::pair{pair.second, cell % width}}, pair.cells[cell]);
+    }
+  }
+
+  // Whether the domain has a bin, or a pair of bins.
+  [[nodiscard]] bool has(const DomainTarget& target) const {
+    return target.other ? domain.has(target.condition, target.bin, target.other->first, target.other->second)
+                        : domain.has(target.condition, target.bin);
+  }
+  [[nodiscard]] bool is_empty(const DomainCount& count) const { return count.encounters < domain.min_encounters; }
 
   // Of the domain's pairs of bins those with min_encounters or more, and all.
   [[nodiscard]] std::pair<long long, long long> pairs_covered() const;

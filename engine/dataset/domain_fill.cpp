@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 
 #include "base/threads.h"
 #include "dataset/video_sample.h"
@@ -80,16 +79,7 @@ std::string free_prefix(const Recipe& recipe) {
   }
 }
 
-// --- Cells of the coverage that are still empty.
-
-using Cell = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;  // two conditions with a bin of each
-
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-Cell cell_key(const DomainTarget& target) {
-  return target.other ? Cell{target.condition, target.bin, target.other->first, target.other->second}
-                      : Cell{target.condition, target.bin, kNone, kNone};
-}
+// --- What of the coverage is still empty.
 
 std::vector<DomainTarget> empty_targets(const DomainCoverage& coverage) {
   std::vector<DomainTarget> targets = coverage.empty_bins();
@@ -98,26 +88,24 @@ std::vector<DomainTarget> empty_targets(const DomainCoverage& coverage) {
   return targets;
 }
 
-// All cells that the encounters cover, in the domain or not.
-std::vector<Cell> covered_cells(const DesignDomain& domain, const std::vector<DomainEncounter>& encounters) {
+// All that the encounters cover, in the domain or not.
+std::vector<DomainTarget> covered_targets(const DesignDomain& domain, const std::vector<DomainEncounter>& encounters) {
   DomainCoverage alone(domain);
   for (const DomainEncounter& encounter : encounters) alone.add(encounter);
-  std::vector<Cell> cells;
+  std::vector<DomainTarget> covered;
   for (std::size_t i = 0; i < alone.conditions.size(); ++i)
     for (std::size_t bin = 0; bin < alone.conditions[i].bins.size(); ++bin)
-      if (alone.conditions[i].bins[bin].frames > 0) cells.emplace_back(i, bin, kNone, kNone);
-  for (const PairCoverage& pair : alone.pairs) {
-    const std::size_t width = alone.conditions[pair.second].bins.size();
-    for (std::size_t cell = 0; cell < pair.cells.size(); ++cell)
-      if (pair.cells[cell].frames > 0) cells.emplace_back(pair.first, cell / width, pair.second, cell % width);
-  }
-  return cells;
+      if (alone.conditions[i].bins[bin].frames > 0) covered.push_back({i, bin});
+  alone.for_each_pair([&](const DomainTarget& target, const DomainCount& count) {
+    if (count.frames > 0) covered.push_back(target);
+  });
+  return covered;
 }
 
 struct PlannedFill {
   Json group;
   std::vector<DomainEncounter> encounters;
-  std::vector<Cell> cells;  // that they cover
+  std::vector<DomainTarget> covered;
 };
 
 // Adds videos to a recipe, round by round.
@@ -250,7 +238,7 @@ Result<std::vector<PlannedFill>> DomainFiller::planned(const Json& groups) const
     if (encounters && !encounters->encounters.empty())
       fills.push_back({.group = *group_of_name.at(video.name),
                        .encounters = encounters->encounters,
-                       .cells = covered_cells(coverage_.domain, encounters->encounters)});
+                       .covered = covered_targets(coverage_.domain, encounters->encounters)});
   }
   return fills;
 }
@@ -258,13 +246,13 @@ Result<std::vector<PlannedFill>> DomainFiller::planned(const Json& groups) const
 // Keeps the video that covers most of what is empty, then the one that covers most of the rest, and so on.
 void DomainFiller::keep_best(std::vector<PlannedFill> fills) {
   while (!fills.empty()) {
-    std::set<Cell> empty;
-    for (const DomainTarget& target : empty_targets(coverage_)) empty.insert(cell_key(target));
+    const std::vector<DomainTarget> targets = empty_targets(coverage_);
+    const std::set<DomainTarget> empty(targets.begin(), targets.end());
     std::ptrdiff_t most = 0;
     auto best = fills.end();
     for (auto fill = fills.begin(); fill != fills.end(); ++fill) {
       const std::ptrdiff_t covers =
-          std::ranges::count_if(fill->cells, [&](const Cell& c) { return empty.contains(c); });
+          std::ranges::count_if(fill->covered, [&](const DomainTarget& target) { return empty.contains(target); });
       if (covers > most) best = fill;
       most = std::max(most, covers);
     }

@@ -24,11 +24,10 @@ std::string condition_table(const DomainCoverage& coverage, std::size_t i) {
   const ConditionCoverage& counts = coverage.conditions[i];
   std::string text = fmt::format("{:<26}{:>10}{:>12}\n", condition.name, "frames", "encounters");
   for (std::size_t bin = 0; bin < counts.bins.size(); ++bin) {
-    const bool is_empty = counts.bins[bin].encounters < coverage.domain.min_encounters;
     text += count_row(condition.bin_name(bin), counts.bins[bin],
-                      !coverage.domain.has(i, bin) ? "not of the domain"
-                      : is_empty                   ? "empty"
-                                                   : "");
+                      !coverage.domain.has(i, bin)          ? "not of the domain"
+                      : coverage.is_empty(counts.bins[bin]) ? "empty"
+                                                            : "");
   }
   if (counts.outside.frames > 0) text += count_row("outside", counts.outside, "");
   if (counts.untold.frames > 0) text += count_row("not told", counts.untold, "");
@@ -49,7 +48,7 @@ std::string empty_text(const DomainCoverage& coverage) {
   std::vector<DomainTarget> pairs = coverage.empty_pairs();
   const std::size_t all = pairs.size();
   const auto is_empty = [&](std::size_t condition, std::size_t bin) {
-    return coverage.conditions[condition].bins[bin].encounters < coverage.domain.min_encounters;
+    return coverage.is_empty(coverage.conditions[condition].bins[bin]);
   };
   std::erase_if(pairs, [&](const DomainTarget& target) {
     return is_empty(target.condition, target.bin) || is_empty(target.other->first, target.other->second);
@@ -135,16 +134,12 @@ Plot pairs_plot(const DomainCoverage& coverage) {
     notes.push_back({{middle, middle}, condition.name});
     begin.push_back(begin.back() + bins);
   }
-  for (const PairCoverage& pair : coverage.pairs) {
-    const std::size_t width = coverage.conditions[pair.second].bins.size();
-    for (std::size_t cell = 0; cell < pair.cells.size(); ++cell) {
-      if (!coverage.domain.has(pair.first, cell / width, pair.second, cell % width)) continue;
-      const double x = begin[pair.second] + static_cast<double>(cell % width);
-      const double y = begin[pair.first] + static_cast<double>(cell / width);
-      const bool is_empty = pair.cells[cell].encounters < coverage.domain.min_encounters;
-      (is_empty ? empty : covered).runs.push_back({{x + 0.05, y + 0.05}, {x + 0.95, y + 0.95}});
-    }
-  }
+  coverage.for_each_pair([&](const DomainTarget& target, const DomainCount& count) {
+    if (!coverage.has(target)) return;
+    const double x = begin[target.other->first] + static_cast<double>(target.other->second);
+    const double y = begin[target.condition] + static_cast<double>(target.bin);
+    (coverage.is_empty(count) ? empty : covered).runs.push_back({{x + 0.05, y + 0.05}, {x + 0.95, y + 0.95}});
+  });
   return {.title = "pairs of bins",
           .x_range = {0, begin.back()},
           .y_range = {0, begin.back()},

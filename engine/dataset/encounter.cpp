@@ -46,7 +46,7 @@ std::string metres(double value_m) {
 }
 
 // The length of the relative path from the first frame to the CPA: Pythagoras.
-tl::expected<double, std::string> path_length_m(double range_m, double miss_m) {
+Possible<double> path_length_m(double range_m, double miss_m) {
   if (range_m < miss_m)
     return tl::unexpected(fmt::format("range_m: the intruder starts {} away, nearer than the miss distance of {}",
                                       metres(range_m), metres(miss_m)));
@@ -73,7 +73,7 @@ double first_range_m(const Encounter& encounter) {
   return glm::length(relative_motion(encounter).start_m);
 }
 
-tl::expected<Encounter, std::string> timed_encounter(Encounter encounter, const EncounterTiming& timing) {
+Possible<Encounter> timed_encounter(Encounter encounter, const EncounterTiming& timing) {
   ENSURE(timing.closing_speed_mps.has_value() + timing.time_of_closest_approach_s.has_value() +
              timing.range_m.has_value() ==
          2);
@@ -84,7 +84,7 @@ tl::expected<Encounter, std::string> timed_encounter(Encounter encounter, const 
         fmt::format("closing_speed_mps: {} m/s cannot meet the miss distance of {}: the intruder never comes nearer",
                     short_number_text(*timing.closing_speed_mps), metres(encounter.miss_distance_m)));
   if (!timing.range_m) return encounter;
-  const tl::expected<double, std::string> path = path_length_m(*timing.range_m, encounter.miss_distance_m);
+  const Possible<double> path = path_length_m(*timing.range_m, encounter.miss_distance_m);
   if (!path) return tl::unexpected(path.error());
   if (timing.closing_speed_mps) {
     encounter.time_of_closest_approach_s = *path / *timing.closing_speed_mps;

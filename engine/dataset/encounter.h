@@ -3,8 +3,8 @@
 
 #include <glm/glm.hpp>
 #include <optional>
-#include <string>
-#include <tl/expected.hpp>
+
+#include "dataset/sample.h"
 
 namespace sigs {
 
@@ -50,7 +50,7 @@ struct EncounterTiming {
 
 // The encounter with the speed and time of `timing`, in which exactly two values are given. Where there is no such
 // encounter: the reason in one line, which begins with the name of the quantity.
-[[nodiscard]] tl::expected<Encounter, std::string> timed_encounter(Encounter encounter, const EncounterTiming& timing);
+[[nodiscard]] Possible<Encounter> timed_encounter(Encounter encounter, const EncounterTiming& timing);
 
 struct CosSin {
   double cos = 1;

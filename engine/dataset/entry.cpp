@@ -12,6 +12,7 @@
 #include "base/input_file.h"
 #include "base/staged_outputs.h"
 #include "base/threads.h"
+#include "camera/camera.h"
 #include "mesh/model_files.h"
 #include "project/fields.h"
 #include "project/json.h"
@@ -77,8 +78,6 @@ Result<std::string> fingerprint_of(const Project& project, const std::string& pr
   }
   return checksum_of_text(fmt::format("{}\n{}{}", program, list, text_of(pathless)));
 }
-
-namespace fs = std::filesystem;
 
 namespace {
 

@@ -29,20 +29,16 @@ std::optional<glm::dvec3> near_ray(const Lens& lens, const glm::dvec2& pixel) {
 constexpr double kMaxCoordinate_m = 1e8;  // of a waypoint from the origin, along each axis
 constexpr double kRounding_m = 1e-6;      // a position below the ground by no more than this is on it
 
-using Values = std::map<std::string, double>;
-template <class T>
-using Possible = tl::expected<T, std::string>;
-
 glm::dvec3 camera_velocity_mps(const FlightContext& context) {
   return {context.camera.speed_mps, 0, 0};
 }
 
-std::optional<double> value_of(const Values& values, const char* name) {
+std::optional<double> value_of(const FlightValues& values, const char* name) {
   const auto found = values.find(name);
   return found == values.end() ? std::nullopt : std::optional(found->second);
 }
 
-Possible<void> check_values(FlightKind kind, const Values& values) {
+Possible<void> check_values(FlightKind kind, const FlightValues& values) {
   for (const FlightQuantity& quantity : quantities_of(kind)) {
     const auto found = values.find(std::string(quantity.name));
     if (found == values.end()) continue;
@@ -55,7 +51,8 @@ Possible<void> check_values(FlightKind kind, const Values& values) {
 }
 
 // Ray of a place given by two quantities, in world axes.
-glm::dvec3 world_ray(const Values& values, const char* x_percent, const char* y_percent, const FlightContext& context) {
+glm::dvec3 world_ray(const FlightValues& values, const char* x_percent, const char* y_percent,
+                     const FlightContext& context) {
   const glm::dquat world_from_camera = rotation_of(mount_attitude(context.camera));
   return world_from_camera * ray_of_place(context.lens, {values.at(x_percent), values.at(y_percent)});
 }
@@ -121,7 +118,7 @@ double fixed_share(FlightKind kind) {
   return kind == FlightKind::approaching ? 1 : 0;
 }
 
-Possible<RelativeMotion> template_motion(FlightKind kind, const Values& values, const FlightContext& context) {
+Possible<RelativeMotion> template_motion(FlightKind kind, const FlightValues& values, const FlightContext& context) {
   const glm::dvec3 from_ray = world_ray(values, "from_x_percent", "from_y_percent", context);
   const glm::dvec3 to_ray = world_ray(values, "to_x_percent", "to_y_percent", context);
   const RelativePath path = is_crossing(kind)
@@ -134,7 +131,7 @@ Possible<RelativeMotion> template_motion(FlightKind kind, const Values& values, 
 }
 
 // Where neither time nor range is given, the closest approach is in the last frame.
-EncounterTiming timing_of(const Values& values, const FlightEnds& ends) {
+EncounterTiming timing_of(const FlightValues& values, const FlightEnds& ends) {
   EncounterTiming timing{.closing_speed_mps = value_of(values, "closing_speed_mps"),
                          .time_of_closest_approach_s = value_of(values, "time_of_closest_approach_s"),
                          .range_m = value_of(values, "range_m")};
@@ -143,7 +140,7 @@ EncounterTiming timing_of(const Values& values, const FlightEnds& ends) {
   return timing;
 }
 
-Possible<Encounter> encounter_of(const Values& values, const FlightEnds& ends) {
+Possible<Encounter> encounter_of(const FlightValues& values, const FlightEnds& ends) {
   return timed_encounter({.miss_distance_m = values.at("miss_distance_m"),
                           .miss_angle_deg = values.at("miss_angle_deg"),
                           .bearing_deg = values.at("bearing_deg"),
@@ -151,7 +148,7 @@ Possible<Encounter> encounter_of(const Values& values, const FlightEnds& ends) {
                          timing_of(values, ends));
 }
 
-void add_derived(const Encounter& encounter, std::map<std::string, double>& derived) {
+void add_derived(const Encounter& encounter, FlightValues& derived) {
   derived["closing_speed_mps"] = encounter.closing_speed_mps;
   derived["time_of_closest_approach_s"] = encounter.time_of_closest_approach_s;
   derived["range_m"] = first_range_m(encounter);
@@ -162,7 +159,7 @@ struct ImageAxes {
   glm::dvec3 ray, right, up;
 };
 
-Possible<ImageAxes> axes_at(const Values& values, const FlightContext& context) {
+Possible<ImageAxes> axes_at(const FlightValues& values, const FlightContext& context) {
   const glm::dvec2 place_percent(values.at("x_percent"), values.at("y_percent"));
   const glm::dvec2 size_px(context.lens.size_px.width, context.lens.size_px.height);
   const std::optional<glm::dvec3> ray = near_ray(context.lens.lens, place_percent / 100.0 * size_px - 0.5);
@@ -176,7 +173,7 @@ Possible<ImageAxes> axes_at(const Values& values, const FlightContext& context) 
 }
 
 // Velocity of the relative motion over ground, by course_deg and climb_deg.
-glm::dvec3 velocity_over_ground(const Values& values, double course_deg, const FlightContext& context) {
+glm::dvec3 velocity_over_ground(const FlightValues& values, double course_deg, const FlightContext& context) {
   const glm::dvec3 looks = rotation_of(mount_attitude(context.camera)) * glm::dvec3(1, 0, 0);
   const double level = std::hypot(looks.x, looks.y);
   constexpr double kVertical = 1e-6;
@@ -189,8 +186,8 @@ glm::dvec3 velocity_over_ground(const Values& values, double course_deg, const F
 }
 
 // The motion that is distance_m away on the place's ray at that time.
-Possible<RelativeMotion> motion_at_distance(const Values& values, const FlightContext& context, double since_first_s,
-                                            double distance_m) {
+Possible<RelativeMotion> motion_at_distance(const FlightValues& values, const FlightContext& context,
+                                            double since_first_s, double distance_m) {
   const Possible<ImageAxes> axes = axes_at(values, context);
   if (!axes) return tl::unexpected(axes.error());
   const CosSin direction = cos_sin_of_deg(values.at("direction_deg"));
@@ -218,8 +215,8 @@ std::vector<WaypointSettings> waypoints_of(const RelativeMotion& motion, const F
 
 // The distance at which the intruder is as large as asked: a silhouette's size is nearly inverse to the distance, so
 // that few rounds lead to a distance that, rounded to 2^-10 m, stays: every machine finds the same.
-Possible<RelativeMotion> positioned_motion(const Values& values, const FlightContext& context,
-                                           std::map<std::string, double>& derived) {
+Possible<RelativeMotion> positioned_motion(const FlightValues& values, const FlightContext& context,
+                                           FlightValues& derived) {
   constexpr int kRounds = 8;
   constexpr double kMaxError = 0.01;  // of the size
   const std::optional<int> frame = frame_of_position(values, context);
@@ -254,7 +251,7 @@ Possible<RelativeMotion> positioned_motion(const Values& values, const FlightCon
 }
 
 // What determines the intruder's speed.
-std::string ways_out(FlightKind kind, const Values& values) {
+std::string ways_out(FlightKind kind, const FlightValues& values) {
   if (kind == FlightKind::image_position)
     return values.contains("course_deg") ? "relative_speed_mps, course_deg or climb_deg"
                                          : "relative_speed_mps, direction_deg or approach_angle_deg";
@@ -266,14 +263,14 @@ std::string ways_out(FlightKind kind, const Values& values) {
 }
 
 // The quantities on which the height depends.
-const char* heights_of(FlightKind kind, const Values& values) {
+const char* heights_of(FlightKind kind, const FlightValues& values) {
   if (kind == FlightKind::image_position)
     return values.contains("distance_m") ? "y_percent, distance_m" : "y_percent, size_px";
   return kind == FlightKind::encounter ? "elevation_deg, miss_angle_deg" : "from_y_percent, to_y_percent";
 }
 
-Possible<RelativeMotion> motion_of(FlightKind kind, const Values& values, const FlightContext& context,
-                                   std::map<std::string, double>& derived) {
+Possible<RelativeMotion> motion_of(FlightKind kind, const FlightValues& values, const FlightContext& context,
+                                   FlightValues& derived) {
   if (kind == FlightKind::image_position) return positioned_motion(values, context, derived);
   if (kind != FlightKind::encounter) return template_motion(kind, values, context);
   const Possible<Encounter> encounter = encounter_of(values, ends_of(context));
@@ -290,7 +287,7 @@ FlightEnds ends_of(const FlightContext& context) {
   return {frames, first_s, time_of_frame_s(context.footage, frames.last) - first_s};
 }
 
-std::optional<int> frame_of_position(const Values& values, const FlightContext& context) {
+std::optional<int> frame_of_position(const FlightValues& values, const FlightContext& context) {
   const FrameRange& frames = context.frames;
   const std::optional<double> time_s = value_of(values, "time_s");
   if (!time_s) return frames.first + (frames.last - frames.first) / 2;
@@ -327,7 +324,7 @@ Possible<void> check_waypoint(const WaypointSettings& waypoint, const char* heig
   return {};
 }
 
-Possible<PlannedFlight> planned_flight(FlightKind kind, const Values& values, const FlightContext& context) {
+Possible<PlannedFlight> planned_flight(FlightKind kind, const FlightValues& values, const FlightContext& context) {
   if (const Possible<void> checked = check_values(kind, values); !checked) return tl::unexpected(checked.error());
   const FlightEnds ends = ends_of(context);
   if (!(ends.length_s > 0)) return tl::unexpected(std::string("frames: the footage's times do not increase"));

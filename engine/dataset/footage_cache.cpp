@@ -57,89 +57,82 @@ std::shared_ptr<const Model> model_of_size(const Model& unit, const ModelSetting
   return model;
 }
 
-// Opens the backgrounds of one recipe.
-class BackgroundOpener {
- public:
-  explicit BackgroundOpener(const Recipe& recipe) : recipe_(recipe) {}
-
-  // Error: the clip cannot be opened.
-  [[nodiscard]] Result<FootageShape> shape(std::size_t i) {
-    Result<FootageShape> shape = shape_of_footage(recipe_.backgrounds[i].footage);
-    if (!shape) return fail_at(key_of(i) + "footage.video", shape.error());
-    return shape;
-  }
-
-  [[nodiscard]] Result<OpenedBackground> opened(std::size_t i, const FootageShape& shape) const {
-    const Background& background = recipe_.backgrounds[i];
-    const FootageSettings& settings = background.footage;
-    const std::string where = key_of(i) + "footage.";
-    Result<Camera> lens =
-        settings.calibration.empty() && settings.lens_model == LensModelChoice::equirectangular
-            ? equirectangular_camera(shape.size_px)
-            : read_calibration(settings.calibration, shape.size_px, lens_model_of(settings.lens_model), shape.part);
-    if (!lens) return fail_at(where + "calibration", lens.error());
-    if (const std::string& mask = settings.own_body_mask; !mask.empty())
+// key: of the background in the recipe, for errors.
+Result<OpenedBackground> opened_background(const Background& background, const std::string& key,
+                                           const FootageShape& shape) {
+  const FootageSettings& settings = background.footage;
+  const std::string where = key + "footage.";
+  Result<Camera> lens =
+      settings.calibration.empty() && settings.lens_model == LensModelChoice::equirectangular
+          ? equirectangular_camera(shape.size_px)
+          : read_calibration(settings.calibration, shape.size_px, lens_model_of(settings.lens_model), shape.part);
+  if (!lens) return fail_at(where + "calibration", lens.error());
+  for (const auto& [name, mask] :
+       {std::pair("own_body_mask", settings.own_body_mask), std::pair("occluder_mask", settings.occluder_mask)})
+    if (!mask.empty())
       if (const Result<cv::Mat> read = read_own_body_mask(mask, shape.size_px); !read)
-        return fail_at(where + "own_body_mask", read.error());
-    if (const std::string& mask = settings.occluder_mask; !mask.empty())
-      if (const Result<cv::Mat> read = read_own_body_mask(mask, shape.size_px); !read)
-        return fail_at(where + "occluder_mask", read.error());
-    BoxesByFrame real_aircraft;
-    if (!settings.real_aircraft.empty()) {
-      Result<BoxesByFrame> boxes = read_boxes_by_frame(settings.real_aircraft);
-      if (!boxes) return fail_at(where + "real_aircraft", boxes.error());
-      real_aircraft = *std::move(boxes);
-    }
-    if (const std::string& attitude = background.camera.attitude_file; !attitude.empty())
-      if (const auto read = read_attitude_file(attitude); !read)
-        return fail_at(key_of(i) + "camera.attitude_file", read.error());
-    if (const TrackSettings& track = background.camera.track; !track.file.empty()) {
-      // Flights are planned about a camera that flies straight on (flight_plan.h).
-      if (track.position != TrackPositionChoice::none)
-        return fail(key_of(i) + "camera.track.position",
-                    "is not \"none\": a recipe plans flights about a camera that flies straight on; use the log's "
-                    "attitude alone, or write the encounter as a project");
-      if (const auto read = read_track(track.file); !read)
-        return fail_at(key_of(i) + "camera.track.file", read.error());
-    }
-    const int last = static_cast<int>(shape.times_s.size()) - 1;
-    const FrameRange frames{settings.first_frame, settings.last_frame.value_or(last)};
-    if (frames.last > last || frames.first > frames.last)
-      return fail(where + (frames.last > last ? "last_frame" : "first_frame"),
-                  fmt::format("the footage has frames 0 to {}", last));
-    return OpenedBackground{shape, *std::move(lens), frames, std::move(real_aircraft)};
+        return fail_at(where + name, read.error());
+  BoxesByFrame real_aircraft;
+  if (!settings.real_aircraft.empty()) {
+    Result<BoxesByFrame> boxes = read_boxes_by_frame(settings.real_aircraft);
+    if (!boxes) return fail_at(where + "real_aircraft", boxes.error());
+    real_aircraft = *std::move(boxes);
   }
-
- private:
-  [[nodiscard]] std::string key_of(std::size_t i) const {
-    return fmt::format("{}: backgrounds[{}].", recipe_.file.string(), i);
+  if (const std::string& attitude = background.camera.attitude_file; !attitude.empty())
+    if (const auto read = read_attitude_file(attitude); !read)
+      return fail_at(key + "camera.attitude_file", read.error());
+  if (const TrackSettings& track = background.camera.track; !track.file.empty()) {
+    // Flights are planned about a camera that flies straight on (flight_plan.h).
+    if (track.position != TrackPositionChoice::none)
+      return fail(key + "camera.track.position",
+                  "is not \"none\": a recipe plans flights about a camera that flies straight on; use the log's "
+                  "attitude alone, or write the encounter as a project");
+    if (const auto read = read_track(track.file); !read) return fail_at(key + "camera.track.file", read.error());
   }
+  const int last = static_cast<int>(shape.times_s.size()) - 1;
+  const FrameRange frames{settings.first_frame, settings.last_frame.value_or(last)};
+  if (frames.last > last || frames.first > frames.last)
+    return fail(where + (frames.last > last ? "last_frame" : "first_frame"),
+                fmt::format("the footage has frames 0 to {}", last));
+  return OpenedBackground{shape, *std::move(lens), frames, std::move(real_aircraft)};
+}
 
-  Result<FootageShape> shape_of_footage(const FootageSettings& footage) {
-    const FootageKey key = footage_key(project_of(footage));
-    if (const auto known = shapes_.find(key); known != shapes_.end()) return known->second;
-    Result<FootageShape> shape = opened_shape(footage);
-    if (shape) shapes_.emplace(key, *shape);
-    return shape;
-  }
+// The row of cells below all sky within a quarter of the image's width.
+int land_from(const SkyMap& map, int column) {
+  int row = 0;
+  const int reach = map.sky.cols / 4;
+  for (int x = std::max(0, column - reach); x <= std::min(map.sky.cols - 1, column + reach); ++x)
+    row = std::max(row, map.end_of(x));
+  return row;
+}
 
-  const Recipe& recipe_;
-  std::map<FootageKey, FootageShape> shapes_;
-};
+// The frames that an export writes; of a further camera of a rig those of the time of the first one.
+Result<FrameRange> range_of(const Project& project, const FootageShape& footage) {
+  Scene scene = bare_scene(project, in_rig_time(footage, project));
+  SceneFiles files;
+  if (const Result<void, Problem> step = set_range(scene, project, files); !step)
+    return fail(error_of(project, step.error()));
+  return FrameRange{scene.first_frame, scene.last_frame};
+}
 
 }  // namespace
 
 Result<std::vector<Result<OpenedBackground>>> opened_backgrounds(const Recipe& recipe) {
-  BackgroundOpener opener(recipe);
+  std::map<FootageKey, FootageShape> shapes;  // of the clips that could be opened
   std::vector<Result<OpenedBackground>> backgrounds;
   bool has_any = false;
-  for (std::size_t i = 0; i < recipe.backgrounds.size(); ++i) {
-    const Result<FootageShape> shape = opener.shape(i);
-    if (!shape) {
-      backgrounds.emplace_back(tl::unexpect, shape.error());
-      continue;
+  for (const Background& background : recipe.backgrounds) {
+    const std::string key = fmt::format("{}: backgrounds[{}].", recipe.file.string(), backgrounds.size());
+    const FootageKey footage = footage_key(project_of(background.footage));
+    if (!shapes.contains(footage)) {
+      Result<FootageShape> shape = opened_shape(background.footage);
+      if (!shape) {
+        backgrounds.push_back(fail_at(key + "footage.video", shape.error()));
+        continue;
+      }
+      shapes.emplace(footage, *std::move(shape));
     }
-    Result<OpenedBackground> opened = opener.opened(i, *shape);
+    Result<OpenedBackground> opened = opened_background(background, key, shapes.at(footage));
     if (!opened) return fail(opened.error());
     backgrounds.push_back(std::move(opened));
     has_any = true;
@@ -212,19 +205,6 @@ Result<void> VideoVisibility::look_for_sky(const FootageSettings& footage, const
   return {};
 }
 
-namespace {
-
-// The row of cells below all sky within a quarter of the image's width.
-int land_from(const SkyMap& map, int column) {
-  int row = 0;
-  const int reach = map.sky.cols / 4;
-  for (int x = std::max(0, column - reach); x <= std::min(map.sky.cols - 1, column + reach); ++x)
-    row = std::max(row, map.end_of(x));
-  return row;
-}
-
-}  // namespace
-
 std::optional<VideoVisibility::Behind> VideoVisibility::behind(const FootageSettings& footage, int frame,
                                                                const Box& box) const {
   const auto there = skies_.find({footage_key(project_of(footage)), frame});
@@ -251,19 +231,6 @@ std::optional<FootageShape> VideoVisibility::shape_of_footage(const FootageSetti
   const Result<FootageShape> shape = opened_shape(footage);
   return shapes_[key] = shape ? std::optional(*shape) : std::nullopt;
 }
-
-namespace {
-
-// The frames that an export writes; of a further camera of a rig those of the time of the first one.
-Result<FrameRange> range_of(const Project& project, const FootageShape& footage) {
-  Scene scene = bare_scene(project, in_rig_time(footage, project));
-  SceneFiles files;
-  if (const Result<void, Problem> step = set_range(scene, project, files); !step)
-    return fail(error_of(project, step.error()));
-  return FrameRange{scene.first_frame, scene.last_frame};
-}
-
-}  // namespace
 
 Result<int> frames_of(const Project& project, const FootageShape& footage) {
   const Result<FrameRange> range = range_of(project, footage);

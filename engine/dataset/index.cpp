@@ -4,15 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <pugixml.hpp>
 #include <system_error>
 
 #include "base/json.h"
 #include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "dataset/dataset_lock.h"
 #include "dataset/merge_labels.h"
+#include "project/project.h"
 
 namespace sigs {
 
@@ -212,6 +216,57 @@ Json index_of(const Plan& plan, const DatasetSource& source, const std::vector<F
   return json;
 }
 
+// file: the index, named in errors.
+Result<std::vector<IndexedVideo>> videos_in_index(const Json& index, const fs::path& file) {
+  if (!index.is_object() || !index.contains("videos") || !index.at("videos").is_array())
+    return fail(file.string(), "is no index of a dataset: it has no list \"videos\"");
+  std::vector<IndexedVideo> videos;
+  for (const Json& video : index.at("videos")) {
+    const auto name = video.is_object() ? video.find("name") : video.end();
+    if (!video.is_object() || name == video.end() || !name->is_string())
+      return fail(file.string(), fmt::format("videos[{}] has no name", videos.size()));
+    videos.push_back({.name = name->get<std::string>()});
+    IndexedVideo& read = videos.back();
+    if (const std::string wrong = wrong_with_video_name(read.name); !wrong.empty())
+      return fail(file.string(), fmt::format("videos[{}].name {}", videos.size() - 1, wrong));
+    if (const auto split = video.find("split"); split != video.end() && split->is_string())
+      read.split = split->get<std::string>();
+    if (const auto tags = video.find("tags"); tags != video.end() && tags->is_object())
+      for (const auto& [tag, value] : tags->items())
+        if (value.is_string()) read.tags[tag] = value.get<std::string>();
+    if (const auto drawn = video.find("drawn"); drawn != video.end() && drawn->is_object())
+      for (const auto& [quantity, number] : drawn->items())
+        if (number.is_number()) read.sampled[quantity] = number.get<double>();
+  }
+  return videos;
+}
+
+Result<pugi::xml_document> annotations_of(const fs::path& file) {
+  const Result<std::string> text = read_text(file);
+  if (!text)
+    return fail(text.error().where, text.error().what + "; counting needs annotations: export.labels with xml",
+                text.error().kind);
+  pugi::xml_document document;
+  const pugi::xml_parse_result parsed = document.load_buffer(text->data(), text->size());
+  if (!parsed || !document.child("sigs")) return fail(file.string(), "is no SIGS annotation file");
+  return document;
+}
+
+// Of the intruders of a project file, by id. Empty where it cannot be read.
+std::map<std::string, std::string> categories_of(const fs::path& project) {
+  std::map<std::string, std::string> categories;
+  const Result<std::string> text = read_text(project);
+  const Result<Json> json = text ? parsed_json(*text, project.string(), ErrorKind::bad_data) : fail(text.error());
+  if (!json || !json->is_object() || !json->contains("intruders")) return categories;
+  std::size_t id = 0;
+  for (const Json& intruder : json->at("intruders")) {
+    const auto category = intruder.is_object() ? intruder.find("category") : intruder.end();
+    const bool is_given = intruder.is_object() && category != intruder.end() && category->is_string();
+    categories[std::to_string(id++)] = is_given ? category->get<std::string>() : IntruderSettings{}.category;
+  }
+  return categories;
+}
+
 }  // namespace
 
 Result<void> check_shared_files(const fs::path& dataset) {
@@ -236,8 +291,6 @@ Result<void> remove_index(const fs::path& dataset) {
   }
   return {};
 }
-
-namespace fs = std::filesystem;
 
 std::string split_of(const PlannedVideo& video) {
   return video.split.empty() ? "all" : video.split;
@@ -278,6 +331,31 @@ Result<DatasetIndex> make_index(const Plan& plan, const DatasetSource& source, c
   for (const char* const name : kSharedFolders)
     if (fs::exists(dataset / name, code)) made.written.push_back(dataset / name);
   return made;
+}
+
+Result<Json> for_each_indexed_video(const fs::path& folder, const std::atomic<bool>* cancel,
+                                    const std::function<Result<void>(const IndexedVideo&, pugi::xml_node)>& visit) {
+  const fs::path file = folder / kIndexName;
+  const Result<std::string> text = read_text(file);
+  if (!text) return fail(text.error());
+  Result<Json> index = parsed_json(*text, file.string(), ErrorKind::bad_data);
+  if (!index) return index;
+  Result<std::vector<IndexedVideo>> videos = videos_in_index(*index, file);
+  if (!videos) return fail(videos.error());
+  for (IndexedVideo& video : *videos) {
+    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
+    const fs::path base = folder / video.name / video.name;
+    const Result<pugi::xml_document> document = annotations_of(base.string() + ".xml");
+    if (!document) return fail(document.error());
+    video.categories = categories_of(base.string() + ".json");
+    if (const Result<void> visited = visit(video, document->child("sigs")); !visited) return fail(visited.error());
+  }
+  return index;
+}
+
+double attribute_of(pugi::xml_node node, const char* name) {
+  const std::optional<double> number = parsed_number(trimmed(node.attribute(name).value()));
+  return number.value_or(std::nan(""));
 }
 
 }  // namespace sigs

@@ -4,12 +4,19 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "base/json.h"
 #include "base/result.h"
 #include "dataset/entry.h"
 #include "dataset/plan.h"
+
+namespace pugi {
+class xml_node;
+}
 
 namespace sigs {
 
@@ -60,5 +67,25 @@ struct DatasetIndex {
                                               const std::filesystem::path& dataset,
                                               const std::vector<FinishedVideo>& videos,
                                               const std::atomic<bool>* cancel);
+
+// A video of a dataset that has been made, as the index and the video's project tell it.
+struct IndexedVideo {
+  std::string name;                               // a name that is allowed (recipe.h)
+  std::string split;                              // empty: none
+  std::map<std::string, std::string> tags;        // background, aircraft, flight and those of the recipe
+  std::map<std::string, double> sampled;          // numbers that were sampled for it ("drawn")
+  std::map<std::string, std::string> categories;  // of its intruders, by id; empty: NAME/NAME.json cannot be read
+};
+
+// Calls `visit` for each video of FOLDER/index.json, in its order, with the element "sigs" of its annotations,
+// NAME/NAME.xml. Returns the index. Errors: cannot_read, of annotations with a word on export.labels; bad_data, which
+// names the file: it is no JSON, has no list of videos, or one without an allowed name; no annotations; interrupted;
+// that of `visit`, which ends it.
+[[nodiscard]] Result<Json> for_each_indexed_video(
+    const std::filesystem::path& folder, const std::atomic<bool>* cancel,
+    const std::function<Result<void>(const IndexedVideo&, pugi::xml_node)>& visit);
+
+// A number of an annotation; not a number (NaN) where it is missing or no number.
+[[nodiscard]] double attribute_of(pugi::xml_node node, const char* name);
 
 }  // namespace sigs

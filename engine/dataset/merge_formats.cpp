@@ -23,8 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kUnreadableLabels = "cannot be put together: labels of a video are not as sigs writes them";
-
 // Offsets added to the ids of a video's COCO labels, so that they differ from those of the videos before it.
 struct IdOffsets {
   std::int64_t video = 0;
@@ -66,13 +64,12 @@ Result<Json> read_labels(const fs::path& file) {
 // for each of the three, so that no more than one of them is in memory.
 class CocoMerge {
  public:
-  CocoMerge(const SplitLabels& labels, TextFile out) : labels_(labels), out_(std::move(out)) {}
+  CocoMerge(const SplitLabels& labels, TextFile& out) : labels_(labels), out_(out) {}
 
   Result<void> run() {
     Result<void> step = put_heads();
     if (step) step = put_annotations();
-    if (step) step = put_images();
-    return step ? out_.close() : step;
+    return step ? put_images() : step;
   }
 
  private:
@@ -149,7 +146,7 @@ class CocoMerge {
   }
 
   const SplitLabels& labels_;
-  TextFile out_;
+  TextFile& out_;
   std::vector<IdOffsets> offsets_;  // of each video
 };
 
@@ -172,20 +169,25 @@ Result<void> put_flights(const SplitLabels& labels, TextFile& out) {
       if (!step) return step;
     }
   }
-  const Result<void> end = out.put("}}\n");
-  return end ? out.close() : end;
+  return out.put("}}\n");
+}
+
+// Creates the file, which `put` fills from labels in JSON.
+Result<void> merged_json(const fs::path& file, const std::function<Result<void>(TextFile&)>& put) {
+  Result<TextFile> out = TextFile::create(file);
+  if (!out) return fail(out.error());
+  try {
+    const Result<void> filled = put(*out);
+    return filled ? out->close() : filled;
+  } catch (const Json::exception&) {
+    return fail(file.string(), "cannot be put together: labels of a video are not as sigs writes them");
+  }
 }
 
 }  // namespace
 
 Result<void> merge_coco(const SplitLabels& labels, const fs::path& file) {
-  Result<TextFile> out = TextFile::create(file);
-  if (!out) return fail(out.error());
-  try {
-    return CocoMerge(labels, std::move(*out)).run();
-  } catch (const Json::exception&) {
-    return fail(file.string(), kUnreadableLabels);
-  }
+  return merged_json(file, [&](TextFile& out) { return CocoMerge(labels, out).run(); });
 }
 
 Result<void> merge_csv(const SplitLabels& labels, const fs::path& file) {
@@ -205,13 +207,7 @@ Result<void> merge_csv(const SplitLabels& labels, const fs::path& file) {
 }
 
 Result<void> merge_aot(const SplitLabels& labels, const fs::path& file) {
-  Result<TextFile> out = TextFile::create(file);
-  if (!out) return fail(out.error());
-  try {
-    return put_flights(labels, *out);
-  } catch (const Json::exception&) {
-    return fail(file.string(), kUnreadableLabels);
-  }
+  return merged_json(file, [&](TextFile& out) { return put_flights(labels, out); });
 }
 
 // --- The formats that have folders: MOT, KITTI, VOT and YOLO.

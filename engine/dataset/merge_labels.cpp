@@ -10,7 +10,6 @@
 
 #include "base/text.h"
 #include "base/threads.h"
-#include "dataset/video_name.h"
 #include "labels/label_files.h"
 #include "labels/label_text.h"
 #include "labels/labels.h"
@@ -22,8 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool has_labels(const PlannedVideo& video, std::string_view format) {
-  const std::vector<std::string>& labels = video.project.output.labels;
-  return std::find(labels.begin(), labels.end(), format) != labels.end();
+  return std::ranges::count(video.project.output.labels, format) > 0;
 }
 
 std::string category_list(const Project& project) {

@@ -10,7 +10,6 @@
 #include "base/threads.h"
 #include "dataset/footage_cache.h"
 #include "dataset/sample.h"
-#include "dataset/video_name.h"
 #include "dataset/video_sample.h"
 #include "project/project.h"
 #include "project/validate.h"
@@ -153,8 +152,7 @@ class Planner {
 
  private:
   // A sample, or why it is impossible; where a video may be sampled again it must be visible, too.
-  [[nodiscard]] tl::expected<PlannedVideo, std::string> one_sample(const VideoSpec& spec,
-                                                                   const OpenedBackground& background, int again);
+  [[nodiscard]] Possible<PlannedVideo> one_sample(const VideoSpec& spec, const OpenedBackground& background, int again);
 
   const Recipe& recipe_;
   const std::vector<Result<OpenedBackground>>& backgrounds_;
@@ -178,9 +176,8 @@ Result<void> Planner::look_for_sky(const std::vector<VideoSpec>& specs, const st
   return {};
 }
 
-tl::expected<PlannedVideo, std::string> Planner::one_sample(const VideoSpec& spec, const OpenedBackground& background,
-                                                            int again) {
-  tl::expected<PlannedVideo, std::string> video = sampled_video(recipe_, spec, background, again, estimator_);
+Possible<PlannedVideo> Planner::one_sample(const VideoSpec& spec, const OpenedBackground& background, int again) {
+  Possible<PlannedVideo> video = sampled_video(recipe_, spec, background, again, estimator_);
   if (!video || !recipe_.groups[spec.group].resamples) return video;
   const auto is_never_visible = [&](const PlannedVideo& of_camera) {
     const std::optional<Visibility> view = estimator_.visibility_of(of_camera.project, kVisibilityFrames);
@@ -202,7 +199,7 @@ void Planner::add(const VideoSpec& spec, Plan& plan) {
       plan.unopened.push_back({spec.name, background.error()});
       return;
     }
-    tl::expected<PlannedVideo, std::string> video = one_sample(sampled, *background, again);
+    Possible<PlannedVideo> video = one_sample(sampled, *background, again);
     if (video) {
       video->resamples = std::move(failed);
       plan.videos.push_back(*std::move(video));
@@ -218,72 +215,6 @@ void Planner::add(const VideoSpec& spec, Plan& plan) {
         *resamples + 1, resamples_text(failed), spec.group, why);
   plan.impossible.push_back({spec.name, why});
 }
-
-}  // namespace
-
-// A rotor that the model of its aircraft cannot have is a mistake of the recipe, whatever video is made of it.
-static Result<void> check_rotors(const Recipe& recipe) {
-  SceneFiles files;
-  Project project = recipe.base;
-  project.intruders.resize(1);
-  for (std::size_t i = 0; i < recipe.aircraft.size(); ++i) {
-    project.intruders[0].model = recipe.aircraft[i].model;
-    if (recipe.aircraft[i].model.rotors.empty()) continue;
-    const auto model = scene_model(project, 0, files);
-    const std::size_t rotor = model ? std::string::npos : model.error().field.find("model.rotors[");
-    if (rotor != std::string::npos)
-      return fail(fmt::format("{}: aircraft[{}].{}", recipe.file.string(), i, model.error().field.substr(rotor)),
-                  model.error().what);
-  }
-  return {};
-}
-
-Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
-  if (const Result<void> rotors = check_rotors(recipe); !rotors) return fail(rotors.error());
-  const Result<std::vector<VideoSpec>> specs = all_specs(recipe);
-  if (!specs) return fail(specs.error());
-  const Result<std::vector<Result<OpenedBackground>>> backgrounds = opened_backgrounds(recipe);
-  if (!backgrounds) return fail(backgrounds.error());
-  Plan plan{.name = recipe.name};
-  Planner planner(recipe, *backgrounds);
-  if (const Result<void> looked = planner.look_for_sky(*specs, cancel); !looked) return fail(looked.error());
-  for (const VideoSpec& spec : *specs) {
-    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-    planner.add(spec, plan);
-  }
-  if (const Result<void> step = split_up(recipe, plan); !step) return fail(step.error());
-  std::vector<PlannedVideo> videos;  // after the splits, so that all cameras of an aircraft are in the same
-  for (PlannedVideo& video : plan.videos) {
-    const auto& cameras = recipe.backgrounds[index_of(recipe.backgrounds, video.tags.at("background"))].cameras;
-    for (PlannedVideo& of_camera : videos_of_cameras(std::move(video), cameras)) videos.push_back(std::move(of_camera));
-  }
-  plan.videos = std::move(videos);
-  add_clips(recipe, plan);
-  if (const Result<void> step = check_projects(recipe, plan); !step) return fail(step.error());
-  return plan;
-}
-
-std::map<std::string, int> resamples_of(const std::vector<const PlannedVideo*>& videos) {
-  std::map<std::string, int> resamples;
-  for (const PlannedVideo* const video : videos)
-    for (const auto& [condition, count] : video->resamples) resamples[condition] += count;
-  return resamples;
-}
-
-std::string resamples_text(const std::map<std::string, int>& resamples) {
-  std::vector<std::pair<std::string, int>> list(resamples.begin(), resamples.end());
-  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-  std::string text;
-  for (const auto& [condition, count] : list) {
-    if (!text.empty()) text += "; ";
-    text += condition;
-    text += count == 1 ? " once" : " ";
-    if (count > 1) text += fmt::format("{} times", count);
-  }
-  return text;
-}
-
-namespace {
 
 struct Unit {
   std::string name;
@@ -335,7 +266,69 @@ void share_out(std::vector<Unit*>& units, std::span<const SplitShare> shares) {
   }
 }
 
+// A rotor that the model of its aircraft cannot have is a mistake of the recipe, whatever video is made of it.
+Result<void> check_rotors(const Recipe& recipe) {
+  SceneFiles files;
+  Project project = recipe.base;
+  project.intruders.resize(1);
+  for (std::size_t i = 0; i < recipe.aircraft.size(); ++i) {
+    project.intruders[0].model = recipe.aircraft[i].model;
+    if (recipe.aircraft[i].model.rotors.empty()) continue;
+    const auto model = scene_model(project, 0, files);
+    const std::size_t rotor = model ? std::string::npos : model.error().field.find("model.rotors[");
+    if (rotor != std::string::npos)
+      return fail(fmt::format("{}: aircraft[{}].{}", recipe.file.string(), i, model.error().field.substr(rotor)),
+                  model.error().what);
+  }
+  return {};
+}
+
 }  // namespace
+
+Result<Plan> plan_of(const Recipe& recipe, const std::atomic<bool>* cancel) {
+  if (const Result<void> rotors = check_rotors(recipe); !rotors) return fail(rotors.error());
+  const Result<std::vector<VideoSpec>> specs = all_specs(recipe);
+  if (!specs) return fail(specs.error());
+  const Result<std::vector<Result<OpenedBackground>>> backgrounds = opened_backgrounds(recipe);
+  if (!backgrounds) return fail(backgrounds.error());
+  Plan plan{.name = recipe.name};
+  Planner planner(recipe, *backgrounds);
+  if (const Result<void> looked = planner.look_for_sky(*specs, cancel); !looked) return fail(looked.error());
+  for (const VideoSpec& spec : *specs) {
+    if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
+    planner.add(spec, plan);
+  }
+  if (const Result<void> step = split_up(recipe, plan); !step) return fail(step.error());
+  std::vector<PlannedVideo> videos;  // after the splits, so that all cameras of an aircraft are in the same
+  for (PlannedVideo& video : plan.videos) {
+    const auto& cameras = recipe.backgrounds[index_of(recipe.backgrounds, video.tags.at("background"))].cameras;
+    for (PlannedVideo& of_camera : videos_of_cameras(std::move(video), cameras)) videos.push_back(std::move(of_camera));
+  }
+  plan.videos = std::move(videos);
+  add_clips(recipe, plan);
+  if (const Result<void> step = check_projects(recipe, plan); !step) return fail(step.error());
+  return plan;
+}
+
+std::map<std::string, int> resamples_of(const std::vector<const PlannedVideo*>& videos) {
+  std::map<std::string, int> resamples;
+  for (const PlannedVideo* const video : videos)
+    for (const auto& [condition, count] : video->resamples) resamples[condition] += count;
+  return resamples;
+}
+
+std::string resamples_text(const std::map<std::string, int>& resamples) {
+  std::vector<std::pair<std::string, int>> list(resamples.begin(), resamples.end());
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [condition, count] : list) {
+    if (!text.empty()) text += "; ";
+    text += condition;
+    text += count == 1 ? " once" : " ";
+    if (count > 1) text += fmt::format("{} times", count);
+  }
+  return text;
+}
 
 Result<std::vector<std::string>> splits_of(std::span<const SplitCandidate> candidates,
                                            std::span<const SplitShare> shares, std::uint64_t seed) {

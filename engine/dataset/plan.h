@@ -40,17 +40,16 @@ struct ImpossibleVideo {
   std::string why;  // one line that names the quantity
 };
 
-// A video whose background cannot be opened.
-struct UnopenedVideo {
-  std::string name;
-  Error error;  // names recipe and key
+struct VideoFailure {
+  std::string video;
+  Error error;
 };
 
 struct Plan {
   std::string name;                  // the dataset's
   std::vector<PlannedVideo> videos;  // in the recipe's order
   std::vector<ImpossibleVideo> impossible;
-  std::vector<UnopenedVideo> unopened;
+  std::vector<VideoFailure> unopened;     // their backgrounds cannot be opened; errors name recipe and key
   std::vector<ClipToMeasure> clips = {};  // whose look the run measures before it makes videos of them
 };
 

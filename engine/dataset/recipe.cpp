@@ -11,7 +11,6 @@
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "dataset/recipe_reading.h"
-#include "dataset/video_name.h"
 #include "project/fields.h"
 #include "project/json.h"
 #include "project/validate.h"
@@ -67,41 +66,6 @@ void put_section(Json section, const std::string& project_key, const std::string
   warn_of_unknown_keys(rest, key, log);
 }
 
-}  // namespace
-
-void make_paths_absolute(Project& project) {
-  std::error_code code;
-  const std::filesystem::path folder = std::filesystem::absolute(project.file, code).parent_path();
-  for (const Field& field : fields_of(project))
-    if (auto* const text = std::get_if<std::string*>(&field.value); field.is_path && text && !(*text)->empty())
-      **text = (folder / **text).lexically_normal().string();
-}
-
-void read_section(RecipeNode& node, const std::string& name, const std::string& project_key, Project& project) {
-  const std::string key = node.key_of(name);
-  if (const Json* const section = node.value(name); section != nullptr) {
-    if (!section->is_object()) return node.log().wrong(key, "expected { ... }");
-    put_section(*section, project_key, key, project, node.log());
-  }
-  make_paths_absolute(project);
-  for (const Problem& problem : validate(project))
-    if (problem.field.starts_with(project_key + "."))
-      node.log().wrong(key + problem.field.substr(project_key.size()), problem.what,
-                       problem.kind == ErrorKind::cannot_read ? problem.kind : ErrorKind::bad_data);
-}
-
-void apply_settings(const std::vector<std::string>& settings, Project& project) {
-  for (const std::string& setting : settings)
-    if (!set_field(project, setting)) return;  // add_settings() has reported it
-  make_paths_absolute(project);
-}
-
-void read_origin(RecipeNode& node) {
-  for (const char* const key : {"licence", "source"}) static_cast<void>(node.text(key));
-}
-
-namespace {
-
 // What is wrong with a setting for all videos; empty: nothing, and the project has it.
 std::string put_setting(const std::string& assignment, Project& base) {
   const std::string key = assignment.substr(0, assignment.find('='));
@@ -149,7 +113,7 @@ void warn_of_overridden(RecipeNode& recipe) {
     if (!key.starts_with("camera.") && !key.starts_with("light.") && !key.starts_with("appearance.")) continue;
     const Json::json_pointer place = pointer_of(key);
     const auto says = [&](const Json& background) { return background.contains(place); };
-    if (std::all_of(backgrounds->begin(), backgrounds->end(), says))
+    if (std::ranges::all_of(*backgrounds, says))
       recipe.log().warn("settings." + key, "has no effect: every background says its own " + key);
   }
 }
@@ -217,13 +181,6 @@ std::vector<std::string> read_liveries(RecipeNode& node) {
   return files;
 }
 
-Quantity read_scale(RecipeNode& node) {
-  const Quantity scale = read_quantity(node, "scale").value_or(Quantity{.value = 1});
-  const Span span = span_of(scale);
-  if (span.low < 1e-3 || span.high > 1e3) node.log().wrong(node.key_of("scale"), "must lie between 0.001 and 1000");
-  return scale;
-}
-
 bool read_distractor(RecipeNode& node) {
   const Json* const json = node.value("distractor");
   if (json != nullptr && !json->is_boolean())
@@ -264,15 +221,6 @@ void make_room_for_rotors(RecipeNode& node, ModelSettings& model) {
   model.rotors.assign(rotors.size(), {});
 }
 
-// "gloss": a factor of the highlights, for each video.
-void read_gloss(RecipeNode& node, Aircraft& aircraft) {
-  const std::optional<Quantity> gloss = read_quantity(node, "gloss");
-  if (!gloss) return;
-  const Span span = span_of(*gloss);
-  if (span.low < 0 || span.high > 100) node.log().wrong(node.key_of("gloss"), "must lie between 0 and 100");
-  aircraft.drawn["intruders[0].model.gloss"] = *gloss;
-}
-
 Aircraft read_aircraft(RecipeNode node, const Project& base) {
   Project project = base;
   IntruderSettings& intruder = project.intruders.front();
@@ -283,11 +231,13 @@ Aircraft read_aircraft(RecipeNode node, const Project& base) {
   read_section(node, "model", "intruders[0].model", project);
   aircraft.model = intruder.model;
   aircraft.liveries = read_liveries(node);
-  aircraft.scale = read_scale(node);
+  aircraft.scale = quantity_between(node, "scale", 1e-3, 1e3).value_or(aircraft.scale);
   aircraft.is_distractor = read_distractor(node);
   aircraft.speed_limits_mps = read_speed_limits(node);
   read_contrail(node, aircraft);
-  read_gloss(node, aircraft);
+  // A factor of the highlights, for each video.
+  if (const std::optional<Quantity> gloss = quantity_between(node, "gloss", 0, 100))
+    aircraft.drawn["intruders[0].model.gloss"] = *gloss;
   for (const char* const section : {"heat", "lights"}) read_drawn(node, section, aircraft);
   check_tags(aircraft.tags, node);
   read_origin(node);
@@ -326,7 +276,7 @@ bool makes_images_alone(RecipeNode& node) {
   if (node.value("images") != nullptr) return true;
   const Json* const groups = node.value("videos");
   return groups != nullptr && groups->is_array() && !groups->empty() &&
-         std::all_of(groups->begin(), groups->end(), [](const Json& group) { return group.contains("images"); });
+         std::ranges::all_of(*groups, [](const Json& group) { return group.contains("images"); });
 }
 
 // What detectors are trained on, unless the settings say otherwise.
@@ -358,6 +308,37 @@ void read_into(Recipe& recipe, RecipeNode& node, const std::vector<std::string>&
 }
 
 }  // namespace
+
+void make_paths_absolute(Project& project) {
+  std::error_code code;
+  const std::filesystem::path folder = std::filesystem::absolute(project.file, code).parent_path();
+  for (const Field& field : fields_of(project))
+    if (auto* const text = std::get_if<std::string*>(&field.value); field.is_path && text && !(*text)->empty())
+      **text = (folder / **text).lexically_normal().string();
+}
+
+void read_section(RecipeNode& node, const std::string& name, const std::string& project_key, Project& project) {
+  const std::string key = node.key_of(name);
+  if (const Json* const section = node.value(name); section != nullptr) {
+    if (!section->is_object()) return node.log().wrong(key, "expected { ... }");
+    put_section(*section, project_key, key, project, node.log());
+  }
+  make_paths_absolute(project);
+  for (const Problem& problem : validate(project))
+    if (problem.field.starts_with(project_key + "."))
+      node.log().wrong(key + problem.field.substr(project_key.size()), problem.what,
+                       problem.kind == ErrorKind::cannot_read ? problem.kind : ErrorKind::bad_data);
+}
+
+void apply_settings(const std::vector<std::string>& settings, Project& project) {
+  for (const std::string& setting : settings)
+    if (!set_field(project, setting)) return;  // add_settings() has reported it
+  make_paths_absolute(project);
+}
+
+void read_origin(RecipeNode& node) {
+  for (const char* const key : {"licence", "source"}) static_cast<void>(node.text(key));
+}
 
 Result<ReadRecipe> parse_recipe(const std::string& text, const std::filesystem::path& path,
                                 const std::vector<std::string>& settings) {

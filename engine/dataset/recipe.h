@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,8 +11,8 @@
 
 #include "base/result.h"
 #include "dataset/flight_quantities.h"
-#include "dataset/flown_track.h"
 #include "dataset/sample.h"
+#include "encounter_model/encounter_model.h"
 #include "project/project.h"
 
 namespace sigs {
@@ -45,6 +46,31 @@ struct Aircraft {
   double contrail_above_m = 0;               // only this far above the ground, z = 0
   std::map<std::string, Quantity> drawn;     // likewise, of heat and lights: "intruders[0].heat.skin"
   std::map<std::string, std::string> tags;
+};
+
+// A flight that something flew, as recorded.
+struct FlownTrack {
+  std::string name;                      // callsign, address or name in the file; may be empty
+  std::vector<double> times_s;           // from the first point, which is at 0; rising strictly; at least two
+  std::vector<glm::dvec3> places_ned_m;  // one for each time: north, east, down, from wherever the recording began
+
+  [[nodiscard]] double length_s() const { return times_s.back(); }
+};
+
+// All flights with times that a file has: whatever geo/recorded_path.h (GPX, KML, ADS-B), telemetry/track.h (logs
+// of aircraft, CSV) or encounter/daa_file.h (.daa, CSV of pairs) reads, by the content. Heights are taken as they are.
+// Errors: cannot_read; bad_data: none of these formats, or no flight of two points with times in it.
+struct ReadFlights {
+  std::vector<FlownTrack> tracks;
+  std::vector<Warning> warnings;
+};
+[[nodiscard]] Result<ReadFlights> read_flown_tracks(const std::filesystem::path& file);
+
+// What a flight is taken from that is not made of quantities alone: recordings, and statistics of recordings.
+struct FlightSource {
+  std::optional<EncounterModel> model;      // of kind encounter_model
+  std::optional<EncounterModel> own_model;  // likewise; none: the ownship flies as the camera does
+  std::vector<FlownTrack> tracks;           // of kind recorded; one of them is sampled
 };
 
 struct FlightPlan {
@@ -102,6 +128,25 @@ struct VideoGroup {
   std::string split;  // fixed; empty: sampled
   std::map<std::string, std::string> tags;
 };
+
+// What the name of a video is made of.
+struct NameParts {
+  std::string background;
+  std::string aircraft;
+  std::string flight;
+  int number = 1;  // from 1, among the videos of a group whose names differ by it alone
+};
+
+// The pattern with {background}, {aircraft}, {flight} and {number} filled in. Numbers have at least four digits, so
+// that names sort, and adding videos renames none.
+[[nodiscard]] std::string name_from(const std::string& pattern, const NameParts& parts);
+
+// What is wrong with a pattern, as "has no such part: {plane}". Empty: nothing.
+[[nodiscard]] std::string wrong_with_pattern(const std::string& pattern);
+
+// What is wrong with the name of a video, which becomes that of a folder: what file_name_error() says, or that the
+// name belongs to a file of the dataset itself. Empty: nothing.
+[[nodiscard]] std::string wrong_with_video_name(const std::string& name);
 
 struct SplitShare {
   std::string name;  // "train"

@@ -7,7 +7,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <tl/expected.hpp>
 #include <vector>
 
 #include "base/json.h"
@@ -64,7 +63,7 @@ class RecipeNode {
 
 // A quantity as a recipe writes it: 5, {"uniform": [a, b]}, {"normal": {"mean": m, "deviation": d, "low": a,
 // "high": b}} (bounds may be left out) or {"choice": [a, b, ...]}. Otherwise what is wrong with it.
-[[nodiscard]] tl::expected<Quantity, std::string> quantity_of(const Json& json);
+[[nodiscard]] Possible<Quantity> quantity_of(const Json& json);
 
 // The recipe's "videos"; backgrounds and aircraft must have been read. Mistakes are written to the node's
 // log. settings: KEY=VALUE given beside the recipe, which override a group's values.
@@ -123,6 +122,10 @@ void read_origin(RecipeNode& node);
 
 // A quantity; none where there is no such key or it has another form, which is written to the log.
 [[nodiscard]] std::optional<Quantity> read_quantity(RecipeNode& node, std::string_view name);
+
+// The same, with an error in the log where it can lie outside these limits; it is returned all the same.
+[[nodiscard]] std::optional<Quantity> quantity_between(RecipeNode& node, std::string_view name, double low,
+                                                       double high);
 
 // Error in the log where a tag has a name that every video has as a tag of its own: background, aircraft, flight.
 void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node);

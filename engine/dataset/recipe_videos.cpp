@@ -12,7 +12,6 @@
 #include "base/text.h"
 #include "dataset/recipe.h"
 #include "dataset/recipe_reading.h"
-#include "dataset/video_name.h"
 #include "project/fields.h"
 #include "project/json.h"
 
@@ -20,15 +19,18 @@ namespace sigs {
 
 namespace {
 
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::count(names, name) > 0;
+}
+
 bool is_one_number(const Field& field) {
   return std::holds_alternative<double*>(field.value) || std::holds_alternative<int*>(field.value) ||
          std::holds_alternative<std::optional<double>*>(field.value);
 }
 
 bool is_given_beside(const std::vector<std::string>& settings, const std::string& key) {
-  return std::any_of(settings.begin(), settings.end(), [&](const std::string& setting) {
-    return current_key(setting.substr(0, setting.find('='))) == key;
-  });
+  return std::ranges::any_of(
+      settings, [&](const std::string& setting) { return current_key(setting.substr(0, setting.find('='))) == key; });
 }
 
 // The numbers of a section under the names that settings have today.
@@ -47,7 +49,7 @@ Json with_current_keys(const Json& json, const std::string& section, RecipeNode&
 // A quantity within limits of the project; none, and an error in the log: it is another, or beyond them.
 std::optional<Quantity> limited_quantity(const Json& json, const std::string& where, const Field& field,
                                          RecipeLog& log) {
-  const tl::expected<Quantity, std::string> quantity = quantity_of(json);
+  const Possible<Quantity> quantity = quantity_of(json);
   const Span span = quantity ? span_of(*quantity) : Span{};
   const bool is_within = span.low >= field.minimum && span.high <= field.maximum;
   if (quantity && is_within) return *quantity;
@@ -71,68 +73,10 @@ OthersPlan read_other(RecipeNode node, const Recipe& recipe) {
   const std::vector<std::string> there = names_of(recipe.aircraft);
   others.aircraft = selected_names(node, "aircraft", there, there);
   others.flights = read_flights(node.value("flights"), node.key_of("flights"), node.log());
-  others.count = read_quantity(node, "count").value_or(others.count);
-  const Span span = span_of(others.count);
-  if (span.low < 0 || span.high > kMaxOthers)
-    node.log().wrong(node.key_of("count"), fmt::format("must lie between 0 and {}", kMaxOthers));
+  others.count = quantity_between(node, "count", 0, kMaxOthers).value_or(others.count);
   node.done();
   return others;
 }
-
-}  // namespace
-
-std::map<std::string, Quantity> numbers_in(RecipeNode& node, const std::string& section,
-                                           const std::vector<std::string>& settings,
-                                           const std::vector<std::string>& left_out) {
-  std::map<std::string, Quantity> numbers;
-  Project project;
-  project.intruders.resize(1);
-  for (const Field& field : fields_of(project)) {
-    if (!field.key.starts_with(section + ".") || !is_one_number(field)) continue;
-    const std::string name = field.key.substr(section.size() + 1);
-    if (std::find(left_out.begin(), left_out.end(), name) != left_out.end()) continue;
-    const Json* const value = node.value(name);
-    if (value == nullptr || is_given_beside(settings, field.key)) continue;
-    if (const auto quantity = limited_quantity(*value, node.key_of(name), field, node.log()))
-      numbers[field.key] = *quantity;
-  }
-  return numbers;
-}
-
-std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
-                                             const std::vector<std::string>& settings,
-                                             const std::vector<std::string>& left_out) {
-  const Json* const json = group.value(section);
-  if (json == nullptr) return {};
-  const Json renamed = with_current_keys(*json, section, group);
-  RecipeNode node(renamed, group.key_of(section), group.log());
-  std::map<std::string, Quantity> numbers = numbers_in(node, section, settings, left_out);
-  node.done();
-  return numbers;
-}
-
-std::vector<OthersPlan> read_others(RecipeNode& group, const Recipe& recipe) {
-  std::vector<OthersPlan> others;
-  if (group.value("others") == nullptr) return others;
-  for (RecipeNode& node : group.nodes("others")) others.push_back(read_other(std::move(node), recipe));
-  return others;
-}
-
-std::vector<std::string> selected_names(RecipeNode& group, const char* key, const std::vector<std::string>& there,
-                                        const std::vector<std::string>& standard) {
-  std::vector<std::string> names = group.texts(key);
-  if (names.empty()) return standard;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string where = fmt::format("{}[{}]", group.key_of(key), i);
-    if (std::find(there.begin(), there.end(), names[i]) == there.end())
-      group.log().wrong(where, fmt::format("no such name: \"{}\"; there are {}", names[i], listed(there)));
-    if (std::count(names.begin(), names.end(), names[i]) > 1)
-      group.log().wrong(where, fmt::format("stands there twice: \"{}\"", names[i]));
-  }
-  return names;
-}
-
-namespace {
 
 // A field of a project's light and what its numbers are called among those sampled.
 struct LightField {
@@ -215,10 +159,6 @@ constexpr const char* kRandomPosition = R"([{"kind": "image_position",
   "climb_deg": {"normal": {"mean": 0, "deviation": 4, "low": -15, "high": 15}},
   "nose_deg": {"normal": {"mean": 0, "deviation": 20, "low": -180, "high": 180}}}])";
 
-bool has(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 // All aircraft that are no distractors; where there are none, all.
 std::vector<std::string> intruders_of(const Recipe& recipe) {
   std::vector<std::string> names;
@@ -274,10 +214,7 @@ void read_image_keys(RecipeNode& node, VideoGroup& group) {
   for (const char* const key : {"per_image", "placement"})
     if (!group.is_images && node.value(key) != nullptr)
       node.log().wrong(node.key_of(key), "is of images; say \"images\": N in place of videos or count");
-  group.per_image = read_quantity(node, "per_image").value_or(group.per_image);
-  const Span span = span_of(group.per_image);
-  if (span.low < 0 || span.high > kMaxOthers)
-    node.log().wrong(node.key_of("per_image"), fmt::format("must lie between 0 and {}", kMaxOthers));
+  group.per_image = quantity_between(node, "per_image", 0, kMaxOthers).value_or(group.per_image);
   const std::string placement = node.text("placement").value_or("anywhere");
   if (placement == "sky") group.placement = Placement::sky;
   if (placement == "land") group.placement = Placement::land;
@@ -334,6 +271,57 @@ VideoGroup read_group(RecipeNode node, const Recipe& recipe, const std::vector<s
 }
 
 }  // namespace
+
+std::map<std::string, Quantity> numbers_in(RecipeNode& node, const std::string& section,
+                                           const std::vector<std::string>& settings,
+                                           const std::vector<std::string>& left_out) {
+  std::map<std::string, Quantity> numbers;
+  Project project;
+  project.intruders.resize(1);
+  for (const Field& field : fields_of(project)) {
+    if (!field.key.starts_with(section + ".") || !is_one_number(field)) continue;
+    const std::string name = field.key.substr(section.size() + 1);
+    if (has(left_out, name)) continue;
+    const Json* const value = node.value(name);
+    if (value == nullptr || is_given_beside(settings, field.key)) continue;
+    if (const auto quantity = limited_quantity(*value, node.key_of(name), field, node.log()))
+      numbers[field.key] = *quantity;
+  }
+  return numbers;
+}
+
+std::map<std::string, Quantity> read_numbers(RecipeNode& group, const std::string& section,
+                                             const std::vector<std::string>& settings,
+                                             const std::vector<std::string>& left_out) {
+  const Json* const json = group.value(section);
+  if (json == nullptr) return {};
+  const Json renamed = with_current_keys(*json, section, group);
+  RecipeNode node(renamed, group.key_of(section), group.log());
+  std::map<std::string, Quantity> numbers = numbers_in(node, section, settings, left_out);
+  node.done();
+  return numbers;
+}
+
+std::vector<OthersPlan> read_others(RecipeNode& group, const Recipe& recipe) {
+  std::vector<OthersPlan> others;
+  if (group.value("others") == nullptr) return others;
+  for (RecipeNode& node : group.nodes("others")) others.push_back(read_other(std::move(node), recipe));
+  return others;
+}
+
+std::vector<std::string> selected_names(RecipeNode& group, const char* key, const std::vector<std::string>& there,
+                                        const std::vector<std::string>& standard) {
+  std::vector<std::string> names = group.texts(key);
+  if (names.empty()) return standard;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string where = fmt::format("{}[{}]", group.key_of(key), i);
+    if (!has(there, names[i]))
+      group.log().wrong(where, fmt::format("no such name: \"{}\"; there are {}", names[i], listed(there)));
+    if (std::count(names.begin(), names.end(), names[i]) > 1)
+      group.log().wrong(where, fmt::format("stands there twice: \"{}\"", names[i]));
+  }
+  return names;
+}
 
 void check_tags(const std::map<std::string, std::string>& tags, RecipeNode& node) {
   for (const char* const own : {"background", "aircraft", "flight"})

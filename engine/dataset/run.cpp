@@ -220,9 +220,9 @@ Result<void> DatasetRun::check_all_there() const {
   std::string list;
   for (const auto& [reason, names] : names_of_reason)
     list += fmt::format("{}{}: {}", list.empty() ? "" : "; ", names, reason);
-  for (const UnopenedVideo& video : plan_.unopened) {
+  for (const VideoFailure& unopened : plan_.unopened) {
     if (list.size() > kMaxListBytes) break;
-    list += fmt::format("{}{}: {}", list.empty() ? "" : "; ", video.name, video.error.text());
+    list += fmt::format("{}{}: {}", list.empty() ? "" : "; ", unopened.video, unopened.error.text());
   }
   return fail(dataset_.string(),
               fmt::format("of {} videos {} cannot go into the index; resuming makes them: {}{}",
@@ -337,7 +337,7 @@ Result<DatasetReport> DatasetRun::all() {
   if (const Result<void> step = export_missing(report); !step) return fail(step.error());
   for (const Task& task : tasks_)
     if (task.error) report.failures.push_back({task.folder.video->name, *task.error});
-  for (const UnopenedVideo& video : plan_.unopened) report.failures.push_back({video.name, video.error});
+  report.failures.insert(report.failures.end(), plan_.unopened.begin(), plan_.unopened.end());
   Result<void> step = clear_staging_folder(dataset_, request_.shard.has_value());
   if (is_cancelled()) return fail(interrupted());
   const bool is_whole = request_.index && !request_.shard && report.failures.empty();

@@ -26,11 +26,6 @@ struct DatasetRequest {
   bool merge_only = false;     // export nothing, only make the index; a missing video is an error
 };
 
-struct VideoFailure {
-  std::string video;
-  Error error;
-};
-
 struct DatasetReport {
   int exported = 0;
   int kept = 0;    // were complete before

@@ -2,10 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <tl/expected.hpp>
 #include <vector>
 
 namespace sigs {
+
+// What is made of quantities or of what a recipe says, or the reason why there is no such thing, in one line.
+template <class T>
+using Possible = tl::expected<T, std::string>;
 
 // A number that is fixed, or sampled for each video. docs/dataset-recipe.md shows how recipes write it.
 struct Quantity {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/ensure.h"
+#include "base/interpolation.h"
 #include "base/text.h"
 #include "encounter_model/model_flight.h"
 #include "spline/trajectory.h"
@@ -19,15 +20,12 @@ namespace sigs {
 
 namespace {
 
-template <class T>
-using OrReason = tl::expected<T, std::string>;
-using QuantityValues = std::map<std::string, double>;
-
 constexpr double kWaypointStep_s = 0.5;
 constexpr double kMinStep_s = 1e-6;  // frames of footage may have the same time
 constexpr double kMaxGap_s = 30;     // of a recording
 constexpr int kTrackRedraws = 1000;  // of a drawn flight that leaves the model's limits
 constexpr double kMaxDrawn_s = 3600;
+constexpr int kSmoothingSteps = 32;  // places that a mean is made of
 
 // A flight in axes north, east, down, at seconds after the video's first frame.
 using PathNed = std::function<glm::dvec3(double since_first_s)>;
@@ -40,7 +38,7 @@ struct VideoTimes {
   double closest_s = 0;         // of the closest approach, after the first frame
 };
 
-OrReason<VideoTimes> video_times(const QuantityValues& values, const FlightContext& context) {
+Possible<VideoTimes> video_times(const FlightValues& values, const FlightContext& context) {
   VideoTimes times{.ends = ends_of(context)};
   const auto given = values.find("time_of_closest_approach_s");
   times.closest_s = given == values.end() ? times.ends.length_s : given->second;
@@ -63,14 +61,14 @@ OrReason<VideoTimes> video_times(const QuantityValues& values, const FlightConte
   return times;
 }
 
-OrReason<Trajectory> trajectory_through(const std::vector<TimedWaypoint>& waypoints) {
+Possible<Trajectory> trajectory_through(const std::vector<TimedWaypoint>& waypoints) {
   const Result<Trajectory> trajectory = Trajectory::make(waypoints, {});
   if (!trajectory) return tl::unexpected("the flight is beyond all bounds: " + trajectory.error().text());
   return *trajectory;
 }
 
 // What flies along the waypoints of a path.
-OrReason<Trajectory> trajectory_along(const PathNed& path, const VideoTimes& times) {
+Possible<Trajectory> trajectory_along(const PathNed& path, const VideoTimes& times) {
   std::vector<TimedWaypoint> waypoints;
   for (const double since_s : times.since_s) waypoints.push_back({since_s, path(since_s)});
   return trajectory_through(waypoints);
@@ -108,8 +106,17 @@ std::string seconds(double value_s) {
   return short_number_text(std::round(value_s * 1000) / 1000) + " s";
 }
 
+// The longest time between two neighbouring points from one time to another.
+double max_gap_s(const FlownTrack& track, double from_s, double to_s) {
+  double longest_s = 0;
+  for (std::size_t i = 1; i < track.times_s.size(); ++i)
+    if (track.times_s[i] > from_s && track.times_s[i - 1] < to_s)
+      longest_s = std::max(longest_s, track.times_s[i] - track.times_s[i - 1]);
+  return longest_s;
+}
+
 // The time in the recording at the video's first frame.
-OrReason<double> recorded_begin_s(const FlownTrack& track, const QuantityValues& values, const VideoTimes& times,
+Possible<double> recorded_begin_s(const FlownTrack& track, const FlightValues& values, const VideoTimes& times,
                                   double share) {
   const auto given = values.find("recorded_time_s");
   if (given == values.end()) return share * (track.length_s() - times.ends.length_s);
@@ -120,7 +127,7 @@ OrReason<double> recorded_begin_s(const FlownTrack& track, const QuantityValues&
       seconds(begin_s), seconds(begin_s + times.ends.length_s), track.name, seconds(track.length_s())));
 }
 
-OrReason<PathNed> recorded_path(const FlightContext& context, const QuantityValues& values, const VideoTimes& times) {
+Possible<PathNed> recorded_path(const FlightContext& context, const FlightValues& values, const VideoTimes& times) {
   std::vector<const FlownTrack*> long_enough;
   double longest_s = 0;
   for (const FlownTrack& track : context.source->tracks) {
@@ -133,7 +140,7 @@ OrReason<PathNed> recorded_path(const FlightContext& context, const QuantityValu
   Random random(context.random_bits);
   const FlownTrack& track =
       *long_enough[static_cast<std::size_t>(random.uniform() * static_cast<double>(long_enough.size()))];
-  const OrReason<double> begin_s = recorded_begin_s(track, values, times, random.uniform());
+  const Possible<double> begin_s = recorded_begin_s(track, values, times, random.uniform());
   if (!begin_s) return tl::unexpected(begin_s.error());
   const double gap_s = max_gap_s(track, *begin_s, *begin_s + times.ends.length_s);
   if (gap_s > kMaxGap_s)
@@ -161,7 +168,7 @@ struct PlacedPair {
   glm::dvec3 offset_ned_m{};  // from the ownship at the closest approach
 };
 
-OrReason<void> place(PlacedPair& pair, const QuantityValues& values, double closest_s) {
+Possible<void> place(PlacedPair& pair, const FlightValues& values, double closest_s) {
   const SampledPoint intruder_motion = motion_at(pair.intruder_flown, closest_s);
   const Result<ModelFlight> placed = placed_intruder(
       {.points = {pair.own_motion}}, {.points = {intruder_motion}},
@@ -173,28 +180,28 @@ OrReason<void> place(PlacedPair& pair, const QuantityValues& values, double clos
   return {};
 }
 
-OrReason<PlacedPair> placed_pair(FlightKind kind, const QuantityValues& values, const FlightContext& context,
+Possible<PlacedPair> placed_pair(FlightKind kind, const FlightValues& values, const FlightContext& context,
                                  const VideoTimes& times) {
   const FlightSource& source = *context.source;
   if (kind == FlightKind::encounter_model && times.ends.length_s > kMaxDrawn_s)
     return tl::unexpected(fmt::format("frames: the video has {}; flights are drawn for up to {}",
                                       seconds(times.ends.length_s), seconds(kMaxDrawn_s)));
-  OrReason<PathNed> intruder = kind == FlightKind::recorded
+  Possible<PathNed> intruder = kind == FlightKind::recorded
                                    ? recorded_path(context, values, times)
                                    : drawn_path(*source.model, Random(context.random_bits, 1), times.ends.length_s);
   if (!intruder) return tl::unexpected(intruder.error());
-  const OrReason<Trajectory> flown = trajectory_along(*intruder, times);
+  const Possible<Trajectory> flown = trajectory_along(*intruder, times);
   if (!flown) return tl::unexpected(flown.error());
   PlacedPair pair{.intruder = *intruder, .intruder_flown = *flown};
   pair.own_motion.speed_mps = context.camera.speed_mps;
   if (source.own_model && kind == FlightKind::encounter_model) {
     pair.ownship = drawn_path(*source.own_model, Random(context.random_bits, 2), times.ends.length_s);
-    const OrReason<Trajectory> own_flown = trajectory_along(*pair.ownship, times);
+    const Possible<Trajectory> own_flown = trajectory_along(*pair.ownship, times);
     if (!own_flown) return tl::unexpected(own_flown.error());
     pair.ownship_flown = *own_flown;
     pair.own_motion = motion_at(*pair.ownship_flown, times.closest_s);
   }
-  if (const OrReason<void> placed = place(pair, values, times.closest_s); !placed)
+  if (const Possible<void> placed = place(pair, values, times.closest_s); !placed)
     return tl::unexpected(placed.error());
   return pair;
 }
@@ -208,7 +215,7 @@ glm::dvec3 relative_m(const PlacedPair& pair, const FlightContext& context, doub
   return turned_to_right(intruder_m - own_m, -pair.own_motion.heading_rad);
 }
 
-OrReason<void> add_waypoints(const PlacedPair& pair, const FlightContext& context, const VideoTimes& times,
+Possible<void> add_waypoints(const PlacedPair& pair, const FlightContext& context, const VideoTimes& times,
                              PlannedFlight& flight) {
   constexpr double kSteps = 0x1p20;
   for (std::size_t i = 0; i < times.frames.size(); ++i) {
@@ -216,20 +223,20 @@ OrReason<void> add_waypoints(const PlacedPair& pair, const FlightContext& contex
     const glm::dvec3 place_m =
         camera_position_m(context, times.ends.first_s + since_s) + relative_m(pair, context, since_s, times.closest_s);
     flight.waypoints.push_back({.frame = times.frames[i], .position_m = glm::round(place_m * kSteps) / kSteps});
-    if (const OrReason<void> checked = check_waypoint(flight.waypoints.back(), "vmd_m"); !checked) return checked;
+    if (const Possible<void> checked = check_waypoint(flight.waypoints.back(), "vmd_m"); !checked) return checked;
   }
   return {};
 }
 
 // Speeds over ground at the waypoints, and distances in all frames.
-OrReason<void> add_derived_of_track(const FlightContext& context, const VideoTimes& times, PlannedFlight& flight) {
+Possible<void> add_derived_of_track(const FlightContext& context, const VideoTimes& times, PlannedFlight& flight) {
   std::vector<TimedWaypoint> waypoints;
   for (std::size_t i = 0; i < times.since_s.size(); ++i)
     waypoints.push_back({times.since_s[i], flight.waypoints[i].position_m});
-  const OrReason<Trajectory> flown = trajectory_through(waypoints);
+  const Possible<Trajectory> flown = trajectory_through(waypoints);
   if (!flown) return tl::unexpected(flown.error());
   for (const double since_s : times.since_s)
-    if (const OrReason<void> checked =
+    if (const Possible<void> checked =
             check_speed(glm::length(flown->velocity_mps(since_s)), context, "bearing_deg or what it is drawn from");
         !checked)
       return checked;
@@ -250,15 +257,24 @@ OrReason<void> add_derived_of_track(const FlightContext& context, const VideoTim
 
 }  // namespace
 
-OrReason<PlannedFlight> planned_track_flight(FlightKind kind, const QuantityValues& values,
+glm::dvec3 place_at(const FlownTrack& track, double time_s, double smoothing_s) {
+  const double half_s = std::min({smoothing_s / 2, time_s - track.times_s.front(), track.times_s.back() - time_s});
+  if (!(half_s > 0)) return value_at(track.times_s, track.places_ned_m, time_s);
+  glm::dvec3 sum_m(0);
+  for (int i = 0; i < kSmoothingSteps; ++i)
+    sum_m += value_at(track.times_s, track.places_ned_m, time_s + half_s * ((2 * i + 1.0) / kSmoothingSteps - 1));
+  return sum_m / double(kSmoothingSteps);
+}
+
+Possible<PlannedFlight> planned_track_flight(FlightKind kind, const FlightValues& values,
                                              const FlightContext& context) {
   ENSURE(context.source != nullptr && (kind == FlightKind::recorded || context.source->model.has_value()));
-  const OrReason<VideoTimes> times = video_times(values, context);
+  const Possible<VideoTimes> times = video_times(values, context);
   if (!times) return tl::unexpected(times.error());
-  const OrReason<PlacedPair> pair = placed_pair(kind, values, context, *times);
+  const Possible<PlacedPair> pair = placed_pair(kind, values, context, *times);
   if (!pair) return tl::unexpected(pair.error());
   PlannedFlight flight;
-  OrReason<void> step = add_waypoints(*pair, context, *times, flight);
+  Possible<void> step = add_waypoints(*pair, context, *times, flight);
   if (step) step = add_derived_of_track(context, *times, flight);
   if (!step) return tl::unexpected(step.error());
   return flight;

@@ -60,8 +60,8 @@ std::map<std::string, std::string> tags_of(const Recipe& recipe, const VideoSpec
 }
 
 // `prefix` distinguishes the flights of one video.
-std::map<std::string, double> values_of(const FlightPlan& flight, const Sampler& sampler, const std::string& prefix) {
-  std::map<std::string, double> values;
+FlightValues values_of(const FlightPlan& flight, const Sampler& sampler, const std::string& prefix) {
+  FlightValues values;
   for (const FlightQuantity& quantity : quantities_of(flight.kind)) {
     const std::string name(quantity.name);
     if (const auto given = flight.quantities.find(name); given != flight.quantities.end())
@@ -73,8 +73,7 @@ std::map<std::string, double> values_of(const FlightPlan& flight, const Sampler&
 }
 
 // The frames of a video, or why the background does not have them.
-tl::expected<FrameRange, std::string> frames_of(const VideoGroup& group, const Sampler& sampler,
-                                                const FrameRange& there) {
+Possible<FrameRange> frames_of(const VideoGroup& group, const Sampler& sampler, const FrameRange& there) {
   const int count = there.last - there.first + 1;
   const Quantity any{.kind = Quantity::Kind::uniform, .high = double(count)};
   const Quantity from = group.first_frame.value_or(group.is_images ? any : Quantity{});
@@ -155,10 +154,15 @@ std::string unused_name(const Project& project, const std::string& name) {
   return same == 0 ? name : fmt::format("{} {}", name, same + 1);
 }
 
-// What is asked of the place of an intruder in a frame, beside that it can be seen there.
-struct PlaceRules {
+// A video while bodies are added to it.
+struct VideoInWork {
+  const Recipe& recipe;
+  const VideoGroup& group;
   const OpenedBackground& background;
-  Placement placement = Placement::anywhere;
+  const FlightContext& context;
+  const Sampler& sampler;
+  VideoVisibility& estimator;
+  PlannedVideo& video;
 };
 
 bool have_common_area(const Box& a, const Box& b) {
@@ -168,29 +172,28 @@ bool have_common_area(const Box& a, const Box& b) {
 // Where the intruder that was placed in the image may not be there: the reason. Else what it is before, where that was
 // looked at.
 using Behind = std::optional<VideoVisibility::Behind>;
-tl::expected<Behind, std::string> checked_place(const Project& project, int frame, const PlaceRules& rules,
-                                                VideoVisibility& estimator) {
-  const std::optional<VisibilityEstimate> seen = estimator.last_intruder_at(project, frame);
+Possible<Behind> checked_place(const VideoInWork& work, int frame) {
+  const std::optional<VisibilityEstimate> seen = work.estimator.last_intruder_at(work.video.project, frame);
   if (!seen) return Behind();
   if (seen->visibility_state == VisibilityState::occluded)
     return tl::unexpected(std::string("x_percent, y_percent: the own body hides all of the intruder there"));
   if (seen->visibility_state == VisibilityState::out_of_view || !seen->silhouette)
     return tl::unexpected(std::string("x_percent, y_percent: the intruder is beside the image then"));
-  const auto real = rules.background.real_aircraft.find(frame);
-  if (real != rules.background.real_aircraft.end())
+  const auto real = work.background.real_aircraft.find(frame);
+  if (real != work.background.real_aircraft.end())
     for (const Box& box : real->second)
       if (have_common_area(box, *seen->silhouette))
         return tl::unexpected(std::string("real_aircraft: the intruder would be over a real aircraft"));
-  const auto behind = estimator.behind(project.footage, frame, *seen->silhouette);
-  if (behind && rules.placement == Placement::sky && behind->sky < kNearlyAll)
+  const auto behind = work.estimator.behind(work.video.project.footage, frame, *seen->silhouette);
+  if (behind && work.group.placement == Placement::sky && behind->sky < kNearlyAll)
     return tl::unexpected(std::string("placement: the image does not show sky there"));
-  if (behind && rules.placement == Placement::land && behind->land < kNearlyAll)
+  if (behind && work.group.placement == Placement::land && behind->land < kNearlyAll)
     return tl::unexpected(std::string("placement: the image does not show land there"));
   return behind;
 }
 
 // By nose_deg, where it was drawn: one heading for the whole flight, since that quantity is of straight flights.
-void turn_nose(TrajectoryPlan& trajectory, const std::map<std::string, double>& values) {
+void turn_nose(TrajectoryPlan& trajectory, const FlightValues& values) {
   const auto nose_deg = values.find("nose_deg");
   if (nose_deg == values.end() || trajectory.attitude == AttitudeKind::path || trajectory.waypoints.empty()) return;
   const glm::dvec3 way_m = trajectory.waypoints.back().position_m - trajectory.waypoints.front().position_m;
@@ -229,69 +232,66 @@ void sample_look(const Flyer& flyer, const Sampler& sampler, IntruderSettings& i
 }
 
 // Adds a body to the project, or says why it cannot fly so.
-tl::expected<void, std::string> add_flyer(const Flyer& flyer, const Recipe& recipe, FlightContext context,
-                                          const PlaceRules& rules, const Sampler& sampler, VideoVisibility& estimator,
-                                          PlannedVideo& video) {
-  std::map<std::string, double> values = values_of(flyer.flight, sampler, flyer.prefix);
-  IntruderSettings intruder = recipe.base.intruders.front();
-  intruder.name = unused_name(video.project, flyer.aircraft.name);
+Possible<void> add_flyer(const Flyer& flyer, const VideoInWork& work) {
+  FlightValues values = values_of(flyer.flight, work.sampler, flyer.prefix);
+  IntruderSettings intruder = work.recipe.base.intruders.front();
+  intruder.name = unused_name(work.video.project, flyer.aircraft.name);
   intruder.category = flyer.aircraft.category;
   intruder.role = flyer.aircraft.is_distractor ? RoleChoice::distractor : RoleChoice::intruder;
   intruder.model = flyer.aircraft.model;
-  sample_model(flyer, sampler, video, intruder.model);
+  sample_model(flyer, work.sampler, work.video, intruder.model);
   if (intruder.trajectory.attitude == AttitudeKind::path)
     intruder.trajectory.attitude = attitude_of_category(intruder.category);
+  FlightContext context = work.context;
   context.speed_limits_mps = flyer.aircraft.speed_limits_mps;
   context.source = &flyer.flight.source;
-  context.random_bits = sampler.bits(flyer.prefix + "flight_source");
+  context.random_bits = work.sampler.bits(flyer.prefix + "flight_source");
   context.size_px_on = [&](const std::vector<WaypointSettings>& waypoints, int frame) -> std::optional<double> {
-    Project alone = video.project;
+    Project alone = work.video.project;
     alone.intruders = {intruder};
     alone.intruders.front().trajectory.waypoints = waypoints;
     turn_nose(alone.intruders.front().trajectory, values);
-    const std::optional<VisibilityEstimate> seen = estimator.last_intruder_at(alone, frame);
+    const std::optional<VisibilityEstimate> seen = work.estimator.last_intruder_at(alone, frame);
     return seen ? std::optional(seen->size_px) : std::nullopt;
   };
-  tl::expected<PlannedFlight, std::string> planned = planned_flight(flyer.flight.kind, values, context);
+  Possible<PlannedFlight> planned = planned_flight(flyer.flight.kind, values, context);
   if (!planned) return tl::unexpected(planned.error());
   const std::optional<int> frame =
       flyer.flight.kind == FlightKind::image_position ? frame_of_position(values, context) : std::nullopt;
   values.merge(planned->derived);
-  for (const auto& [name, value] : values) video.sampled[flyer.prefix + name] = value;
+  for (const auto& [name, value] : values) work.video.sampled[flyer.prefix + name] = value;
   if (planned->waypoints.size() > 2) {  // a drawn or recorded flight passes its waypoints
     intruder.trajectory.spline = SplineKind::interpolating;
     intruder.trajectory.timing = Timing::frames;
   }
   intruder.trajectory.waypoints = std::move(planned->waypoints);
   turn_nose(intruder.trajectory, values);
-  sample_look(flyer, sampler, intruder, video.sampled);
-  video.project.intruders.push_back(std::move(intruder));
+  sample_look(flyer, work.sampler, intruder, work.video.sampled);
+  work.video.project.intruders.push_back(std::move(intruder));
   if (!frame) return {};
-  const tl::expected<Behind, std::string> behind = checked_place(video.project, *frame, rules, estimator);
+  const Possible<Behind> behind = checked_place(work, *frame);
   if (!behind) return tl::unexpected(behind.error());
   if (*behind) {
-    video.sampled[flyer.prefix + "sky_percent"] = std::round(100 * (*behind)->sky);
-    video.sampled[flyer.prefix + "land_percent"] = std::round(100 * (*behind)->land);
+    work.video.sampled[flyer.prefix + "sky_percent"] = std::round(100 * (*behind)->sky);
+    work.video.sampled[flyer.prefix + "land_percent"] = std::round(100 * (*behind)->land);
   }
   return {};
 }
 
 // What else flies. Keys of random numbers are those of the names in `drawn`, "other3.bearing_deg".
-tl::expected<void, std::string> add_others(const Recipe& recipe, const VideoGroup& group, const FlightContext& context,
-                                           const PlaceRules& rules, const Sampler& sampler, VideoVisibility& estimator,
-                                           PlannedVideo& video) {
+Possible<void> add_others(const VideoInWork& work) {
   int number = 0;
-  for (std::size_t i = 0; i < group.others.size(); ++i) {
-    const OthersPlan& others = group.others[i];
+  for (std::size_t i = 0; i < work.group.others.size(); ++i) {
+    const OthersPlan& others = work.group.others[i];
     const auto count =
-        std::min(kMaxOthers, static_cast<int>(sampler.number(others.count, fmt::format("others[{}].count", i))));
+        std::min(kMaxOthers, static_cast<int>(work.sampler.number(others.count, fmt::format("others[{}].count", i))));
     for (int n = 0; n < count; ++n) {
       const std::string prefix = fmt::format("other{}.", ++number);
-      const std::string& name = others.aircraft[sampler.pick(others.aircraft.size(), prefix + "aircraft")];
-      const Flyer flyer{.aircraft = recipe.aircraft[index_of(recipe.aircraft, name)],
-                        .flight = others.flights[sampler.pick(others.flights.size(), prefix + "flight")],
+      const std::string& name = others.aircraft[work.sampler.pick(others.aircraft.size(), prefix + "aircraft")];
+      const Flyer flyer{.aircraft = work.recipe.aircraft[index_of(work.recipe.aircraft, name)],
+                        .flight = others.flights[work.sampler.pick(others.flights.size(), prefix + "flight")],
                         .prefix = prefix};
-      if (const auto added = add_flyer(flyer, recipe, context, rules, sampler, estimator, video); !added)
+      if (const auto added = add_flyer(flyer, work); !added)
         return tl::unexpected(fmt::format("others[{}].{}", i, added.error()));
     }
   }
@@ -299,19 +299,17 @@ tl::expected<void, std::string> add_others(const Recipe& recipe, const VideoGrou
 }
 
 // The aircraft of the group's own: one of a video, of an image as many as its number says.
-tl::expected<void, std::string> add_flyers(const Recipe& recipe, const VideoSpec& spec, const FlightContext& context,
-                                           const PlaceRules& rules, int count, const Sampler& sampler,
-                                           VideoVisibility& estimator, PlannedVideo& video) {
-  const VideoGroup& group = recipe.groups[spec.group];
+Possible<void> add_flyers(const VideoSpec& spec, int count, const VideoInWork& work) {
+  const VideoGroup& group = work.group;
   for (int n = 0; n < count; ++n) {
     const std::string prefix = n == 0 ? "" : fmt::format("other{}.", n);
-    const std::string& name = n == 0 ? recipe.aircraft[spec.aircraft].name
-                                     : group.aircraft[sampler.pick(group.aircraft.size(), prefix + "aircraft")];
-    const std::size_t flight = n == 0 ? spec.flight : sampler.pick(group.flights.size(), prefix + "flight");
-    const Flyer flyer{.aircraft = recipe.aircraft[index_of(recipe.aircraft, name)],
-                      .flight = group.flights[flight],
-                      .prefix = prefix};
-    if (auto added = add_flyer(flyer, recipe, context, rules, sampler, estimator, video); !added) return added;
+    const std::size_t aircraft =
+        n == 0 ? spec.aircraft
+               : index_of(work.recipe.aircraft,
+                          group.aircraft[work.sampler.pick(group.aircraft.size(), prefix + "aircraft")]);
+    const std::size_t flight = n == 0 ? spec.flight : work.sampler.pick(group.flights.size(), prefix + "flight");
+    const Flyer flyer{.aircraft = work.recipe.aircraft[aircraft], .flight = group.flights[flight], .prefix = prefix};
+    if (auto added = add_flyer(flyer, work); !added) return added;
   }
   return {};
 }
@@ -334,13 +332,12 @@ std::optional<int> frame_of_image(const Recipe& recipe, const VideoSpec& spec, c
   return range ? std::optional(range->first) : std::nullopt;
 }
 
-tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, const VideoSpec& spec,
-                                                      const OpenedBackground& background, int again,
-                                                      VideoVisibility& estimator) {
+Possible<PlannedVideo> sampled_video(const Recipe& recipe, const VideoSpec& spec, const OpenedBackground& background,
+                                     int again, VideoVisibility& estimator) {
   const VideoGroup& group = recipe.groups[spec.group];
   const Sampler sampler(recipe.seed, spec.name, again);
   const Sampler first = first_sampler(recipe, spec, again);
-  const tl::expected<FrameRange, std::string> frames = frames_of(group, first, background.frames);
+  const Possible<FrameRange> frames = frames_of(group, first, background.frames);
   if (!frames) return tl::unexpected(frames.error());
   const LightPlan* const light_plan = light_of(group, sampler);
   std::map<std::string, double> light;
@@ -354,10 +351,10 @@ tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, cons
   sample_numbers(group.numbers, sampler, "", 0, video.project, video.sampled);
   const FlightContext context{
       .camera = video.project.camera, .lens = background.lens, .footage = background.footage, .frames = *frames};
-  const PlaceRules rules{.background = background, .placement = group.placement};
+  const VideoInWork work{recipe, group, background, context, sampler, estimator, video};
   const auto count = static_cast<int>(first.number(group.per_image, "per_image"));
-  tl::expected<void, std::string> step = add_flyers(recipe, spec, context, rules, count, sampler, estimator, video);
-  if (step) step = add_others(recipe, group, context, rules, sampler, estimator, video);
+  Possible<void> step = add_flyers(spec, count, work);
+  if (step) step = add_others(work);
   if (!step) return tl::unexpected(step.error());
   if (count == 0) video.tags["aircraft"] = video.tags["flight"] = "none";
   if (group.is_images || (group.first_frame && group.first_frame->kind != Quantity::Kind::fixed))

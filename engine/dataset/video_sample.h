@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <tl/expected.hpp>
 
 #include "dataset/footage_cache.h"
 #include "dataset/plan.h"
@@ -40,8 +39,8 @@ struct VideoSpec {
 
 // The video with all its quantities sampled, or the reason why there is no such video: one line that begins with the
 // name of the quantity. estimator: measures the silhouettes of intruders that are placed by their size.
-[[nodiscard]] tl::expected<PlannedVideo, std::string> sampled_video(const Recipe& recipe, const VideoSpec& spec,
-                                                                    const OpenedBackground& background, int again,
-                                                                    VideoVisibility& estimator);
+[[nodiscard]] Possible<PlannedVideo> sampled_video(const Recipe& recipe, const VideoSpec& spec,
+                                                   const OpenedBackground& background, int again,
+                                                   VideoVisibility& estimator);
 
 }  // namespace sigs

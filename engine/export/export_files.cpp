@@ -73,14 +73,6 @@ void WriterThread::write_all() {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-}  // namespace
-
 bool fits(std::string_view path, std::string_view pattern) {
   if (pattern.empty()) return path.empty();
   const std::string_view rest = pattern.substr(1);
@@ -88,7 +80,7 @@ bool fits(std::string_view path, std::string_view pattern) {
     return fits(path, rest) || (!path.empty() && path.front() != '/' && fits(path.substr(1), pattern));
   if (path.empty()) return false;
   if (pattern.front() == '#')
-    return is_digit(path.front()) && (fits(path.substr(1), rest) || fits(path.substr(1), pattern));
+    return path.front() >= '0' && path.front() <= '9' && (fits(path.substr(1), rest) || fits(path.substr(1), pattern));
   return path.front() == pattern.front() && fits(path.substr(1), rest);
 }
 
@@ -155,14 +147,16 @@ Frame frame_of_mask(cv::Mat mask, double time_s) {
           .time_s = time_s};
 }
 
-LabelSequence label_sequence(const Project& project, const VideoInfo& footage, const Scene& scene,
-                             const FrameRange& range, const std::string& output) {
+// video: the name of the exported video
+LabelSequence label_sequence(const ExportedClip& clip, const std::string& video) {
+  const Project& project = clip.request.project;
+  const Scene& scene = clip.scene;
   const bool has_images = writes_images(project.output.codec);
   LabelSequence sequence{.name = project.name,
-                         .footage = footage_truth(footage, range),
+                         .footage = footage_truth(clip.footage, clip.range),
                          .categories = categories_of(project),
-                         .video = has_images ? std::string() : output,
-                         .channels = footage.layout == PixelLayout::gray ? 1 : 3,
+                         .video = has_images ? std::string() : video,
+                         .channels = clip.footage.layout == PixelLayout::gray ? 1 : 3,
                          .image_extension = has_images ? image_extension_of(project.output.codec) : ".png",
                          .images = project.name,
                          .own_body = scene.own_body,
@@ -245,71 +239,63 @@ Result<ExportFiles::Labels> ExportFiles::open_labels(const fs::path& path, const
 }
 
 // What is in the file is known before the first frame.
-Result<void> ExportFiles::write_encounters(const fs::path& path, const Project& project, const Scene& scene,
-                                           const FrameRange& range) {
-  Result<ExportedEncounters> encounters = ExportedEncounters::of(project, scene, range);
+Result<void> ExportFiles::write_encounters(const fs::path& path, const ExportedClip& clip) {
+  Result<ExportedEncounters> encounters = ExportedEncounters::of(clip.request.project, clip.scene, clip.range);
   if (!encounters) return fail(encounters.error());
   encounters_ = *std::move(encounters);
   const Result<fs::path> staged = outputs_.add_file(path);
   return staged ? encounters_->write_json(*staged) : fail(staged.error());
 }
 
-Result<ExportFiles> ExportFiles::open(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                      const FrameRange& range, const SplicePlan* splice,
-                                      const std::atomic<bool>* cancel) {
-  ExportFiles files(request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
-  if (request.video_descriptor < 0)
-    if (const Result<void> folder = files.folders_.make(request.folder); !folder) return fail(folder.error());
-  const Result<void> opened = files.open_all(request, footage, scene, range, splice, cancel);
+Result<ExportFiles> ExportFiles::open(const ExportedClip& clip) {
+  ExportFiles files(clip.request.overwrite ? StagedOutputs::Existing::replace : StagedOutputs::Existing::refuse);
+  if (clip.request.video_descriptor < 0)
+    if (const Result<void> folder = files.folders_.make(clip.request.folder); !folder) return fail(folder.error());
+  const Result<void> opened = files.open_all(clip);
   if (!opened) return fail(files.outputs_.with_final_names(opened.error()));
   return files;
 }
 
-Result<void> ExportFiles::open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                   const FrameRange& range, const SplicePlan* splice, const std::atomic<bool>* cancel) {
-  if (request.labels_descriptor >= 0) {
-    const LabelSequence sequence = label_sequence(request.project, footage, scene, range, "");
-    if (const Result<void> opened = open_label_stream(request, sequence, cancel); !opened) return opened;
-  }
-  if (request.video_descriptor < 0) return open_files(request, footage, scene, range, splice, cancel);
+Result<void> ExportFiles::open_all(const ExportedClip& clip) {
+  const ExportRequest& request = clip.request;
+  if (request.labels_descriptor >= 0)
+    if (const Result<void> opened = open_label_stream(clip); !opened) return opened;
+  if (request.video_descriptor < 0) return open_files(clip);
   if (!request.project.output.encounter.empty()) {
-    Result<ExportedEncounters> encounters = ExportedEncounters::of(request.project, scene, range);
+    Result<ExportedEncounters> encounters = ExportedEncounters::of(request.project, clip.scene, clip.range);
     if (!encounters) return fail(encounters.error());
     encounters_ = *std::move(encounters);
   }
-  return open_video_stream(request, footage, cancel);
+  return open_video_stream(clip);
 }
 
-Result<void> ExportFiles::open_video_stream(const ExportRequest& request, const VideoInfo& footage,
-                                            const std::atomic<bool>* cancel) {
-  Result<OutputStream> out = OutputStream::of_descriptor(request.video_descriptor, "standard output", cancel);
+Result<void> ExportFiles::open_video_stream(const ExportedClip& clip) {
+  Result<OutputStream> out = OutputStream::of_descriptor(clip.request.video_descriptor, "standard output", clip.cancel);
   if (!out) return fail(out.error());
-  Result<VideoWriter> writer =
-      VideoWriter::open_stream(std::move(*out), video_format(request.project.output, footage, encoder_threads()));
+  Result<VideoWriter> writer = VideoWriter::open_stream(
+      std::move(*out), video_format(clip.request.project.output, clip.footage, encoder_threads()));
   if (!writer) return fail(writer.error());
   video_ = std::make_unique<WriterThread>(std::move(*writer));
   return {};
 }
 
-Result<void> ExportFiles::open_label_stream(const ExportRequest& request, const LabelSequence& sequence,
-                                            const std::atomic<bool>* cancel) {
-  const int descriptor = request.labels_descriptor;
+Result<void> ExportFiles::open_label_stream(const ExportedClip& clip) {
+  const int descriptor = clip.request.labels_descriptor;
   Result<OutputStream> out =
-      OutputStream::of_descriptor(descriptor, fmt::format("labels, descriptor {}", descriptor), cancel);
+      OutputStream::of_descriptor(descriptor, fmt::format("labels, descriptor {}", descriptor), clip.cancel);
   if (!out) return fail(out.error());
-  labels_.push_back({std::make_unique<JsonLinesStream>(std::move(*out), sequence)});
+  labels_.push_back({std::make_unique<JsonLinesStream>(std::move(*out), label_sequence(clip, ""))});
   return {};
 }
 
-Result<void> ExportFiles::open_files(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                     const FrameRange& range, const SplicePlan* splice,
-                                     const std::atomic<bool>* cancel) {
-  const ExportSettings& output = request.project.output;
-  const VideoFormat format = video_format(output, footage, encoder_threads());
+Result<void> ExportFiles::open_files(const ExportedClip& clip) {
+  const ExportSettings& output = clip.request.project.output;
+  const VideoFormat format = video_format(output, clip.footage, encoder_threads());
   const VideoFormat masks = mask_format(format, output.masks);
-  const OutputPaths paths = output_paths(request, format, masks);
-  if (const Result<void> kept = check_inputs_not_overwritten(request.project, paths.all, "export"); !kept) return kept;
-  Result<OpenedVideo> video = open_video(paths.video, format, splice, cancel);
+  const OutputPaths paths = output_paths(clip.request, format, masks);
+  if (const Result<void> kept = check_inputs_not_overwritten(clip.request.project, paths.all, "export"); !kept)
+    return kept;
+  Result<OpenedVideo> video = open_video(paths.video, format, clip.splice, clip.cancel);
   if (!video) return fail(video.error());
   video_ = std::move(video->writer);
   if (writes_images(format.codec)) image_folder_ = video->staged;
@@ -318,15 +304,14 @@ Result<void> ExportFiles::open_files(const ExportRequest& request, const VideoIn
     if (!opened) return fail(opened.error());
     masks_ = std::move(opened->writer);
   }
-  const LabelSequence sequence =
-      label_sequence(request.project, footage, scene, range, paths.video.filename().string());
+  const LabelSequence sequence = label_sequence(clip, paths.video.filename().string());
   for (const std::string& label : output.labels) {
     const LabelFormat& chosen = *label_format(label);
     Result<Labels> labels = open_labels(paths.base.string() + std::string(chosen.suffix), chosen, sequence);
     if (!labels) return fail(labels.error());
     labels_.push_back(std::move(*labels));
   }
-  return output.encounter.empty() ? Result<void>() : write_encounters(paths.encounter, request.project, scene, range);
+  return output.encounter.empty() ? Result<void>() : write_encounters(paths.encounter, clip);
 }
 
 bool ExportFiles::write_labels(const FrameTruth& truth) {

@@ -96,15 +96,22 @@ class WriterThread {
   std::thread thread_;
 };
 
+// What is exported.
+struct ExportedClip {
+  const ExportRequest& request;
+  const VideoInfo& footage;
+  const Scene& scene;
+  FrameRange range;
+  const SplicePlan* splice = nullptr;  // of the codec source; null: another codec. Frames that it copies have no image
+  // While it is true, waiting for the reader of a stream soon ends; null, or outlives the files.
+  const std::atomic<bool>* cancel = nullptr;
+};
+
 // The files of one export, or its streams, written frame by frame: each video on a thread of its own, the labels on the
 // caller's. A frame's labels are written before its image is passed on.
 class ExportFiles {
  public:
-  //   splice  of the codec source; null: another codec. Frames that it copies are written without an image
-  //   cancel  while it is true, waiting for the reader of a stream soon ends; null, or outlives the files
-  [[nodiscard]] static Result<ExportFiles> open(const ExportRequest& request, const VideoInfo& footage,
-                                                const Scene& scene, const FrameRange& range, const SplicePlan* splice,
-                                                const std::atomic<bool>* cancel);
+  [[nodiscard]] static Result<ExportFiles> open(const ExportedClip& clip);
 
   // Frames in order. An error is that of the first frame that could not be written, which may be an earlier one.
   [[nodiscard]] Result<void> write(ComposedFrame frame);
@@ -129,23 +136,16 @@ class ExportFiles {
     std::filesystem::path staged;
     std::unique_ptr<WriterThread> writer;
   };
-  [[nodiscard]] Result<void> open_all(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                      const FrameRange& range, const SplicePlan* splice,
-                                      const std::atomic<bool>* cancel);
-  [[nodiscard]] Result<void> open_files(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
-                                        const FrameRange& range, const SplicePlan* splice,
-                                        const std::atomic<bool>* cancel);
-  [[nodiscard]] Result<void> open_video_stream(const ExportRequest& request, const VideoInfo& footage,
-                                               const std::atomic<bool>* cancel);
-  [[nodiscard]] Result<void> open_label_stream(const ExportRequest& request, const LabelSequence& sequence,
-                                               const std::atomic<bool>* cancel);
+  [[nodiscard]] Result<void> open_all(const ExportedClip& clip);
+  [[nodiscard]] Result<void> open_files(const ExportedClip& clip);
+  [[nodiscard]] Result<void> open_video_stream(const ExportedClip& clip);
+  [[nodiscard]] Result<void> open_label_stream(const ExportedClip& clip);
   [[nodiscard]] Result<OpenedVideo> open_video(const std::filesystem::path& path, const VideoFormat& format,
                                                const SplicePlan* splice = nullptr,
                                                const std::atomic<bool>* cancel = nullptr);
   [[nodiscard]] Result<Labels> open_labels(const std::filesystem::path& path, const LabelFormat& format,
                                            const LabelSequence& sequence);
-  [[nodiscard]] Result<void> write_encounters(const std::filesystem::path& path, const Project& project,
-                                              const Scene& scene, const FrameRange& range);
+  [[nodiscard]] Result<void> write_encounters(const std::filesystem::path& path, const ExportedClip& clip);
   [[nodiscard]] bool write_labels(const FrameTruth& truth);
   [[nodiscard]] Result<void> finish();
 

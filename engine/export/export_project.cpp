@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <sstream>
@@ -193,62 +194,77 @@ Result<void> finish(const ExportRequest& request, const VideoInfo& footage, Expo
   return {};
 }
 
-Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
-  const Stopwatch watch;
-  const Project& project = request.project;
-  Result<OpenedProject> opened = open_project(project, control.cancel, request.footage, request.files);
-  if (!opened) return fail(opened.error());
-  const VideoInfo& video = opened->source.info();
-  const Scene& scene = opened->scene;
-  if (const Result<void> output = check_output(project, video); !output) return fail(output.error());
+// An export before its first frame.
+struct BegunExport {
+  FrameRange range;
+  ExportReport report;
+  std::optional<SplicePlan> splice;
+  ExportFiles files;
+};
+
+// tells: whether what the splice copies and leaves out is said.
+Result<BegunExport> begin_export(const ExportRequest& request, const VideoInfo& footage, const Scene& scene,
+                                 const std::vector<Warning>& warnings, bool tells, const ExportControl& control) {
+  if (const Result<void> output = check_output(request.project, footage); !output) return fail(output.error());
   const Result<FrameRange> range = range_in(scene, request.frames);
   if (!range) return fail(range.error());
-  ExportReport report = begun_report(scene, *range, opened->warnings, control);
-  warn_of_other_container(project, video, control, report);
-  Result<std::optional<SplicePlan>> splice = splice_plan(request, video, scene, *range, control);
+  ExportReport report = begun_report(scene, *range, warnings, control);
+  warn_of_other_container(request.project, footage, control, report);
+  Result<std::optional<SplicePlan>> splice = splice_plan(request, footage, scene, *range, control);
   if (!splice) return fail(splice.error());
-  tell(*splice, control, report);
+  if (tells) tell(*splice, control, report);
   Result<ExportFiles> files =
-      ExportFiles::open(request, video, scene, *range, *splice ? &**splice : nullptr, control.cancel);
+      ExportFiles::open({request, footage, scene, *range, *splice ? &**splice : nullptr, control.cancel});
   if (!files) return fail(files.error());
+  return BegunExport{*range, std::move(report), *std::move(splice), *std::move(files)};
+}
+
+Result<ExportReport> exported(const ExportRequest& request, const ExportControl& control) {
+  const Stopwatch watch;
+  Result<OpenedProject> opened = open_project(request.project, control.cancel, request.footage, request.files);
+  if (!opened) return fail(opened.error());
+  const VideoInfo& video = opened->source.info();
+  Result<BegunExport> begun = begin_export(request, video, opened->scene, opened->warnings, true, control);
+  if (!begun) return fail(begun.error());
+  auto& [range, report, splice, files] = *begun;
   {
-    FramePipeline pipeline(scene, opened->source, *range, std::max(1, request.jobs),
-                           *splice ? (*splice)->encoded : std::vector<bool>());
-    if (const Result<void> step = write_frames(pipeline, *range, *opened, request, *files, control, report); !step)
+    FramePipeline pipeline(opened->scene, opened->source, range, std::max(1, request.jobs),
+                           splice ? splice->encoded : std::vector<bool>());
+    if (const Result<void> step = write_frames(pipeline, range, *opened, request, files, control, report); !step)
       return fail(step.error());
   }
-  if (const Result<void> step = finish(request, video, *files, watch, control, report); !step)
-    return fail(step.error());
-  return report;
+  if (const Result<void> step = finish(request, video, files, watch, control, report); !step) return fail(step.error());
+  return std::move(report);
 }
 
 Result<ExportReport> exported_frame(const ExportRequest& request, FrameRenderer& renderer,
                                     const ExportControl& control) {
   const Stopwatch watch;
-  const Project& project = request.project;
-  const Result<FrameRenderer::Opened> opened = renderer.open(project, control.cancel);
+  const Result<FrameRenderer::Opened> opened = renderer.open(request.project, control.cancel);
   if (!opened) return fail(opened.error());
   const VideoInfo& video = *opened->footage;
-  if (const Result<void> output = check_output(project, video); !output) return fail(output.error());
-  const Result<FrameRange> range = range_in(*opened->scene, request.frames);
-  if (!range) return fail(range.error());
-  ENSURE(range->first == range->last);
-  ExportReport report = begun_report(*opened->scene, *range, opened->warnings, control);
-  warn_of_other_container(project, video, control, report);
-  const Result<std::optional<SplicePlan>> splice = splice_plan(request, video, *opened->scene, *range, control);
-  if (!splice) return fail(splice.error());
-  Result<ExportFiles> files =
-      ExportFiles::open(request, video, *opened->scene, *range, *splice ? &**splice : nullptr, control.cancel);
-  if (!files) return fail(files.error());
-  Result<ComposedFrame> frame = renderer.render(project, range->first, {}, control.cancel);
+  Result<BegunExport> begun = begin_export(request, video, *opened->scene, opened->warnings, false, control);
+  if (!begun) return fail(begun.error());
+  auto& [range, report, splice, files] = *begun;
+  ENSURE(range.first == range.last);
+  Result<ComposedFrame> frame = renderer.render(request.project, range.first, {}, control.cancel);
   if (!frame) return fail(frame.error());
   count(*frame, report);
   if (const Result<void> valid = check_substituted(report, 1, video, request); !valid) return fail(valid.error());
-  if (const Result<void> step = files->write(std::move(*frame)); !step) return fail(step.error());
+  if (const Result<void> step = files.write(std::move(*frame)); !step) return fail(step.error());
   if (control.progress) control.progress(1, 1);
-  if (const Result<void> step = finish(request, video, *files, watch, control, report); !step)
-    return fail(step.error());
-  return report;
+  if (const Result<void> step = finish(request, video, files, watch, control, report); !step) return fail(step.error());
+  return std::move(report);
+}
+
+// Whether a reader that knows the nominal rate alone shows each frame at its time, to 1 ms: the tick of Matroska, whose
+// times of a constant rate are as uneven as that.
+bool has_even_times(const VideoInfo& footage) {
+  constexpr double kTick_s = 1e-3 + 1e-9;
+  const double interval_s = double(footage.frame_rate_den) / footage.frame_rate_num;
+  for (std::size_t n = 0; n < footage.times_s.size(); ++n)
+    if (std::abs(footage.times_s[n] - static_cast<double>(n) * interval_s) > kTick_s) return false;
+  return true;
 }
 
 }  // namespace
@@ -264,35 +280,10 @@ Result<ExportReport> export_frame(const ExportRequest& request, FrameRenderer& r
   return guarded([&] { return exported_frame(request, renderer, control); });
 }
 
-namespace {
-
-// Whether a reader that knows the nominal rate alone shows each frame at its time, to 1 ms: the tick of Matroska, whose
-// times of a constant rate are as uneven as that.
-bool has_even_times(const VideoInfo& footage) {
-  constexpr double kTick_s = 1e-3 + 1e-9;
-  const double interval_s = double(footage.frame_rate_den) / footage.frame_rate_num;
-  for (std::size_t n = 0; n < footage.times_s.size(); ++n)
-    if (std::abs(footage.times_s[n] - static_cast<double>(n) * interval_s) > kTick_s) return false;
-  return true;
-}
-
-}  // namespace
-
 Container container_of(const ExportSettings& output, const VideoInfo& footage) {
-  switch (output.container) {
-    case ContainerChoice::mkv:
-      return Container::mkv;
-    case ContainerChoice::mp4:
-      return Container::mp4;
-    case ContainerChoice::avi:
-      return Container::avi;
-    case ContainerChoice::nut:
-      return Container::nut;
-    case ContainerChoice::y4m:
-      return Container::y4m;
-    case ContainerChoice::automatic:
-      break;
-  }
+  static constexpr std::array kChosen{Container::mkv, Container::mp4, Container::avi, Container::nut,
+                                      Container::y4m};  // in the order of ContainerChoice, behind automatic
+  if (output.container != ContainerChoice::automatic) return kChosen.at(static_cast<std::size_t>(output.container) - 1);
   switch (output.codec) {
     case VideoCodec::h264:
     case VideoCodec::hevc:

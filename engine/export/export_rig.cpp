@@ -196,13 +196,6 @@ Result<void> check_table_folder(const std::filesystem::path& folder) {
   return {};
 }
 
-Result<void> write_file(const std::filesystem::path& path, const std::string& text) {
-  Result<TextFile> file = TextFile::create(path);
-  if (!file) return fail(file.error());
-  if (const Result<void> step = file->put(text); !step) return step;
-  return file->close();
-}
-
 Result<void> write_tables(const TableFolder& folder, const RigTruth& truth, const ExportRequest& request) {
   const VideoCodec codec = request.project.output.codec;
   const std::string extension = writes_images(codec) ? image_extension_of(codec) : ".png";
@@ -212,7 +205,7 @@ Result<void> write_tables(const TableFolder& folder, const RigTruth& truth, cons
     return fail(request.project.file.string() + ": " + files.error().where, files.error().what, files.error().kind);
   for (const auto& [name, text] : *files) {
     if (const Result<void> made = make_inner_folder((folder.staged / name).parent_path()); !made) return made;
-    if (const Result<void> written = write_file(folder.staged / name, text); !written) return written;
+    if (const Result<void> written = write_text_file(folder.staged / name, text); !written) return written;
   }
   return {};
 }
@@ -246,8 +239,8 @@ Result<RigReport> exported_rig(const ExportRequest& request, const ExportControl
   for (std::size_t i = 0; i < truth.intruders().size(); ++i)
     if (control.warn && truth.views(static_cast<int>(i)).empty())
       control.warn(visible_in_no_camera(request.project, i));
-  Result<void> step = write_file(*json, truth.json(request.project.name));
-  if (step) step = write_file(*table, truth.csv());
+  Result<void> step = write_text_file(*json, truth.json(request.project.name));
+  if (step) step = write_text_file(*table, truth.csv());
   for (const TableFolder& folder : folders)
     if (step) step = write_tables(folder, truth, request);
   if (!step) return fail(outputs.with_final_names(step.error()));

@@ -101,14 +101,13 @@ void FramePipeline::compose() {
   while (std::optional<DecodedFrame> decoded = decoded_.take()) {
     const int number = decoded->number;
     Result<ComposedFrame> frame = guarded([&] { return composed(std::move(*decoded), context); });
-    if (frame && frame->op_counts.pixels_drawn > 0) remember(context.renderer_description());
+    if (frame && frame->op_counts.pixels_drawn > 0)
+      if (std::string description = context.renderer_description(); !description.empty()) {
+        const std::lock_guard lock(mutex_);
+        renderer_description_ = std::move(description);
+      }
     if (!finished_.put(number, std::move(frame))) break;
   }
-}
-
-void FramePipeline::remember(std::string description) {
-  const std::lock_guard lock(mutex_);
-  if (!description.empty()) renderer_description_ = std::move(description);
 }
 
 struct FrameStream::Inside {
@@ -173,21 +172,20 @@ Result<std::optional<ComposedFrame>> FrameStream::next() {
   return std::optional<ComposedFrame>(std::move(*frame));
 }
 
-Result<int> FrameStream::show_all(const std::function<Result<void>(const StreamFrame&)>& see) {
-  int damaged = 0;
-  while (true) {
-    Result<std::optional<ComposedFrame>> frame = next();
-    if (!frame) return fail(frame.error());
-    if (!*frame) return damaged;
-    damaged += (*frame)->image.damaged ? 1 : 0;
-    const StreamFrame seen{.image = bgr_of((*frame)->image), .truth = std::move((*frame)->truth)};
-    if (const Result<void> step = see(seen); !step) return fail(step.error());
-  }
-}
-
 Result<int> FrameStream::show(int jobs, const std::function<Result<void>(const StreamFrame&)>& see) {
   start(jobs);
-  Result<int> damaged = show_all(see);
+  const auto shown = [&]() -> Result<int> {
+    int damaged = 0;
+    while (true) {
+      Result<std::optional<ComposedFrame>> frame = next();
+      if (!frame) return fail(frame.error());
+      if (!*frame) return damaged;
+      damaged += (*frame)->image.damaged ? 1 : 0;
+      const StreamFrame seen{.image = bgr_of((*frame)->image), .truth = std::move((*frame)->truth)};
+      if (const Result<void> step = see(seen); !step) return fail(step.error());
+    }
+  };
+  Result<int> damaged = shown();
   inside_->pipeline.reset();
   return damaged;
 }

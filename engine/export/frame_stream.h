@@ -102,7 +102,6 @@ class FramePipeline {
   void decode();
   [[nodiscard]] Result<ComposedFrame> composed(DecodedFrame decoded, ComposeContext& context) const;
   void compose();
-  void remember(std::string description);
 
   const Scene& scene_;
   FrameSource& source_;
@@ -155,7 +154,6 @@ class FrameStream {
  private:
   struct Inside;
   explicit FrameStream(std::unique_ptr<Inside> inside);
-  [[nodiscard]] Result<int> show_all(const std::function<Result<void>(const StreamFrame&)>& see);
   std::unique_ptr<Inside> inside_;
 };
 

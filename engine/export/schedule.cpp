@@ -112,24 +112,6 @@ int wanted_batches(const std::vector<Batch>& batches, int jobs, int cores) {
   return (jobs > 0 ? jobs : std::max(1, cores / 4)) / static_cast<int>(largest);
 }
 
-}  // namespace
-
-int Schedule::jobs_of_each(const Batch& batch, int cores) const {
-  const int beside = batch.kind == Batch::Kind::shared ? static_cast<int>(batch.videos.size()) : 1;
-  return std::max(1, cores / (batches_at_a_time * beside) - 1);
-}
-
-Schedule schedule_of(const std::vector<PendingVideo>& videos, int jobs, int cores) {
-  Schedule schedule;
-  append_videos(videos, jobs > 0 ? std::min(jobs, kMaxSharing) : kMaxSharing, schedule.batches);
-  append_images(videos, schedule.batches);
-  const int most = std::max(1, static_cast<int>(schedule.batches.size()));
-  schedule.batches_at_a_time = std::clamp(wanted_batches(schedule.batches, jobs, cores), 1, most);
-  return schedule;
-}
-
-namespace {
-
 // One source for each video of the batch; none where the clip cannot be opened or cropped.
 std::vector<FrameSource> shared_sources(const Batch& batch, const std::vector<PendingVideo>& videos,
                                         const std::atomic<bool>* cancel) {
@@ -149,30 +131,29 @@ std::vector<FrameSource> shared_sources(const Batch& batch, const std::vector<Pe
   return sources;
 }
 
-// What threads throw: the first of it is kept.
-class FirstThrown {
- public:
-  void keep() {
-    const std::lock_guard lock(mutex_);
-    if (!thrown_) thrown_ = std::current_exception();
-  }
-  void throw_again() const {
-    if (thrown_) std::rethrow_exception(thrown_);
-  }
-
- private:
-  std::mutex mutex_;
-  std::exception_ptr thrown_;
-};
-
 }  // namespace
+
+int Schedule::jobs_of_each(const Batch& batch, int cores) const {
+  const int beside = batch.kind == Batch::Kind::shared ? static_cast<int>(batch.videos.size()) : 1;
+  return std::max(1, cores / (batches_at_a_time * beside) - 1);
+}
+
+Schedule schedule_of(const std::vector<PendingVideo>& videos, int jobs, int cores) {
+  Schedule schedule;
+  append_videos(videos, jobs > 0 ? std::min(jobs, kMaxSharing) : kMaxSharing, schedule.batches);
+  append_images(videos, schedule.batches);
+  const int most = std::max(1, static_cast<int>(schedule.batches.size()));
+  schedule.batches_at_a_time = std::clamp(wanted_batches(schedule.batches, jobs, cores), 1, most);
+  return schedule;
+}
 
 void make_sharing(const Batch& batch, const std::vector<PendingVideo>& videos, const std::atomic<bool>* cancel,
                   const std::function<void(std::size_t video, FrameSource* footage)>& make) {
   std::vector<FrameSource> opened = shared_sources(batch, videos, cancel);
   std::vector<std::optional<FrameSource>> sources(batch.videos.size());
   for (std::size_t i = 0; i < opened.size(); ++i) sources[i] = std::move(opened[i]);
-  FirstThrown thrown;
+  std::mutex mutex;
+  std::exception_ptr thrown;  // what a thread throws first
   std::vector<std::thread> threads;
   threads.reserve(batch.videos.size());
   std::vector<std::size_t> left;  // without a thread
@@ -181,7 +162,8 @@ void make_sharing(const Batch& batch, const std::vector<PendingVideo>& videos, c
       try {
         make(batch.videos[i], sources[i] ? &*sources[i] : nullptr);
       } catch (...) {
-        thrown.keep();
+        const std::lock_guard lock(mutex);
+        if (!thrown) thrown = std::current_exception();
       }
       sources[i].reset();  // no other reader waits for this one any more
     };
@@ -195,7 +177,7 @@ void make_sharing(const Batch& batch, const std::vector<PendingVideo>& videos, c
   }
   for (std::thread& thread : threads) thread.join();
   for (const std::size_t i : left) make(batch.videos[i], nullptr);
-  thrown.throw_again();
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 }  // namespace sigs

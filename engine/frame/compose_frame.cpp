@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
@@ -144,8 +146,43 @@ void add_shadow(const Scene& scene, const SceneMoment& moment, LensTable& lens, 
   if (!shadow.layer.empty()) layers.shadow = without_hidden(scene, moment, shadow.layer, shadow.distance_m, lens);
 }
 
+// Samples a pixel, each way, of the light of an intruder that is blurred before pixels average it, as a lens does.
+// Where pixels averaged first, what is hardly larger than one would stay in its middle while it moves through it: the
+// smaller the target, the farther off. 1: pixels average first, which the size or no blur allows.
+int steps_before_pixels(const Scene& scene, const IntruderLayers& layers) {
+  struct Tier {
+    double max_size_px;
+    int steps;
+  };
+  constexpr std::array<Tier, 3> kTiers{{{4, 8}, {32, 4}, {96, 2}}};
+  constexpr double kLongest = 64;  // blur in samples: a wider one hides where in a pixel light falls
+  if (scene.compositing.method != MethodChoice::direct || scene.compositing.quality == QualityChoice::draft) return 1;
+  if (!layers.silhouette || !layers.silhouette->all_have_image) return 1;
+  if (layers.sigma_px == 0 && layers.motion.shifts.empty()) return 1;
+  const Box& box = layers.silhouette->box;
+  const auto tier =
+      std::ranges::find_if(kTiers, [&](const Tier& one) { return std::max(box.width, box.height) <= one.max_size_px; });
+  int steps = tier == kTiers.end() ? 1 : tier->steps;
+  while (steps > 1 && (steps * layers.sigma_px > kWideSigma_px || steps * layers.motion_px > kLongest)) steps /= 2;
+  return steps;
+}
+
+// `blurred` of light that pixels have not averaged yet.
+//   fine  hazed, with so many samples a pixel
+Layer blurred_finely(const IntruderLayers& layers, const Lens& lens, const Layer& fine, int steps) {
+  const MotionKernel motion = motion_kernel(double(steps) * layers.motion_xy_px);
+  const cv::Rect window(layers.window.tl() * steps, layers.window.size() * steps);
+  const Layer moved = motion_blurred(fine, motion, kUnboundedRect);
+  const Lens fine_lens = lens.period_px() > 0 ? with_pixels_of(lens, 1.0 / steps) : lens;  // no other is asked
+  Layer out = averaged(blurred_through(fine_lens, moved, steps * layers.sigma_px, window, motion.spread_px2), steps);
+  if (!out.empty()) out.coverage = coverage_over(out.rect, layers.warped);
+  return out;
+}
+
 // Fills `motion_blurred` and `blurred`; the latter stays empty where the layer is too faint to be seen.
-void blur(const Scene& scene, const Lens& lens, const ColorInfo& footage, int bit_depth, IntruderLayers& layers) {
+//   hazed_finely  `hazed` with so many samples a pixel, which is asked for where it is used
+void blur(const Scene& scene, const Lens& lens, const ColorInfo& footage, int bit_depth,
+          const std::function<Layer(int steps)>& hazed_finely, IntruderLayers& layers) {
   layers.motion_blurred = motion_blurred(layers.hazed, layers.motion, kUnboundedRect);
   layers.op_counts.pixels_motion_blurred +=
       static_cast<std::int64_t>(layers.motion.shifts.size()) * std::int64_t{layers.hazed.rect.area()};
@@ -154,8 +191,11 @@ void blur(const Scene& scene, const Lens& lens, const ColorInfo& footage, int bi
     layers.blurred = clipped(layers.motion_blurred, layers.window);
     return;
   }
-  layers.blurred =
-      blurred_through(lens, layers.motion_blurred, layers.sigma_px, layers.window, layers.motion.spread_px2);
+  if (const int steps = steps_before_pixels(scene, layers); steps > 1)
+    layers.blurred = blurred_finely(layers, lens, hazed_finely(steps), steps);
+  else
+    layers.blurred =
+        blurred_through(lens, layers.motion_blurred, layers.sigma_px, layers.window, layers.motion.spread_px2);
   if (layers.sigma_px > 0) layers.op_counts.pixels_blurred += layers.blurred.rect.area();
 }
 
@@ -234,9 +274,15 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     if (!views) return fail(views.error());
     layers.views = std::move(*views);
     layers.warped = warped(layers.views, lens, plan.warp_rect, row_transform(layers));
-    layers.hazed = hazed_layer(scene, layers.warped, placed.distance_m(),
-                               box_in_image(layers, lens.camera().lens, scene.footage.size_px), background);
-    blur(scene, lens.camera().lens, footage, background == nullptr ? 8 : background->bit_depth, layers);
+    const cv::Rect box = box_in_image(layers, lens.camera().lens, scene.footage.size_px);
+    const auto hazed = [&](const Layer& seen) {
+      return hazed_layer(scene, seen, placed.distance_m(), box, background);
+    };
+    layers.hazed = hazed(layers.warped);
+    const auto hazed_finely = [&](int steps) {
+      return hazed(finely_warped(layers.views, lens, plan.warp_rect, steps, row_transform(layers)));
+    };
+    blur(scene, lens.camera().lens, footage, background == nullptr ? 8 : background->bit_depth, hazed_finely, layers);
     layers.occluded = without_hidden(scene, moment, layers.blurred, placed.distance_m(), lens);
     const Result<double> area = whole_area_px(layers, plan, lens, scene, **renderer);
     if (!area) return fail(area.error());

@@ -118,17 +118,6 @@ cv::Rect with_row_shift(const cv::Rect& rect, double shift_px) {
   return rect.empty() ? rect : grown(rect, margin_px);
 }
 
-// The same lens with coarse pixels of step by step pixels: coarse pixel (i, j) covers the square [i, i + 1) x [j, j +
-// 1) times step, from the upper left corner of the image.
-Camera coarse_camera(const Camera& camera, double step) {
-  LensParameters coarse = camera.lens.parameters();
-  coarse.fx /= step;
-  coarse.fy /= step;
-  coarse.cx = (coarse.cx + 0.5) / step - 0.5;
-  coarse.cy = (coarse.cy + 0.5) / step - 0.5;
-  return {*Lens::make(coarse), camera.size_px};
-}
-
 Box coarse_box(const Box& box_px, double step) {
   return {(box_px.x + 0.5) / step - 0.5, (box_px.y + 0.5) / step - 0.5, box_px.width / step, box_px.height / step};
 }
@@ -258,6 +247,15 @@ std::vector<cv::Point2d> earlier_places(const Scene& scene, int frame, const Pla
   return places;
 }
 
+Lens with_pixels_of(const Lens& lens, double step) {
+  LensParameters scaled = lens.parameters();
+  scaled.fx /= step;
+  scaled.fy /= step;
+  scaled.cx = (scaled.cx + 0.5) / step - 0.5;
+  scaled.cy = (scaled.cy + 0.5) / step - 0.5;
+  return *Lens::make(scaled);
+}
+
 RowTransform row_transform(const IntruderLayers& layers, double step) {
   if (!layers.row_motion) return nullptr;
   return [&motion = *layers.row_motion, step](double row) { return motion.row_transform((row + 0.5) * step - 0.5); };
@@ -284,6 +282,7 @@ IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, cons
   if (scene.compositing.method == MethodChoice::direct && moment.exposure_s > 0) {
     const glm::dvec2 motion_px = motion_during_exposure(scene, moment, placed, camera.lens);
     layers.motion = motion_kernel(motion_px);
+    layers.motion_xy_px = motion_px;
     if (!layers.motion.shifts.empty()) layers.motion_px = std::min(glm::length(motion_px), kMaxMotion_px);
     if (!camera.lens.is_pinhole()) layers.op_counts.lens_evaluations += 2;
   }
@@ -369,7 +368,7 @@ Result<double> whole_area_px(IntruderLayers& layers, const RenderPlan& plan, con
   // By the box itself, not by its clamped pixels: near the plane of a pinhole's lens it can be 1e9 px wide. Means by
   // area keep the sum, however coarse they are.
   const double step = std::max({1.0, box.width / kWholeAreaSteps, box.height / kWholeAreaSteps});
-  LensTable coarse(coarse_camera(lens.camera(), step), lens.tolerance_px());
+  LensTable coarse({with_pixels_of(lens.camera().lens, step), lens.camera().size_px}, lens.tolerance_px());
   const cv::Rect coarse_rect = pixels_touched(coarse_box(box, step), 1, kUnboundedRect);
   const double shift_px = layers.row_motion ? layers.row_motion->max_shift_px(coarse.camera().lens) : 0;
   const std::vector<VirtualCamera> views =

@@ -47,6 +47,7 @@ struct IntruderLayers {
   double sigma_px = 0;                 // of the blur: the lens' own, and that at this distance
   MotionKernel motion;                 // in the image, during the exposure; empty: none
   double motion_px = 0;                // its length; 0: none
+  glm::dvec2 motion_xy_px{0, 0};       // the same before it is shortened
   std::vector<RenderedView> views;     // empty where no part of it can be in the image
   std::vector<RenderedView> given_up;  // coarse views that tell too little; their memory serves the next frame's
   Layer warped;                        // through the lens, with the margin beyond the window that the blurs need
@@ -69,6 +70,10 @@ struct IntruderLayers {
 // lens evaluations are counted.
 [[nodiscard]] IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
                                            const Camera& camera);
+
+// The same lens with pixels of step by step of its own: pixel (i, j) covers the square [i, i + 1) x [j, j + 1) times
+// step, from the upper left corner of the image.
+[[nodiscard]] Lens with_pixels_of(const Lens& lens, double step);
 
 // For warped(): where the rays of a row lead. step: size of its pixels in the image's.
 [[nodiscard]] RowTransform row_transform(const IntruderLayers& layers, double step = 1);

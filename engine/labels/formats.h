@@ -28,8 +28,8 @@ namespace sigs {
 // Boxes of truth/annotation.h are boxes of whole pixels: x, y, width, height with the first pixel at 0, 0. Each comment
 // says how the format counts them. k...Files lists what a format's folder may contain (LabelFormat::files).
 
-// SIGS annotation file (docs/annotation-format.md): everything that is measured, also of intruders that are not
-// visible. SigsXmlWriter writes the same without a LabelSequence.
+// SIGS annotation file (docs/annotation-format.md, docs/sigs-annotations.xsd): everything that is measured, also of
+// intruders that are not visible. Of the sequence the footage alone counts.
 [[nodiscard]] Result<std::unique_ptr<LabelWriter>> open_sigs_xml(const std::filesystem::path& path,
                                                                  const LabelSequence& sequence);
 
@@ -171,26 +171,8 @@ inline constexpr std::array<std::string_view, 10> kVotFiles{
 // The truth of one frame as the element <frame> of a SIGS annotation file, indented, with a line break at its end.
 [[nodiscard]] std::string xml_of(const FrameTruth& truth);
 
-// Writes a SIGS annotation file (docs/annotation-format.md, docs/sigs-annotations.xsd) frame by frame, so that memory
-// does not grow with the video. open_sigs_xml() (labels/formats.h) is the same as one of the label formats.
-class SigsXmlWriter {
- public:
-  // Creates the file and writes its beginning. The caller gives it its final name when it is complete. Errors
-  // cannot_create, write_failed.
-  [[nodiscard]] static Result<SigsXmlWriter> open(const std::filesystem::path& path, const FootageTruth& footage);
-
-  // Appends the next frame; finish() closes the document and the file. Errors write_failed.
-  [[nodiscard]] Result<void> write(const FrameTruth& truth);
-  [[nodiscard]] Result<void> finish();
-
- private:
-  explicit SigsXmlWriter(TextFile file) : file_(std::move(file)) {}
-
-  TextFile file_;
-};
-
 // The truth of one frame as one JSON object on a line of its own, with its line break. Fields and numbers are those of
-// the element <frame> of a SIGS annotation file ; docs/label-formats.md lists them.
+// the element <frame> of a SIGS annotation file; docs/label-formats.md lists them.
 [[nodiscard]] std::string json_line_of(const FrameTruth& truth, const LabelSequence& sequence);
 
 // Writes each line to a stream at once, for programs that read while the frames are made. open_jsonl()

@@ -67,6 +67,14 @@ Result<void> link_or_copy(const fs::path& from, const fs::path& to) {
   return {};
 }
 
+Result<void> link_images(const fs::path& images, const std::vector<fs::path>& names, const fs::path& folder) {
+  if (images.empty()) return {};
+  if (const Result<void> created = make_inner_folder(folder); !created) return created;
+  for (const fs::path& name : names)
+    if (const Result<void> linked = link_or_copy(images / name, folder / name); !linked) return linked;
+  return {};
+}
+
 Result<void> link_numbered_images(const fs::path& images, const FootageTruth& footage, const fs::path& folder,
                                   ImageNumbers numbers) {
   if (images.empty()) return {};

@@ -72,6 +72,13 @@ template <class Labels>
 // it. Error write_failed: `to` exists, `from` or the folder of `to` does not, or the disk is full.
 [[nodiscard]] Result<void> link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);
 
+// Links images of a folder into another one, which is created, under their own names.
+//   images  Empty: there are none, nothing is done
+// Errors cannot_create, write_failed.
+[[nodiscard]] Result<void> link_images(const std::filesystem::path& images,
+                                       const std::vector<std::filesystem::path>& names,
+                                       const std::filesystem::path& folder);
+
 // How a format names the images of a sequence: 000001.png, 000002.png, ...
 struct ImageNumbers {
   int first = 0;                        // number of the sequence's first image

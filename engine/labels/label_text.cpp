@@ -95,6 +95,16 @@ std::string source_text(const std::string& source) {
   return source.empty() ? "project" : line_text(source);
 }
 
+LabelNumbers numbers_of(const std::optional<cv::Rect>& whole_pixels, int pixels) {
+  if (!whole_pixels) return {};
+  const cv::Rect2d box = *whole_pixels;
+  return {{"x", box.x},
+          {"y", box.y},
+          {"width", box.width},
+          {"height", box.height},
+          {"pixels", static_cast<double>(pixels)}};
+}
+
 }  // namespace
 
 std::optional<glm::dvec3> attitude_sd_deg(const CameraTruth& camera) {
@@ -127,20 +137,6 @@ LabelNumbers place_numbers(const GeodeticPosition& place) {
           {"longitude_deg", place.longitude_deg, kLabelPlaceDecimals},
           {"height_m", place.height_m}};
 }
-
-namespace {
-
-LabelNumbers numbers_of(const std::optional<cv::Rect>& whole_pixels, int pixels) {
-  if (!whole_pixels) return {};
-  const cv::Rect2d box = *whole_pixels;
-  return {{"x", box.x},
-          {"y", box.y},
-          {"width", box.width},
-          {"height", box.height},
-          {"pixels", static_cast<double>(pixels)}};
-}
-
-}  // namespace
 
 LabelNumbers box_numbers(const IntruderTruth& truth) {
   return numbers_of(truth.visible_box, truth.visible_pixels);

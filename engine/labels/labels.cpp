@@ -81,15 +81,13 @@ constexpr LabelFormat kFormats[] = {
 }  // namespace
 
 const LabelledIntruder& labelled_intruder(const LabelSequence& sequence, int id) {
-  const auto found = std::find_if(sequence.intruders.begin(), sequence.intruders.end(),
-                                  [id](const LabelledIntruder& one) { return one.id == id; });
+  const auto found = std::ranges::find(sequence.intruders, id, &LabelledIntruder::id);
   ENSURE(found != sequence.intruders.end());
   return *found;
 }
 
 int category_index(const LabelSequence& sequence, int id) {
-  const std::string& wanted = labelled_intruder(sequence, id).category;
-  const auto category = std::find(sequence.categories.begin(), sequence.categories.end(), wanted);
+  const auto category = std::ranges::find(sequence.categories, labelled_intruder(sequence, id).category);
   ENSURE(category != sequence.categories.end());
   return static_cast<int>(category - sequence.categories.begin());
 }
@@ -119,8 +117,7 @@ std::span<const LabelFormat> label_formats() {
 }
 
 const LabelFormat* label_format(std::string_view name) {
-  const auto found =
-      std::find_if(std::begin(kFormats), std::end(kFormats), [&](const LabelFormat& f) { return f.name == name; });
+  const auto* const found = std::ranges::find(kFormats, name, &LabelFormat::name);
   return found == std::end(kFormats) ? nullptr : found;
 }
 

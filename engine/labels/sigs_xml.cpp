@@ -99,6 +99,18 @@ std::string sigs_head(const FootageTruth& footage) {
   return text.str();
 }
 
+class SigsXmlLabels : public OneFileLabels {
+ public:
+  using OneFileLabels::OneFileLabels;
+
+  Result<void> begin() override { return file_.put(sigs_head(sequence_.footage)); }
+  Result<void> write(const FrameTruth& truth) override { return file_.put(xml_of(truth)); }
+  Result<void> finish(const std::filesystem::path&) override {
+    const Result<void> end = file_.put("</sigs>\n");
+    return end ? file_.close() : end;
+  }
+};
+
 }  // namespace
 
 std::string xml_of(const FrameTruth& truth) {
@@ -117,40 +129,8 @@ std::string xml_of(const FrameTruth& truth) {
   return text.str();
 }
 
-Result<SigsXmlWriter> SigsXmlWriter::open(const std::filesystem::path& path, const FootageTruth& footage) {
-  Result<TextFile> file = TextFile::create(path);
-  if (!file) return fail(file.error());
-  if (const Result<void> head = file->put(sigs_head(footage)); !head) return fail(head.error());
-  return SigsXmlWriter(std::move(*file));
-}
-
-Result<void> SigsXmlWriter::write(const FrameTruth& truth) {
-  return file_.put(xml_of(truth));
-}
-
-Result<void> SigsXmlWriter::finish() {
-  if (const Result<void> end = file_.put("</sigs>\n"); !end) return end;
-  return file_.close();
-}
-
-namespace {
-
-class SigsXmlLabels : public LabelWriter {
- public:
-  explicit SigsXmlLabels(SigsXmlWriter writer) : writer_(std::move(writer)) {}
-  Result<void> write(const FrameTruth& truth) override { return writer_.write(truth); }
-  Result<void> finish(const std::filesystem::path&) override { return writer_.finish(); }
-
- private:
-  SigsXmlWriter writer_;
-};
-
-}  // namespace
-
 Result<std::unique_ptr<LabelWriter>> open_sigs_xml(const std::filesystem::path& path, const LabelSequence& sequence) {
-  Result<SigsXmlWriter> writer = SigsXmlWriter::open(path, sequence.footage);
-  if (!writer) return fail(writer.error());
-  return std::make_unique<SigsXmlLabels>(std::move(*writer));
+  return begun_file<SigsXmlLabels>(path, sequence);
 }
 
 }  // namespace sigs

@@ -81,14 +81,12 @@ std::string whole_characters(const std::string& text, std::size_t max_bytes) {
 std::vector<std::string> file_names_of(const std::vector<std::string>& categories) {
   constexpr std::size_t kMaxBytes = 200;  // file systems allow 255, and more text follows
   std::vector<std::string> names;
-  const auto is_taken = [&names](const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
   for (const std::string& category : categories) {
     std::string plain = whole_characters(category, kMaxBytes);
     std::replace(plain.begin(), plain.end(), '/', '_');
     std::string name = plain;
-    for (std::size_t number = names.size(); is_taken(name); ++number) name = fmt::format("{}_{}", plain, number);
+    for (std::size_t number = names.size(); std::ranges::count(names, name) > 0; ++number)
+      name = fmt::format("{}_{}", plain, number);
     names.push_back(name);
   }
   return names;
@@ -114,12 +112,8 @@ class VocLabels : public LabelWriter {
   }
 
   Result<void> finish(const fs::path& images) override {
-    if (const Result<void> written = write_lists(); !written || images.empty()) return written;
-    if (const Result<void> created = make_inner_folder(root_ / "JPEGImages"); !created) return created;
-    for (const fs::path& image : images_)
-      if (const Result<void> linked = link_or_copy(images / image, root_ / "JPEGImages" / image); !linked)
-        return linked;
-    return {};
+    const Result<void> written = write_lists();
+    return written ? link_images(images, images_, root_ / "JPEGImages") : written;
   }
 
  private:

@@ -102,8 +102,7 @@ class VotLabels : public LabelWriter {
   Result<void> write(const FrameTruth& truth) override {
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       const int id = sequence_.intruders[i].id;
-      const auto found = std::find_if(truth.intruders.begin(), truth.intruders.end(),
-                                      [id](const IntruderTruth& intruder) { return intruder.id == id; });
+      const auto found = std::ranges::find(truth.intruders, id, &IntruderTruth::id);
       const IntruderTruth* target = found == truth.intruders.end() ? nullptr : &*found;
       if (const Result<void> written = targets_[i].write(target, sequence_.thresholds); !written) return written;
     }

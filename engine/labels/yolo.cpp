@@ -63,17 +63,12 @@ class YoloLabels : public LabelWriter {
     std::string text;
     for (const IntruderTruth& intruder : truth.intruders)
       if (is_labelled(intruder, sequence_.thresholds)) text += line_of(intruder);
-    images_.push_back(image_name(truth.index, sequence_.image_extension));
+    images_.emplace_back(image_name(truth.index, sequence_.image_extension));
     return write_text_file(root_ / "labels" / folder_ / fs::path(images_.back()).replace_extension(".txt"), text);
   }
 
   Result<void> finish(const fs::path& images) override {
-    if (images.empty()) return {};
-    const fs::path folder = root_ / "images" / folder_;
-    if (const Result<void> created = make_inner_folder(folder); !created) return created;
-    for (const std::string& image : images_)
-      if (const Result<void> linked = link_or_copy(images / image, folder / image); !linked) return linked;
-    return {};
+    return link_images(images, images_, root_ / "images" / folder_);
   }
 
  private:
@@ -89,7 +84,7 @@ class YoloLabels : public LabelWriter {
   fs::path root_;
   std::string folder_;
   LabelSequence sequence_;
-  std::vector<std::string> images_;
+  std::vector<fs::path> images_;
 };
 
 }  // namespace

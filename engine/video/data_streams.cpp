@@ -76,11 +76,6 @@ bool lists_more(const AVFormatContext& input, int index, std::size_t packets) {
          static_cast<std::size_t>(listed) > packets;
 }
 
-Result<void> check_cancelled(const std::atomic<bool>* cancel) {
-  if (cancel != nullptr && cancel->load()) return libav::interrupted();
-  return {};
-}
-
 Result<DataPackets> read_packets(const std::filesystem::path& file, int index, double zero_s,
                                  const std::atomic<bool>* cancel) {
   const Result<libav::InputPtr> input = libav::open_input(file, cancel);
@@ -102,7 +97,7 @@ Result<DataPackets> read_packets(const std::filesystem::path& file, int index, d
     corrupt = corrupt || (packet->flags & AV_PKT_FLAG_CORRUPT) != 0;
     add_packet(read, *packet, tick_s, zero_s);
   }
-  if (const Result<void> go_on = check_cancelled(cancel); !go_on) return fail(go_on.error());
+  if (cancel != nullptr && cancel->load()) return libav::interrupted();
   read.broke_off = step == libav::Step::broke_off || corrupt || lists_more(**input, index, read.packets.size());
   return read;
 }

@@ -1,24 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "video/frame_seeker.h"
 
-extern "C" {
-#include <libavutil/imgutils.h>
-}
-
 #include <algorithm>
 
 namespace sigs {
-namespace {
-
-using libav::DecodedFrame;
-
-size_t bytes_of(const AVFrame& frame) {
-  const int bytes = av_image_get_buffer_size(static_cast<AVPixelFormat>(frame.format), frame.width, frame.height, 1);
-  return bytes > 0 ? static_cast<size_t>(bytes) : 1;
-}
-
-}  // namespace
-
 FrameSeeker::FrameSeeker(libav::FrameDecoder stream, libav::FrameOrder order, const libav::PacketTable& table,
                          size_t bytes_to_keep, bool quantisers)
     : stream_(std::move(stream)),
@@ -74,7 +59,7 @@ void FrameSeeker::keep(Placed placed) {
   constexpr size_t kMaxOnward = 4;  // while nobody steps back: more memory would only be new pages for the decoder
   constexpr size_t kMost = 32;
   const size_t most = has_stepped_back_ ? kMost : kMaxOnward;
-  const size_t max_count = std::clamp<size_t>(bytes_to_keep_ / bytes_of(*placed.image.frame), 1, most);
+  const size_t max_count = std::clamp<size_t>(bytes_to_keep_ / libav::bytes_of(*placed.image.frame), 1, most);
   kept_.push_back(std::move(placed));
   while (kept_.size() > max_count) kept_.pop_front();
 }
@@ -130,7 +115,7 @@ void FrameSeeker::note_missing_up_to(int n) {
 }
 
 // Takes an image that the decoder has given. One packet may give several images, one after the other.
-void FrameSeeker::place(DecodedFrame image) {
+void FrameSeeker::place(libav::DecodedFrame image) {
   int n = first_place_.at(static_cast<size_t>(image.ordinal));
   if (newest_ + 1 < count() && ordinal_of(newest_ + 1) == image.ordinal) n = newest_ + 1;
   if (n <= newest_) return;
@@ -144,7 +129,7 @@ void FrameSeeker::place(DecodedFrame image) {
 
 Result<void> FrameSeeker::run_on_to(int n) {
   while (running_ && newest_ < n) {
-    Result<std::optional<DecodedFrame>> image = stream_.next();
+    Result<std::optional<libav::DecodedFrame>> image = stream_.next();
     if (!image) return fail(image.error());
     note_damage();
     if (*image) {

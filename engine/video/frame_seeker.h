@@ -10,7 +10,6 @@
 
 #include "base/result.h"
 #include "video/libav/frame_decoder.h"
-#include "video/libav/frame_order.h"
 
 namespace sigs {
 

@@ -182,26 +182,4 @@ Result<SplicePlan> plan_splice(const VideoInfo& footage, const ChangedFrames& fr
   return plan;
 }
 
-Result<SpliceWriter> SpliceWriter::create(const fs::path& path, const SplicePlan& plan,
-                                          const std::atomic<bool>* cancel) {
-  return guarded([&]() -> Result<SpliceWriter> {
-    Result<libav::SpliceFile> file = libav::SpliceFile::create(path, plan.splice, cancel);
-    if (!file) return fail(libav::named(file.error(), path));
-    return SpliceWriter(std::make_unique<libav::SpliceFile>(std::move(*file)));
-  });
-}
-
-SpliceWriter::SpliceWriter(std::unique_ptr<libav::SpliceFile> file) : file_(std::move(file)) {}
-SpliceWriter::SpliceWriter(SpliceWriter&&) noexcept = default;
-SpliceWriter& SpliceWriter::operator=(SpliceWriter&&) noexcept = default;
-SpliceWriter::~SpliceWriter() = default;
-
-Result<void> SpliceWriter::write(const Frame& frame, int number) {
-  return guarded([&] { return file_->write(frame, number); });
-}
-
-Result<void> SpliceWriter::finish() {
-  return guarded([this] { return file_->finish(); });
-}
-
 }  // namespace sigs

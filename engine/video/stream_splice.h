@@ -13,13 +13,12 @@
 namespace sigs {
 
 namespace libav {
-class SpliceFile;
 struct Splice;
-}  // namespace libav
+}
 
 // A copy of a video in which some frames are other ones. Groups of pictures without such a frame keep their packets,
 // byte by byte; the others are encoded as the stream is: codec, profile, level, sample format, keyframes, quantisers.
-// The other streams (sound, telemetry) are copied.
+// The other streams (sound, telemetry) are copied. VideoWriter::open_splice() writes it.
 
 // The frames of a range, by number from the first: whether each one changes.
 struct ChangedFrames {
@@ -30,7 +29,7 @@ struct ChangedFrames {
 };
 
 struct SplicePlan {
-  std::vector<bool> encoded;      // by number from the first of the range; SpliceWriter needs these frames
+  std::vector<bool> encoded;      // by number from the first of the range; VideoWriter needs these frames
   std::vector<Warning> warnings;  // a stream that the file has no place for; groups encoded though nothing changes
   std::shared_ptr<const libav::Splice> splice;
 };
@@ -49,28 +48,5 @@ struct SplicePlan {
 // shown interleaved, an edit list within the clip).
 [[nodiscard]] Result<SplicePlan> plan_splice(const VideoInfo& footage, const ChangedFrames& frames,
                                              const std::atomic<bool>* cancel = nullptr);
-
-// Writes the copy.
-class SpliceWriter {
- public:
-  // Creates the file and writes the container's header. Errors: cannot_create, cannot_read, unavailable.
-  [[nodiscard]] static Result<SpliceWriter> create(const std::filesystem::path& path, const SplicePlan& plan,
-                                                   const std::atomic<bool>* cancel = nullptr);
-  SpliceWriter(SpliceWriter&&) noexcept;
-  SpliceWriter& operator=(SpliceWriter&&) noexcept;
-  ~SpliceWriter();
-
-  // The frames that the plan encodes, in order; frames that it copies are passed over.
-  //   number  of the frame in the footage
-  // Errors: write_failed, cannot_read (the footage has changed), interrupted.
-  [[nodiscard]] Result<void> write(const Frame& frame, int number);
-
-  // Copies the rest, ends the file and reads it once to see that each frame is there at its time. Error write_failed.
-  [[nodiscard]] Result<void> finish();
-
- private:
-  explicit SpliceWriter(std::unique_ptr<libav::SpliceFile> file);
-  std::unique_ptr<libav::SpliceFile> file_;
-};
 
 }  // namespace sigs

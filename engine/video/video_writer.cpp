@@ -18,6 +18,7 @@
 #include "base/image_codecs.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "video/libav/splice_file.h"
 #include "video/libav/video_file.h"
 
 namespace sigs {
@@ -156,9 +157,9 @@ Result<void> Y4mFile::write(const Frame& frame) {
 struct VideoWriter::State {
   fs::path path;
   VideoFormat format;
-  std::optional<libav::VideoFile> file;  // empty: another one
-  std::optional<Y4mFile> y4m;            // empty: another one, or a folder of images
-  std::optional<SpliceWriter> splice;    // empty: another one
+  std::optional<libav::VideoFile> file;     // empty: another one
+  std::optional<Y4mFile> y4m;               // empty: another one, or a folder of images
+  std::optional<libav::SpliceFile> splice;  // empty: another one
   bool finished = false;
 };
 
@@ -203,12 +204,14 @@ Result<VideoWriter> VideoWriter::open_stream(OutputStream out, const VideoFormat
 
 Result<VideoWriter> VideoWriter::open_splice(const fs::path& path, const SplicePlan& plan,
                                              const std::atomic<bool>* cancel) {
-  Result<SpliceWriter> splice = SpliceWriter::create(path, plan, cancel);
-  if (!splice) return fail(splice.error());
-  auto state = std::make_unique<State>();
-  state->path = path;
-  state->splice.emplace(std::move(*splice));
-  return VideoWriter(std::move(state));
+  return guarded([&]() -> Result<VideoWriter> {
+    Result<libav::SpliceFile> splice = libav::SpliceFile::create(path, plan.splice, cancel);
+    if (!splice) return fail(libav::named(splice.error(), path));
+    auto state = std::make_unique<State>();
+    state->path = path;
+    state->splice.emplace(std::move(*splice));
+    return VideoWriter(std::move(state));
+  });
 }
 
 VideoWriter::VideoWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -52,7 +52,9 @@ class VideoWriter {
   VideoWriter& operator=(VideoWriter&&) noexcept;
   ~VideoWriter();
 
-  // A copy of the footage with other frames in it (video/stream_splice.h). Errors as of SpliceWriter::create.
+  // A copy of the footage with other frames in it (video/stream_splice.h): write() takes those that the plan encodes,
+  // in order, and passes over those that it copies; finish() copies the rest, and reads the file once to see that each
+  // frame is there at its time. Errors: cannot_create, cannot_read (the footage has changed), unavailable, interrupted.
   [[nodiscard]] static Result<VideoWriter> open_splice(const std::filesystem::path& path, const SplicePlan& plan,
                                                        const std::atomic<bool>* cancel);
 

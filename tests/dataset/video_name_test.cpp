@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "dataset/video_name.h"
 #include "base/paths.h"
+#include "dataset/recipe.h"
 
 #include <doctest/doctest.h>
 

@@ -72,13 +72,14 @@ IntruderTruth invisible_intruder(int id) {
 std::string written() {
   const TemporaryFolder folder;
   const FootageTruth footage{.video = "flight.mp4", .size_px = {1280, 960}, .first_frame = 4, .last_frame = 6};
-  Result<SigsXmlWriter> writer = SigsXmlWriter::open(folder / "truth.xml", footage);
+  Result<std::unique_ptr<LabelWriter>> writer = open_sigs_xml(folder / "truth.xml", {.footage = footage});
   REQUIRE(writer.has_value());
-  REQUIRE(writer->write({.index = 4, .time_s = 0.16, .camera_position_m = {3.2, 0, -150}}).has_value());
-  REQUIRE(writer->write({.index = 5, .time_s = 0.2, .intruders = {visible_intruder(0)}}).has_value());
-  REQUIRE(writer->write({.index = 6, .time_s = 0.24, .intruders = {invisible_intruder(0), visible_intruder(1)}})
+  REQUIRE((*writer)->write({.index = 4, .time_s = 0.16, .camera_position_m = {3.2, 0, -150}}).has_value());
+  REQUIRE((*writer)->write({.index = 5, .time_s = 0.2, .intruders = {visible_intruder(0)}}).has_value());
+  REQUIRE((*writer)
+              ->write({.index = 6, .time_s = 0.24, .intruders = {invisible_intruder(0), visible_intruder(1)}})
               .has_value());
-  REQUIRE(writer->finish().has_value());
+  REQUIRE((*writer)->finish({}).has_value());
   return *read_text(folder / "truth.xml");
 }
 

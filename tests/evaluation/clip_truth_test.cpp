@@ -39,10 +39,10 @@ FrameTruth some_frame(int index) {
 
 std::filesystem::path written(const TemporaryFolder& folder) {
   const std::filesystem::path path = folder / "truth.xml";
-  Result<SigsXmlWriter> writer = SigsXmlWriter::open(path, some_footage());
+  Result<std::unique_ptr<LabelWriter>> writer = open_sigs_xml(path, {.footage = some_footage()});
   REQUIRE(writer);
-  for (int index = 7; index <= 9; ++index) REQUIRE(writer->write(some_frame(index)));
-  REQUIRE(writer->finish());
+  for (int index = 7; index <= 9; ++index) REQUIRE((*writer)->write(some_frame(index)));
+  REQUIRE((*writer)->finish({}));
   return path;
 }
 
@@ -154,14 +154,14 @@ TEST_CASE("a distractor is no target, neither read nor composed, and does not ta
   ClipTruth composed{.footage = some_footage()};
   REQUIRE(add_frame(composed, frame));
   const std::filesystem::path path = folder / "truth.xml";
-  Result<SigsXmlWriter> writer = SigsXmlWriter::open(path, some_footage());
+  Result<std::unique_ptr<LabelWriter>> writer = open_sigs_xml(path, {.footage = some_footage()});
   REQUIRE(writer);
   for (int index = 7; index <= 9; ++index) {
     FrameTruth next = some_frame(index);
     next.intruders[0].is_distractor = true;
-    REQUIRE(writer->write(next));
+    REQUIRE((*writer)->write(next));
   }
-  REQUIRE(writer->finish());
+  REQUIRE((*writer)->finish({}));
   const Result<ClipTruth> read = read_truth(path);
   REQUIRE_MESSAGE(read, read.error().text());
   for (const ClipTruth* const clip : std::initializer_list<const ClipTruth*>{&composed, &*read}) {

@@ -120,7 +120,7 @@ TEST_CASE("of several failing outputs the first frame's error is reported and of
       scenario.project.output.masks = MasksChoice::png;
       scenario.project.output.labels = {};
       const ExportRequest request{.project = scenario.project, .folder = scenario.path("out")};
-      Result<ExportFiles> files = ExportFiles::open(request, footage_info(), empty_scene(), {0, 8}, nullptr, nullptr);
+      Result<ExportFiles> files = ExportFiles::open({request, footage_info(), empty_scene(), {0, 8}});
       REQUIRE(files.has_value());
       // Unfinished images lie in the staging folder, under their final names.
       for (const auto& entry : fs::recursive_directory_iterator(scenario.path("out"))) {

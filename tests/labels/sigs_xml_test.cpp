@@ -73,10 +73,10 @@ std::string name_read_back(const std::string& name) {
 
 std::string file_of(const FootageTruth& footage, const std::vector<FrameTruth>& frames) {
   const TemporaryFolder folder;
-  Result<SigsXmlWriter> writer = SigsXmlWriter::open(folder / "truth.xml", footage);
+  Result<std::unique_ptr<LabelWriter>> writer = open_sigs_xml(folder / "truth.xml", {.footage = footage});
   REQUIRE(writer.has_value());
-  for (const FrameTruth& frame : frames) REQUIRE(writer->write(frame).has_value());
-  REQUIRE(writer->finish().has_value());
+  for (const FrameTruth& frame : frames) REQUIRE((*writer)->write(frame).has_value());
+  REQUIRE((*writer)->finish({}).has_value());
   return *read_text(folder / "truth.xml");
 }
 
@@ -242,7 +242,8 @@ TEST_CASE("a number that is not finite stops the program before it is written") 
 
 TEST_CASE("a missing folder is an error that names the file") {
   const TemporaryFolder folder;
-  const Result<SigsXmlWriter> writer = SigsXmlWriter::open(folder / "missing" / "truth.xml", some_footage());
+  const Result<std::unique_ptr<LabelWriter>> writer =
+      open_sigs_xml(folder / "missing" / "truth.xml", {.footage = some_footage()});
   REQUIRE_FALSE(writer.has_value());
   CHECK(writer.error().kind == ErrorKind::cannot_create);
   CHECK(writer.error().where == (folder / "missing" / "truth.xml").string());
@@ -250,9 +251,9 @@ TEST_CASE("a missing folder is an error that names the file") {
 
 TEST_CASE("a full disk is an error") {
   if (!std::filesystem::exists("/dev/full")) return;
-  Result<SigsXmlWriter> writer = SigsXmlWriter::open("/dev/full", some_footage());
+  Result<std::unique_ptr<LabelWriter>> writer = open_sigs_xml("/dev/full", {.footage = some_footage()});
   if (writer.has_value()) {
-    const Result<void> finished = writer->finish();
+    const Result<void> finished = (*writer)->finish({});
     REQUIRE_FALSE(finished.has_value());
     CHECK(finished.error().kind == ErrorKind::write_failed);
   } else {

@@ -12,7 +12,7 @@
 
 #include "support/test_data.h"
 #include "video/clips.h"
-#include "video/ffv1_slice.h"
+#include "video/libav/encoding.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -99,6 +99,6 @@ TEST_CASE("a black slice takes a bit for each run of doubling length") {
   // of a row. 24 samples are 4 * 1 + 4 * 2 + 3 * 4, in 11 bits; the next 24 go on with 4 + 8 + 8 and a rest, in 4 bits.
   std::vector<std::uint8_t> bytes{7};
   const cv::Mat black = cv::Mat::zeros(2, 24, CV_8UC1);
-  append_ffv1_samples(bytes, std::span(&black, 1));
+  libav::append_ffv1_samples(bytes, std::span(&black, 1));
   CHECK(bytes == std::vector<std::uint8_t>{7, 0xFF, 0xFE});
 }

@@ -15,6 +15,7 @@
 #include "video/data_streams.h"
 #include "video/libav/demuxer.h"
 #include "video/libav/nal_units.h"
+#include "video/video_writer.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -92,7 +93,7 @@ double difference_in_codes(const Frame& a, const Frame& b) {
 // Writes negatives in place of the encoded frames.
 void splice(const fs::path& from, const fs::path& to, const SplicePlan& plan, int first) {
   FrameSource source = opened(from);
-  Result<SpliceWriter> writer = SpliceWriter::create(to, plan);
+  Result<VideoWriter> writer = VideoWriter::open_splice(to, plan, nullptr);
   if (!writer) FAIL(writer.error().text());
   for (std::size_t i = 0; i < plan.encoded.size(); ++i) {
     if (!plan.encoded[i]) continue;

@@ -276,22 +276,9 @@ Result<Demuxer> Demuxer::open(const fs::path& path, const std::atomic<bool>* can
 }
 
 bool Demuxer::next(AVPacket& packet) {
-  for (int errors = 0; errors < kMaxReadErrorsInARow;) {
-    av_packet_unref(&packet);
-    const int result = av_read_frame(input_.get(), &packet);
-    check_memory(result);
-    if (result == AVERROR_EXIT) return false;
-    if (result == AVERROR_EOF) {
-      broke_off_ = errors > 0;
-      return false;
-    }
-    if (result < 0)
-      ++errors;
-    else if (packet.stream_index == stream_)
-      return true;
-  }
-  broke_off_ = true;
-  return false;
+  const Step step = next_packet(*input_, stream_, packet);
+  if (step != Step::packet) broke_off_ = step == Step::broke_off;
+  return step == Step::packet;
 }
 
 Result<void> Demuxer::check_interrupt() const {

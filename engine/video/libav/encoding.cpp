@@ -235,6 +235,12 @@ FramePtr new_image(const AVCodecContext& encoder) {
   return image;
 }
 
+std::vector<std::uint8_t> packet_at_once(AVCodecContext& encoder, const AVFrame& image) {
+  const PacketPtr packet = new_packet();
+  if (avcodec_send_frame(&encoder, &image) < 0 || avcodec_receive_packet(&encoder, packet.get()) < 0) return {};
+  return {packet->data, packet->data + packet->size};
+}
+
 Result<Encoding> encoding_for(const VideoFormat& format) {
   ENSURE(format.codec != VideoCodec::png && format.codec != VideoCodec::tiff && format.codec != VideoCodec::jpeg);
   if (const Result<void> pair = check_pair(format); !pair) return fail(pair.error());

@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <opencv2/core.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sigs::libav {
@@ -55,12 +57,22 @@ inline constexpr const char* kHevcParameters = "pools=4:frame-threads=2:info=0:l
 // An image for the encoder, without samples.
 [[nodiscard]] FramePtr new_image(const AVCodecContext& encoder);
 
+// The packet that the encoder gives at once for an image; empty where it gives none.
+[[nodiscard]] std::vector<std::uint8_t> packet_at_once(AVCodecContext& encoder, const AVFrame& image);
+
 // Whether an encoder takes images of a format.
 [[nodiscard]] bool supports(const AVCodec& encoder, AVPixelFormat format);
 
-// Makes FFV1's packets in place of FFmpeg's encoder, with the same bytes, in half of its time (video/ffv1_slice.h) and
-// without the buffer of 148 bytes for each pixel that FFmpeg fills with zeros before the first packet. FFmpeg's encoder
-// still gives the stream's header.
+// Appends the coded samples of one slice of an FFV1 image (RFC 9043): what follows the slice's header, up to the next
+// whole byte. Samples of 8 bits, Golomb-Rice codes with run mode (3.8.2), three neighbours as context (3.5), and the
+// quantisation table of FFmpeg's encoder for them, so that the bytes are the same as that encoder's. It takes half of
+// that encoder's time, and next to none for rows of zeros, of which a mask consists.
+//   planes  CV_8UC1, not empty: luma, or luma and two planes of chroma of one size; parts of larger ones are fine
+void append_ffv1_samples(std::vector<std::uint8_t>& bytes, std::span<const cv::Mat> planes);
+
+// Makes FFV1's packets in place of FFmpeg's encoder, with the same bytes, in half of its time and without the
+// buffer of 148 bytes for each pixel that FFmpeg fills with zeros before the first packet. FFmpeg's encoder still gives
+// the stream's header.
 class Ffv1Packets {
  public:
   // Tries both encoders on a small image. None where their bytes differ, or where the stream's header is not that of

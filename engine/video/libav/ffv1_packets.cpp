@@ -11,7 +11,6 @@ extern "C" {
 
 #include "base/threads.h"
 #include "video/chroma.h"
-#include "video/ffv1_slice.h"
 #include "video/libav/planes.h"
 #include "video/shared_footage.h"
 
@@ -73,20 +72,6 @@ Frame small_image(const Encoding& encoding) {
   return frame;
 }
 
-// The packet that FFmpeg's encoder makes of an image; empty where it fails.
-std::vector<std::uint8_t> encoded(AVCodecContext& encoder, const Frame& frame) {
-  const FramePtr image = new_frame();
-  image->format = encoder.pix_fmt;
-  image->width = encoder.width;
-  image->height = encoder.height;
-  image->pts = 0;
-  wrap_planes(*image, frame);
-  const PacketPtr packet = new_packet();
-  if (avcodec_send_frame(&encoder, image.get()) < 0) return {};
-  if (avcodec_receive_packet(&encoder, packet.get()) < 0) return {};
-  return {packet->data, packet->data + packet->size};
-}
-
 bool have_same_header(const AVCodecContext& a, const AVCodecContext& b) {
   return std::equal(a.extradata, a.extradata + a.extradata_size, b.extradata, b.extradata + b.extradata_size);
 }
@@ -111,7 +96,10 @@ std::optional<Ffv1Packets> Ffv1Packets::like(const AVCodecContext& encoder, cons
   const Result<CodecPtr> trial = open_encoder(small, encoding, encoder.time_base, headers);
   if (!trial || !have_same_header(encoder, **trial)) return std::nullopt;
   const Frame frame = small_image(encoding);
-  const std::vector<std::uint8_t> truth = encoded(**trial, frame);
+  const FramePtr image = new_image(**trial);
+  image->pts = 0;
+  wrap_planes(*image, frame);
+  const std::vector<std::uint8_t> truth = packet_at_once(**trial, *image);
   Ffv1Packets packets;
   if (!packets.learn_headers(truth, frame) || packets.packet_of(frame, 1) != truth) return std::nullopt;
   return packets;

@@ -14,7 +14,7 @@
 namespace sigs::libav {
 namespace {
 
-Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const DecoderSettings& settings) {
+Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, DecoderSettings settings) {
   const AVCodec* codec = avcodec_find_decoder(parameters.codec_id);
   if (codec == nullptr)
     return fail("", fmt::format("no decoder for the codec {}", avcodec_get_name(parameters.codec_id)),
@@ -29,9 +29,9 @@ Result<CodecPtr> open_decoder(const AVCodecParameters& parameters, const Decoder
   context->has_b_frames = std::max(context->has_b_frames, settings.reorder_depth);
   context->max_pixels = kMaxImagePixels;
   if (error >= 0) error = avcodec_open2(context.get(), codec, nullptr);
-  if (error < 0 && settings.threads > 1)  // perhaps no more threads can be started; one gives the same images
-    return open_decoder(parameters,
-                        {.threads = 1, .reorder_depth = settings.reorder_depth, .quantisers = settings.quantisers});
+  if (error < 0 &&
+      std::exchange(settings.threads, 1) > 1)  // perhaps no more threads can be started; one gives the same
+    return open_decoder(parameters, settings);
   check_memory(error);
   if (error < 0)
     return fail("", fmt::format("the {} decoder cannot be opened: {}", codec->name, text_of(error)),
@@ -61,6 +61,76 @@ int key_before(const PacketTable& table, int ordinal) {
   for (int i = ordinal - 1; i > 0; --i)
     if (table[i].key) return i;
   return 0;
+}
+
+// Codecs in which one packet is one shown image. This does not hold for MPEG-4 part 2 (packed and empty images), VP8
+// (hidden ones), or H.264 in fields (two packets per image).
+bool one_frame_per_packet(const AVCodecParameters& parameters) {
+  switch (parameters.codec_id) {
+    case AV_CODEC_ID_H264:
+      return parameters.field_order == AV_FIELD_PROGRESSIVE || parameters.field_order == AV_FIELD_UNKNOWN;
+    case AV_CODEC_ID_HEVC:
+    case AV_CODEC_ID_VP9:
+    case AV_CODEC_ID_AV1:
+      return true;
+    default:
+      return is_intra_only(parameters.codec_id);
+  }
+}
+
+bool is_in_fields(const AVCodecParameters& parameters) {
+  return parameters.field_order != AV_FIELD_PROGRESSIVE && parameters.field_order != AV_FIELD_UNKNOWN;
+}
+
+// FFV1 and PNG may refer to the image before, but only in packets that are no keyframes.
+bool each_stands_alone(const PacketTable& table, AVCodecID codec) {
+  if (is_intra_only(codec)) return true;
+  if (codec != AV_CODEC_ID_FFV1 && codec != AV_CODEC_ID_PNG) return false;
+  for (int i = 0; i < table.size(); ++i)
+    if (!table[i].key) return false;
+  return true;
+}
+
+bool is_shown(const PacketMark& mark) {
+  return !mark.discarded && mark.size > 0;
+}
+
+// The largest number of packets that come before another in decoding although they are shown after it: the greatest lag
+// of an image's place in presentation behind its place in decoding.
+int reorder_depth(const PacketTable& table, const std::vector<int>& ordinals) {
+  int deepest = 0;
+  std::vector<int> shown;
+  for (int i = 0; i < table.size(); ++i)
+    if (is_shown(table[i])) shown.push_back(i);
+  for (size_t place = 0; place < ordinals.size(); ++place) {
+    const auto decoded = std::lower_bound(shown.begin(), shown.end(), ordinals[place]) - shown.begin();
+    deepest = std::max(deepest, static_cast<int>(decoded) - static_cast<int>(place));
+  }
+  return deepest;
+}
+
+// When the images are shown, by their time stamps, sorted: decoders give images in the order of their time stamps.
+// Decoding times serve as well: they are the same set of instants, earlier by a constant. Nothing where stamps are
+// missing or repeated.
+std::optional<std::vector<double>> times_by(int64_t PacketMark::*stamp, const PacketTable& table,
+                                            const std::vector<int>& ordinals, double tick_s) {
+  std::vector<int64_t> stamps;
+  for (const int ordinal : ordinals) stamps.push_back(table[ordinal].*stamp);
+  std::sort(stamps.begin(), stamps.end());
+  if (stamps.empty() || stamps.front() == AV_NOPTS_VALUE) return {};
+  if (std::adjacent_find(stamps.begin(), stamps.end()) != stamps.end()) return {};
+  std::vector<double> times_s;
+  for (const int64_t one : stamps) times_s.push_back(static_cast<double>(one - stamps.front()) * tick_s);
+  return times_s;
+}
+
+void set_times(FrameOrder& order, const PacketTable& table, double tick_s, double frame_period_s) {
+  std::optional<std::vector<double>> times_s = times_by(&PacketMark::pts, table, order.ordinals, tick_s);
+  if (!times_s) times_s = times_by(&PacketMark::dts, table, order.ordinals, tick_s);
+  order.times_are_nominal = !times_s.has_value();
+  if (times_s) order.times_s = *std::move(times_s);
+  for (size_t n = 0; order.times_are_nominal && n < order.ordinals.size(); ++n)
+    order.times_s.push_back(static_cast<double>(n) * frame_period_s);
 }
 
 }  // namespace
@@ -192,7 +262,7 @@ Result<void> FrameDecoder::feed() {
   }
   fed_ = **ordinal;
   if (packet_->size == 0) return {};  // a dropped frame; to the decoder an empty packet would mean the end
-  if ((*table_)[fed_].corrupt) note_damage(fed_);
+  if ((*table_)[fed_].corrupt) damaged_.insert(fed_);
   if (wants_quantisers_ && decoder_->codec_id == AV_CODEC_ID_MJPEG)
     tables_[fed_] = jpeg_tables_in(packet_->data, static_cast<std::size_t>(packet_->size));
   // The decoder passes the time stamps on to the images. The ordinal is used as the time stamp: it exists for every
@@ -226,17 +296,13 @@ void FrameDecoder::add_quantisers(DecodedFrame& image) {
   quantisers_ = image.quantisers;
 }
 
-void FrameDecoder::note_damage(int ordinal) {
-  damaged_.insert(ordinal);
-}
-
 void FrameDecoder::note_decoder_errors() {
-  for (const int ordinal : decoder_errors_->taken()) note_damage(ordinal);
+  for (const int ordinal : decoder_errors_->taken()) damaged_.insert(ordinal);
 }
 
 // An error that the decoder returns concerns the packet that it has had for longest.
 void FrameDecoder::note_refusal() {
-  note_damage(in_work_.empty() ? fed_ : in_work_.front());
+  damaged_.insert(in_work_.empty() ? fed_ : in_work_.front());
 }
 
 Result<std::optional<DecodedFrame>> FrameDecoder::next() {
@@ -250,7 +316,7 @@ Result<std::optional<DecodedFrame>> FrameDecoder::next() {
       if (stamp < 0 || stamp >= table_->size()) continue;
       DecodedFrame image{.frame = std::move(frame), .ordinal = static_cast<int>(stamp)};
       if (wants_quantisers_) add_quantisers(image);
-      if (is_damaged(*image.frame)) note_damage(image.ordinal);
+      if (is_damaged(*image.frame)) damaged_.insert(image.ordinal);
       return std::optional<DecodedFrame>(std::move(image));
     }
     if (result == AVERROR_EOF) return std::optional<DecodedFrame>();
@@ -261,6 +327,51 @@ Result<std::optional<DecodedFrame>> FrameDecoder::next() {
       if (fed_ + 1 >= end_ && !in_work_.empty()) in_work_.pop_front();
     }
   }
+}
+
+std::optional<FrameOrder> order_from_packets(const PacketTable& table, const AVFormatContext& format,
+                                             const AVStream& stream) {
+  if (!one_frame_per_packet(*stream.codecpar) || !has_true_time_stamps(format)) return {};
+  const AVCodecID codec = stream.codecpar->codec_id;
+  FrameOrder order{.intra_only = each_stands_alone(table, codec), .decodes_ahead = decodes_ahead(codec)};
+  for (int i = 0; i < table.size(); ++i)
+    if (is_shown(table[i])) order.ordinals.push_back(i);
+  std::stable_sort(order.ordinals.begin(), order.ordinals.end(),
+                   [&](int a, int b) { return table[a].pts < table[b].pts; });
+  std::optional<std::vector<double>> times_s =
+      times_by(&PacketMark::pts, table, order.ordinals, av_q2d(stream.time_base));
+  if (!times_s) return {};
+  order.times_s = *std::move(times_s);
+  for (const int ordinal : order.ordinals) order.can_start.push_back(table[ordinal].key);
+  order.reorder_depth = reorder_depth(table, order.ordinals);
+  return order;
+}
+
+Result<FrameOrder> order_from_decoding(const PacketTable& table, FrameDecoder& images, AVRational frame_rate) {
+  // Copied first: each start may open the file again, and the former stream then no longer exists.
+  const AVStream& stream = images.demuxer().stream();
+  const double tick_s = av_q2d(stream.time_base);
+  const AVCodecID codec = stream.codecpar->codec_id;
+  const bool in_fields = is_in_fields(*stream.codecpar);
+  FrameOrder order;
+  const auto decode_all = [&](int threads) -> Result<void> {
+    order = {
+        .intra_only = each_stands_alone(table, codec), .in_fields = in_fields, .decodes_ahead = decodes_ahead(codec)};
+    if (const Result<void> started = images.start(0, {.threads = threads}); !started) return fail(started.error());
+    while (true) {
+      Result<std::optional<DecodedFrame>> image = images.next();
+      if (!image) return fail(image.error());
+      if (!*image) return {};
+      order.ordinals.push_back((*image)->ordinal);
+      order.can_start.push_back(is_key(*(*image)->frame));
+    }
+  };
+  Result<void> decoded = decode_all(2);
+  // With two threads the result of a damaged stream can depend on their timing.
+  if (decoded && !images.damaged().empty()) decoded = decode_all(1);
+  if (!decoded) return fail(decoded.error());
+  set_times(order, table, tick_s, 1 / av_q2d(frame_rate));
+  return order;
 }
 
 }  // namespace sigs::libav

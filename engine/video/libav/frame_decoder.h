@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "base/result.h"
 #include "video/frame_quantisers.h"
@@ -16,7 +17,7 @@
 namespace sigs::libav {
 
 // From packets to decoded images: the packets in order of decoding from any one on, a decoder, and the images that it
-// gives, each with the ordinal of its packet.
+// gives, each with the ordinal of its packet; the order in which images are shown.
 
 struct DecoderSettings {
   int threads = 1;
@@ -103,7 +104,6 @@ class FrameDecoder {
  private:
   [[nodiscard]] Result<void> feed();
   void add_quantisers(DecodedFrame& image);
-  void note_damage(int ordinal);
   void note_decoder_errors();
   void note_refusal();
 
@@ -121,5 +121,28 @@ class FrameDecoder {
   std::map<int, JpegTables> tables_;                   // by ordinal, of JPEG images that the decoder has not given yet
   std::shared_ptr<const FrameQuantisers> quantisers_;  // of the last image given since start()
 };
+
+// Which packet gives the n-th image, and when it is shown.
+struct FrameOrder {
+  std::vector<int> ordinals{};  // of each image's packet, in order of presentation
+  // For each image: decoding can begin at its packet, and gives it and all later images without the ones before.
+  std::vector<bool> can_start{};
+  std::vector<double> times_s{};   // 0 for the first, increasing
+  bool times_are_nominal = false;  // the container's time stamps are missing or do not increase
+  bool intra_only = false;         // every packet can be decoded alone
+  bool in_fields = false;          // an image may consist of two packets; it has the ordinal of the first
+  bool decodes_ahead = false;      // the decoder works on several images at a time
+  int reorder_depth = 0;           // DecoderSettings::reorder_depth
+};
+
+// The order from the packets alone, where each gives exactly one image and has its own time stamp; else nothing.
+[[nodiscard]] std::optional<FrameOrder> order_from_packets(const PacketTable& table, const AVFormatContext& format,
+                                                           const AVStream& stream);
+
+// The order found by decoding everything: for codecs with hidden or repeated images, and containers without time stamps
+// or with an unreliable index.
+//   frame_rate  spaces the images where the container has no usable times
+[[nodiscard]] Result<FrameOrder> order_from_decoding(const PacketTable& table, FrameDecoder& images,
+                                                     AVRational frame_rate);
 
 }  // namespace sigs::libav

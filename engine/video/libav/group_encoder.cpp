@@ -261,16 +261,12 @@ Result<GroupEncoder> GroupEncoder::open(const GroupFormat& format, const GroupQu
   return GroupEncoder(format, std::move(*encoder));
 }
 
-ByteSpan GroupEncoder::header() const {
-  return encoder_header(*encoder_);
-}
-
 std::vector<Bytes> GroupEncoder::parameter_sets() const {
   const AVCodecID codec = format_.stream->codec_id;
   std::vector<Bytes> sets;
   if (!has_parameter_sets(codec)) return sets;
   const HevcNumbers numbers{format_.video_set, format_.sequence_set, format_.picture_set, format_.stream->level};
-  for (const ByteSpan unit : nal_units_of(header(), 0)) {
+  for (const ByteSpan unit : nal_units_of(encoder_header(*encoder_), 0)) {
     if (!is_parameter_set(unit, codec)) continue;
     sets.push_back(codec == AV_CODEC_ID_HEVC ? renumbered(unit, numbers) : Bytes(unit.begin(), unit.end()));
   }

@@ -59,7 +59,6 @@ class GroupEncoder {
 
   // The header's parameter sets under the numbers of the format (H.264, HEVC).
   [[nodiscard]] std::vector<Bytes> parameter_sets() const;
-  [[nodiscard]] ByteSpan header() const;
 
   // Gives the encoder the next picture, upright as frames are; the packets that it has finished are appended.
   // Error write_failed.

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "video/libav/handles.h"
 
+extern "C" {
+#include <libavutil/imgutils.h>
+}
+
 #include <algorithm>
 #include <cstdarg>
 #include <new>
@@ -55,6 +59,11 @@ FramePtr new_frame() {
   FramePtr frame(av_frame_alloc());
   if (frame == nullptr) throw std::bad_alloc();
   return frame;
+}
+
+std::size_t bytes_of(const AVFrame& frame) {
+  const int bytes = av_image_get_buffer_size(static_cast<AVPixelFormat>(frame.format), frame.width, frame.height, 1);
+  return static_cast<std::size_t>(std::max(bytes, 1));
 }
 
 std::string text_of(int error) {

@@ -44,6 +44,9 @@ using ScalerPtr = std::unique_ptr<SwsContext, Deleter>;
 [[nodiscard]] FramePtr new_frame();
 [[nodiscard]] CodecPtr new_context(const AVCodec* codec);
 
+// Memory that an image needs, 1 or more.
+[[nodiscard]] std::size_t bytes_of(const AVFrame& frame);
+
 // Throws std::bad_alloc where the error code means a lack of memory: an image that could not be decoded for that reason
 // is not a damaged one.
 void check_memory(int error);

@@ -6,10 +6,6 @@
 #include <string_view>
 #include <utility>
 
-extern "C" {
-#include <libavutil/imgutils.h>
-}
-
 #include "base/image.h"
 #include "base/image_codecs.h"
 #include "base/input_file.h"
@@ -27,11 +23,6 @@ using namespace std::string_view_literals;
 constexpr std::uint64_t kImageLimit_bytes = 1024 * kMebibyte;
 constexpr std::size_t kMaxKept = 8;  // steps back in the editor are short
 constexpr std::size_t kMaxKept_bytes = 64 << 20;
-
-std::size_t still_bytes(const AVFrame& frame) {
-  const int bytes = av_image_get_buffer_size(static_cast<AVPixelFormat>(frame.format), frame.width, frame.height, 1);
-  return static_cast<std::size_t>(std::max(bytes, 1));
-}
 
 AVCodecID codec_of_bytes(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return AV_CODEC_ID_PNG;
@@ -108,8 +99,7 @@ Result<bool> StillFrames::show(int n) {
     return false;
   }
   kept_.push_back({n, std::move(*image)});
-  const std::size_t most =
-      std::clamp<std::size_t>(kMaxKept_bytes / still_bytes(*kept_.back().image.frame), 1, kMaxKept);
+  const std::size_t most = std::clamp<std::size_t>(kMaxKept_bytes / bytes_of(*kept_.back().image.frame), 1, kMaxKept);
   while (kept_.size() > most) kept_.pop_front();
   return true;
 }

@@ -12,7 +12,6 @@
 
 #include "base/result.h"
 #include "video/libav/frame_decoder.h"
-#include "video/libav/frame_order.h"
 #include "video/libav/group_encoder.h"
 #include "video/libav/nal_units.h"
 #include "video/libav/video_file.h"
@@ -78,7 +77,7 @@ struct Splice {
 [[nodiscard]] Result<void> choose_streams(Splice& splice, std::vector<Warning>& warnings,
                                           const std::atomic<bool>* cancel);
 
-// The part of SpliceWriter that uses FFmpeg. Functions and errors are those of SpliceWriter.
+// The part of VideoWriter (video_writer.h) that writes the copy. Functions and errors are those of VideoWriter.
 class SpliceFile {
  public:
   [[nodiscard]] static Result<SpliceFile> create(const std::filesystem::path& path,

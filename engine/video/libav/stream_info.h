@@ -11,7 +11,7 @@
 #include "video/frame_quantisers.h"
 #include "video/frame_source.h"
 #include "video/libav/demuxer.h"
-#include "video/libav/frame_order.h"
+#include "video/libav/frame_decoder.h"
 #include "video/libav/handles.h"
 
 namespace sigs::libav {

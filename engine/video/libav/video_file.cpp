@@ -157,7 +157,7 @@ FramePtr VideoFile::av_frame_of(const Frame& frame) const {
 
 Result<void> VideoFile::write(const Frame& frame) {
   ENSURE(frame.layout == format_.layout && frame.bit_depth == format_.bit_depth && frame.size_px() == format_.size_px);
-  prepare();
+  warm_up();
   if (ffv1_) return put_known(ffv1_->packet_of(stored(frame, encoding_), format_.threads), frame.time_s);
   const Result<int64_t> stamp = next_stamp(frame.time_s);
   if (!stamp) return fail(stamp.error());
@@ -167,7 +167,7 @@ Result<void> VideoFile::write(const Frame& frame) {
 }
 
 Result<void> VideoFile::write_blank(double time_s) {
-  prepare();
+  warm_up();
   if (!blank_.empty()) return put_known(blank_, time_s);
   Frame frame = blank_frame(format_.layout, format_.size_px, format_.color, format_.bit_depth);
   frame.time_s = time_s;
@@ -175,22 +175,17 @@ Result<void> VideoFile::write_blank(double time_s) {
 }
 
 // All images are keyframes in FFV1 as it is set up here, so that the same image always gives the same packet.
-void VideoFile::prepare() {
-  if (std::exchange(is_prepared_, true) || format_.codec != VideoCodec::ffv1) return;
+void VideoFile::warm_up() {
+  if (std::exchange(is_warm_, true) || format_.codec != VideoCodec::ffv1) return;
   ffv1_ = Ffv1Packets::like(*encoder_, format_, encoding_);
   const Frame frame = blank_frame(format_.layout, format_.size_px, format_.color, format_.bit_depth);
-  blank_ = ffv1_ ? ffv1_->packet_of(stored(frame, encoding_), format_.threads) : packet_alone(frame);
-}
-
-// The encoded packet of an image that is not written itself. Empty where the encoder does not return it at once.
-std::vector<uint8_t> VideoFile::packet_alone(const Frame& frame) {
+  if (ffv1_) {
+    blank_ = ffv1_->packet_of(stored(frame, encoding_), format_.threads);
+    return;
+  }
   const FramePtr image = av_frame_of(frame);
   image->pts = std::max<int64_t>(last_stamp_, 0);
-  if (avcodec_send_frame(encoder_.get(), image.get()) < 0) return {};
-  if (avcodec_receive_packet(encoder_.get(), packet_.get()) < 0) return {};
-  std::vector<uint8_t> bytes(packet_->data, packet_->data + packet_->size);
-  av_packet_unref(packet_.get());
-  return bytes;
+  blank_ = packet_at_once(*encoder_, *image);
 }
 
 tl::unexpected<Error> VideoFile::encoding_failed(int error) const {
@@ -214,11 +209,10 @@ Result<void> VideoFile::encode(const AVFrame* image) {
 Result<void> VideoFile::put_known(const std::vector<uint8_t>& packet, double time_s) {
   const Result<int64_t> stamp = next_stamp(time_s);
   if (!stamp) return fail(stamp.error());
-  if (av_new_packet(packet_.get(), static_cast<int>(packet.size())) < 0) throw std::bad_alloc();
-  std::copy(packet.begin(), packet.end(), packet_->data);
-  packet_->pts = packet_->dts = *stamp;
-  packet_->flags |= AV_PKT_FLAG_KEY;
-  return put(*packet_);
+  const PacketPtr known = new_packet({reinterpret_cast<const char*>(packet.data()), packet.size()});
+  known->pts = known->dts = *stamp;
+  known->flags |= AV_PKT_FLAG_KEY;
+  return put(*known);
 }
 
 // Writes a packet and leaves it empty.

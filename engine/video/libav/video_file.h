@@ -39,7 +39,7 @@ class VideoFile {
   [[nodiscard]] static Result<VideoFile> create(OutputStream out, const VideoFormat& format);
 
   // Does in advance what the first image would have to wait for. Optional: the bytes are the same without it.
-  void warm_up() { prepare(); }
+  void warm_up();
 
   // Encodes a frame, or one whose samples are all 0, and writes the packets that the encoder returns.
   [[nodiscard]] Result<void> write(const Frame& frame);
@@ -59,8 +59,6 @@ class VideoFile {
   // The frame as FFmpeg's image, without a copy of its samples where the codec allows it.
   [[nodiscard]] FramePtr av_frame_of(const Frame& frame) const;
   [[nodiscard]] Result<void> encode(const AVFrame* image);
-  [[nodiscard]] std::vector<uint8_t> packet_alone(const Frame& frame);
-  void prepare();
   [[nodiscard]] Result<void> put(AVPacket& packet);
   [[nodiscard]] Result<void> put_known(const std::vector<uint8_t>& packet, double time_s);
   [[nodiscard]] Result<void> check(int result) const;
@@ -75,7 +73,7 @@ class VideoFile {
   OutputPtr output_;                     // the container
   CodecPtr encoder_;
   PacketPtr packet_ = new_packet();  // for encoded packets, reused
-  bool is_prepared_ = false;
+  bool is_warm_ = false;
   std::optional<Ffv1Packets> ffv1_;     // makes the packets in place of encoder_; none: encoder_ does
   std::vector<uint8_t> blank_;          // the packet of a blank image, where it is always the same
   std::optional<double> first_time_s_;  // of the first frame; none before it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "video/ffv1_slice.h"
+#include "video/libav/encoding.h"
 
 #include <algorithm>
 #include <array>
@@ -10,12 +10,12 @@
 
 #include "base/ensure.h"
 
-namespace sigs {
+namespace sigs::libav {
 
 namespace {
 
 // Code words, from the highest bit of each byte down. Its owner sees to it that there is room.
-struct BitWriter {
+struct CodeWriter {
   std::uint8_t* next = nullptr;
   std::uint64_t pending = 0;  // the lowest `count` bits are still to be written
   int count = 0;              // below 32
@@ -77,7 +77,7 @@ void update(ContextState& state, int difference) {
 }
 
 // 3.8.2.1 and 3.8.2.2: the difference from the context's bias as a signed Golomb-Rice code.
-[[gnu::always_inline]] inline void put_difference(BitWriter& writer, ContextState& state, int difference) {
+[[gnu::always_inline]] inline void put_difference(CodeWriter& writer, ContextState& state, int difference) {
   constexpr unsigned kMaxPrefix = 12;
   constexpr int kEscape_bits = 12 + 8;
   const int v = static_cast<std::int8_t>(difference - state.bias);
@@ -102,7 +102,7 @@ struct Run {
   int index = 0;  // in kRunExponents
   int length = 0;
 
-  void put_whole_steps(BitWriter& writer) {
+  void put_whole_steps(CodeWriter& writer) {
     for (; length >= 1 << kRunExponents[static_cast<std::size_t>(index)]; ++index) {
       length -= 1 << kRunExponents[static_cast<std::size_t>(index)];
       writer.put(1, 1);
@@ -110,14 +110,14 @@ struct Run {
   }
 
   // Before a sample that is not as predicted.
-  void put_broken(BitWriter& writer) {
+  void put_broken(CodeWriter& writer) {
     put_whole_steps(writer);
     writer.put(1 + kRunExponents[static_cast<std::size_t>(index)], static_cast<std::uint32_t>(length));
     index = std::max(index - 1, 0);
     length = 0;
   }
 
-  void put_to_end_of_row(BitWriter& writer) {
+  void put_to_end_of_row(CodeWriter& writer) {
     put_whole_steps(writer);
     if (length > 0) writer.put(1, 1);
     length = 0;
@@ -185,8 +185,8 @@ std::int16_t quantised(std::int16_t difference) {
   }
 }
 
-[[gnu::always_inline]] inline BitWriter with_row(BitWriter writer, const Rows& rows, ContextStates& states,
-                                                 Run& run_of_plane) {
+[[gnu::always_inline]] inline CodeWriter with_row(CodeWriter writer, const Rows& rows, ContextStates& states,
+                                                  Run& run_of_plane) {
   Run run = run_of_plane;
   bool is_in_run = false;
   for (int x = 0; x < rows.width; ++x) {
@@ -209,7 +209,7 @@ std::int16_t quantised(std::int16_t difference) {
   return writer;
 }
 
-BitWriter with_black_row(BitWriter writer, int width, Run& run) {
+CodeWriter with_black_row(CodeWriter writer, int width, Run& run) {
   run.length = width;
   run.put_to_end_of_row(writer);
   return writer;
@@ -222,7 +222,7 @@ std::size_t max_row_bytes(int width) {
 
 [[gnu::always_inline]] inline void append_samples(std::vector<std::uint8_t>& bytes, std::span<const cv::Mat> planes) {
   std::array<ContextStates, 2> states;  // of luma and of chroma
-  BitWriter writer;
+  CodeWriter writer;
   std::size_t used = bytes.size();
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const cv::Mat& plane = planes[p];
@@ -264,4 +264,4 @@ void append_ffv1_samples(std::vector<std::uint8_t>& bytes, std::span<const cv::M
   append_samples(bytes, planes);
 }
 
-}  // namespace sigs
+}  // namespace sigs::libav
