@@ -14,7 +14,6 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
-#include "cli/path_project.h"
 #include "cli/process.h"
 #include "encounter/daa_file.h"
 #include "encounter/encounter.h"

@@ -14,6 +14,8 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/input_file.h"
+#include "base/json.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "project/fields.h"
@@ -98,6 +100,21 @@ std::string value_error(const std::string& key, const std::string& text) {
   return number_error(field, text);
 }
 
+// Whether a text is meant to be a project, be it broken: an object with a member that projects or recipes have, or,
+// where it is not JSON, one that begins as projects do.
+bool is_meant_as_project(const std::string& text) {
+  constexpr const char* kSpace = " \t\r\n";
+  const std::string_view begin = without_bom(text);
+  const std::size_t brace = begin.find_first_not_of(kSpace);
+  if (brace == std::string_view::npos || begin[brace] != '{') return false;
+  if (const Result<Json> json = parsed_json(text, "", ErrorKind::bad_project)) {
+    const auto has = [&](const char* key) { return json->contains(key); };
+    return has("sigs") || has("sigs_dataset") || has("footage") || has("intruders");
+  }
+  const std::size_t key = begin.find_first_not_of(kSpace, brace + 1);
+  return key != std::string_view::npos && begin.substr(key).starts_with("\"sigs\"");
+}
+
 }  // namespace
 
 bool is_project_file(const std::filesystem::path& file) {
@@ -143,6 +160,20 @@ Result<Project> project_of(const ProjectOptions& options) {
   }
   const Result<std::size_t> camera = camera_of_option(*project, options.camera);
   return camera ? seen_by(*project, *camera) : Result<Project>(fail(camera.error()));
+}
+
+Result<Project> first_camera_of(Result<ReadProject> read) {
+  if (!read) return fail(read.error());
+  for (const Warning& warning : read->warnings) print_warning(warning);
+  return read->project.cameras.empty() ? std::move(read->project) : seen_by(read->project, 0);
+}
+
+Result<std::optional<Project>> project_in(const std::filesystem::path& file) {
+  const Result<std::string> text = read_text(file, kProjectLimit_bytes);
+  if (!text || !is_meant_as_project(*text)) return std::nullopt;
+  Result<Project> project = first_camera_of(parse_project(*text, file));
+  if (!project) return fail(project.error());
+  return std::move(*project);
 }
 
 Result<std::size_t> camera_of_option(const Project& project, const std::string& name) {

@@ -14,6 +14,7 @@
 #include "base/image.h"
 #include "base/result.h"
 #include "export/export_project.h"
+#include "project/json.h"
 #include "project/project.h"
 #include "video/image_sequence.h"
 
@@ -38,6 +39,13 @@ void add_camera_option(CLI::App& command, std::string& camera);
 
 // The same as one camera sees it: of a rig the one that is asked for, else the first, of which a note tells.
 [[nodiscard]] Result<Project> project_of(const ProjectOptions& options);
+
+// The same of a project that was read in another way: warnings are printed, of a rig it is what the first camera sees.
+[[nodiscard]] Result<Project> first_camera_of(Result<ReadProject> read);
+
+// The project in a file; none where the file is no project: not JSON that has a member of projects or begins as one, or
+// not readable. Warnings are printed. Errors are those of read_project(): a project, but a broken one.
+[[nodiscard]] Result<std::optional<Project>> project_in(const std::filesystem::path& file);
 
 // The index of the camera of --camera. Error usage.
 [[nodiscard]] Result<std::size_t> camera_of_option(const Project& project, const std::string& name);
