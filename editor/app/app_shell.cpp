@@ -90,7 +90,7 @@ AppShell::AppShell(Document& document, Settings& settings, Setup setup)
     : document_(document),
       settings_(settings),
       setup_(std::move(setup)),
-      export_(setup_.wake),
+      export_(setup_.wake, exported),
       session_(document, settings,
                {.recovery_folder = setup_.recovery_folder,
                 .wake = setup_.wake,
