@@ -63,11 +63,11 @@ Result<AppearanceFrames> frames_of(const AppearanceOptions& options, const std::
     frames.first = project->footage.first_frame;
     frames.last = project->footage.last_frame;
   }
-  if (options.frames.empty()) return frames;
-  const Result<FrameRange> range = frame_range_of(options.frames);
+  const Result<std::optional<FrameRange>> range = frame_range_of(options.frames);
   if (!range) return fail(range.error());
-  frames.first = range->first;
-  frames.last = range->last;
+  if (!*range) return frames;
+  frames.first = (*range)->first;
+  frames.last = (*range)->last;
   return frames;
 }
 
@@ -238,21 +238,16 @@ Command add_appearance_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("appearance", "find how footage looks: blur, noise, haze, light");
   const auto options = std::make_shared<AppearanceOptions>();
   add_subject(*command, "FILE", options->file, "the footage, or a project");
-  command->add_option("--frames", options->frames, "only these frames, first and last, both included")
-      ->option_text("A-B");
+  add_value(*command, "--frames", options->frames, "A-B", "only these frames, first and last, both included");
   add_number(*command, "--every", options->every, "N", 0, 1000000,
              "use one of so many frames; 0: 24 frames, spread over all");
   add_timing_options(*command, options->timing);
   add_camera_option(*command, options->camera);
   add_output(*command, "--out", options->out, "write the settings that follow, as JSON");
   add_input(*command, "--into", options->into, "put the settings into this project, which is rewritten", "PROJECT");
-  command
-      ->add_option(
-          "--lit-like", options->lit_like,
-          "instead: the exposure with which the project's intruder is as bright as what is in this box of --frame")
-      ->option_text("X,Y,W,H");
-  command->add_option("--frame", options->frame, "the frame of --lit-like, from 0")
-      ->option_text("N")
+  add_value(*command, "--lit-like", options->lit_like, "X,Y,W,H",
+            "instead: the exposure with which the project's intruder is as bright as what is in this box of --frame");
+  add_value(*command, "--frame", options->frame, "N", "the frame of --lit-like, from 0")
       ->check(CLI::Range(0, 10'000'000));
   add_output(*command, "--plot", options->plot, "draw why; a PNG");
   command->add_flag("--json", options->json, "print all of it as JSON");

@@ -54,9 +54,9 @@ Result<CalibrationBoard> board_of(const CalibrateOptions& options) {
   CalibrationBoard board;
   if (options.corners.empty())
     return fail("--corners", "is missing: the inner corners in a row and in a column, as 9x6", ErrorKind::usage);
-  const Result<cv::Size> corners = size_of_option(options.corners);
+  const Result<std::optional<cv::Size>> corners = size_of_option(options.corners);
   if (!corners) return fail("--corners", options.corners + " is no size such as 9x6", ErrorKind::usage);
-  board.corners = *corners;
+  board.corners = **corners;
   if (options.square_m == 0) return fail("--square-m", "is missing: the side of a square, metres", ErrorKind::usage);
   board.square_m = options.square_m;
   if (options.board == "charuco") {
@@ -224,17 +224,16 @@ constexpr const char* kCalibrateFooter =
 
 // What the board is, and which lens is fitted to it.
 void add_board_options(CLI::App& command, CalibrateOptions& options) {
-  command.add_option("--board", options.board, "what was shown to the camera; without it a rough calibration")
-      ->option_text("chessboard|charuco")
+  add_value(command, "--board", options.board, "chessboard|charuco",
+            "what was shown to the camera; without it a rough calibration")
       ->check(CLI::IsMember({"chessboard", "charuco"}));
-  command.add_option("--corners", options.corners, "inner corners in a row and in a column: one less than squares")
-      ->option_text("9x6");
+  add_value(command, "--corners", options.corners, "9x6",
+            "inner corners in a row and in a column: one less than squares");
   add_range(command, "--square-m", options.square_m, "M", 1e-5, 1e3, "side of a square, metres");
   add_range(command, "--marker-m", options.marker_m, "M", 1e-5, 1e3, "charuco: side of a marker, metres");
-  command.add_option("--dictionary", options.dictionary, "charuco: the markers' dictionary, as DICT_4X4_50")
-      ->option_text("NAME");
-  command.add_option("--model", options.model, "the lens model; auto: the one with the smallest held-out error")
-      ->option_text("auto|pinhole|brown-conrady|fisheye")
+  add_value(command, "--dictionary", options.dictionary, "NAME", "charuco: the markers' dictionary, as DICT_4X4_50");
+  add_value(command, "--model", options.model, "auto|pinhole|brown-conrady|fisheye",
+            "the lens model; auto: the one with the smallest held-out error")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "pinhole", "brown-conrady", "fisheye"}));
 }

@@ -278,11 +278,9 @@ std::string free_name(const std::string& name, const std::vector<std::string>& t
 Result<DetectInputs> detect_inputs(const DetectSources& sources) {
   const Paths& results = sources.results;
   TruthOptions truth = sources.truth;
-  if (!sources.size.empty()) {
-    const Result<cv::Size> size_px = size_of_option(sources.size);
-    if (!size_px) return fail(size_px.error());
-    truth.size_px = *size_px;
-  }
+  const Result<std::optional<cv::Size>> size_px = size_of_option(sources.size);
+  if (!size_px) return fail(size_px.error());
+  truth.size_px = size_px->value_or(truth.size_px);
   for (const Paths* const paths : {&sources.inputs, &results})
     for (const fs::path& path : *paths)
       if (std::error_code code; !fs::exists(path, code))
@@ -325,18 +323,15 @@ std::vector<fs::path> files_read(const DetectSources& sources, const DetectInput
 void add_source_options(CLI::App& command, DetectSources& sources, const SourceHelp& help) {
   command.add_option("LABELS", sources.inputs, help.labels)->required()->check(not_empty());
   add_input(command, "--results", sources.results, help.results, help.results_value)->required();
-  command.add_option("--split", sources.split, "only the clips of this split of a dataset")->option_text("NAME");
+  add_value(command, "--split", sources.split, "NAME", "only the clips of this split of a dataset");
   add_format_option(command, sources.format);
   TruthOptions& truth = sources.truth;
-  command.add_option("--size", sources.size, "size of the images of a yolo truth; else read from the images")
-      ->option_text("WxH");
+  add_value(command, "--size", sources.size, "WxH", "size of the images of a yolo truth; else read from the images");
   command.add_option("--rate", truth.rate_hz, "frames a second of another program's truth; else as it says")
       ->type_name("HZ")
       ->check(from_to(1e-3, 1e6));
-  command
-      .add_option("--classes", truth.classes,
-                  "of another program's truth: only these classes count, boxes of others are ignored")
-      ->option_text("NAMES ...")
+  add_value(command, "--classes", truth.classes, "NAMES ...",
+            "of another program's truth: only these classes count, boxes of others are ignored")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_flag("--stills", truth.stills, "images of a coco or yolo truth are no video: gaps are allowed");

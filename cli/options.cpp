@@ -128,14 +128,12 @@ void add_project_options(CLI::App& command, ProjectOptions& options) {
 }
 
 void add_camera_option(CLI::App& command, std::string& camera) {
-  command.add_option("--camera", camera, "of a project with several cameras: which one")->option_text("NAME");
+  add_value(command, "--camera", camera, "NAME", "of a project with several cameras: which one");
 }
 
 void add_set_option(CLI::App& command, ProjectOptions& options) {
-  command
-      .add_option("--set", options.settings,
-                  "change a setting of the project for this once: --set camera.speed_mps=30; may be repeated")
-      ->option_text("KEY=VALUE ...")
+  add_value(command, "--set", options.settings, "KEY=VALUE ...",
+            "change a setting of the project for this once: --set camera.speed_mps=30; may be repeated")
       ->allow_extra_args(false);
 }
 
@@ -227,7 +225,7 @@ CLI::Validator output_path() {
 
 CLI::Option* add_output(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
                         const char* value) {
-  return command.add_option(name, path, help)->option_text(value)->check(output_path());
+  return add_value(command, name, path, value, help)->check(output_path());
 }
 
 CLI::Option* add_subject(CLI::App& command, const char* name, std::filesystem::path& path, const char* help) {
@@ -287,12 +285,12 @@ std::string path_beside(const std::filesystem::path& file, const std::filesystem
 }
 
 void add_progress_option(CLI::App& command, std::string& style) {
-  command.add_option("--progress", style, "auto, plain, json or none")
-      ->option_text("STYLE")
+  add_value(command, "--progress", style, "STYLE", "auto, plain, json or none")
       ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
 }
 
-Result<FrameRange> frame_range_of(const std::string& text) {
+Result<std::optional<FrameRange>> frame_range_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
   const std::size_t dash = text.find('-');
   const std::optional<int> first = whole_number(std::string_view(text).substr(0, dash));
   const std::optional<int> last =
@@ -310,7 +308,8 @@ void print_error(const Error& error) {
   std::fprintf(stderr, "error: %s\n", Error{error.where, with_options(error.what), error.kind}.text().c_str());
 }
 
-Result<cv::Size> size_of_option(const std::string& text) {
+Result<std::optional<cv::Size>> size_of_option(const std::string& text) {
+  if (text.empty()) return std::nullopt;
   int width = 0;
   int height = 0;
   char rest = 0;

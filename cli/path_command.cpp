@@ -272,27 +272,21 @@ Command add_path_command(CLI::App& program) {
   add_subject(*command, "FILE", options->file,
               "recorded paths: GPX, KML, JSON or CSV of ADS-B receivers and the OpenSky Network; or a project");
   add_output(*command, "--out", options->out, "write the paths into this file, which ends with .kml, .czml or .csv");
-  command->add_option("--name", options->name, "only paths of this name or ICAO address")->option_text("NAME");
+  add_value(*command, "--name", options->name, "NAME", "only paths of this name or ICAO address");
   add_input(*command, "--into", options->into.project, "make the path the flight of an intruder of this project",
             "PROJECT");
-  command->add_option("--intruder", options->into.intruder, "which intruder, from 0; one more adds one like the last")
-      ->option_text("N")
+  add_value(*command, "--intruder", options->into.intruder, "N",
+            "which intruder, from 0; one more adds one like the last")
       ->needs("--into");
-  command
-      ->add_option("--at-frame", options->into.traffic.at_frame,
-                   "the frame at which the path begins; without it both must know UTC")
-      ->option_text("FRAME")
+  add_value(*command, "--at-frame", options->into.traffic.at_frame, "FRAME",
+            "the frame at which the path begins; without it both must know UTC")
       ->needs("--into");
-  command
-      ->add_option("--tolerance-m", options->into.traffic.tolerance_m,
-                   "how far off the recorded points the flight may pass (2)")
-      ->option_text("M")
+  add_value(*command, "--tolerance-m", options->into.traffic.tolerance_m, "M",
+            "how far off the recorded points the flight may pass (2)")
       ->check(CLI::Range(0.0, 1e6))
       ->needs("--into");
-  command
-      ->add_option("--height-offset-m", options->into.traffic.height_offset_m,
-                   "added to the path's heights, to bring them to the ellipsoid (0)")
-      ->option_text("M")
+  add_value(*command, "--height-offset-m", options->into.traffic.height_offset_m, "M",
+            "added to the path's heights, to bring them to the ellipsoid (0)")
       ->check(CLI::Range(-1e5, 1e5))
       ->needs("--into");
   command->add_flag("--force", options->force, "overwrite what is there");
