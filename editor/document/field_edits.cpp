@@ -15,12 +15,6 @@ namespace sigs::editor {
 
 namespace {
 
-std::string with_spaces(std::string_view name) {
-  std::string text(name);
-  std::ranges::replace(text, '_', ' ');
-  return text;
-}
-
 // Beside a number. Frames are named by the label.
 std::string unit_text(std::string_view unit) {
   if (unit.empty() || unit == "frame") return "";
@@ -145,6 +139,12 @@ void keep_axes_apart(ModelSettings& model, const ModelSettings& before) {
 }
 
 }  // namespace
+
+std::string with_spaces(std::string_view name) {
+  std::string text(name);
+  std::ranges::replace(text, '_', ' ');
+  return text;
+}
 
 bool matches(const Field& field, std::string_view words) {
   const std::string where = lower_case(fmt::format("{} {} {}", field.key, label_of(field.key), field.help));
