@@ -58,6 +58,9 @@ struct Edited {
 // What is wrong, by the key of the field that it is in: "intruders[0].model.file".
 using ProblemsByField = std::multimap<std::string, Problem, std::less<>>;
 
+// Whether something is wrong with a key, or with one that begins so.
+[[nodiscard]] bool has_problem(const ProblemsByField& problems, std::string_view key);
+
 // What rows remember from one update to the next; the view that makes FieldRows owns it.
 struct RowMemory {
   Typing typing;

@@ -70,11 +70,6 @@ void draw_inputs(const ViewContext& context, FieldRows& rows) {
 
 namespace {
 
-std::string covered_text(const std::vector<PlatformAttitude>& turns) {
-  return fmt::format("{} attitudes, {:.2f} to {:.2f} s of the footage", turns.size(), turns.front().time_s,
-                     turns.back().time_s);
-}
-
 RowOptions look_of_camera(const ViewContext& context, const Field& field) {
   RowOptions look;
   const Scene* const scene = shown_scene(context);
@@ -108,7 +103,9 @@ std::vector<std::string> lines_of_motion(const CameraMotion& motion, double time
   std::vector<std::string> lines;
   if (!motion.source.position.empty()) lines.push_back("Position by " + motion.source.position);
   if (!motion.source.attitude.empty()) lines.push_back("Attitude by " + motion.source.attitude);
-  if (!motion.attitudes.empty()) lines.push_back(covered_text(motion.attitudes));
+  if (!motion.attitudes.empty())
+    lines.push_back(fmt::format("{} attitudes, {:.2f} to {:.2f} s of the footage", motion.attitudes.size(),
+                                motion.attitudes.front().time_s, motion.attitudes.back().time_s));
   if (const auto sd_rad = attitude_sd_at(motion.deviations, time_s))
     lines.push_back(fmt::format("Standard deviation here {:.2g}\u00b0, {:.2g}\u00b0, {:.2g}\u00b0 about its axes",
                                 deg_of_rad(sd_rad->x), deg_of_rad(sd_rad->y), deg_of_rad(sd_rad->z)));

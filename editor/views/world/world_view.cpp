@@ -16,12 +16,6 @@ namespace sigs::editor {
 
 namespace {
 
-ScreenRect canvas_rect() {
-  const ImVec2 low = ImGui::GetCursorScreenPos();
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  return {{low.x, low.y}, {low.x + room.x, low.y + room.y}};
-}
-
 // Over an empty world: what to do next.
 void offer_intruder(const ViewContext& context, const ScreenRect& rect) {
   if (!context.project().intruders.empty()) return;
@@ -119,13 +113,7 @@ WorldToolbarResult draw_world_toolbar(WorldViewState& look, UiProbe& ui_probe) {
 
 }  // namespace
 
-void WorldView::refresh_model(const ViewContext& context) {
-  const auto& scene = context.shown.scene;
-  if (scene && std::exchange(scene_, scene) != scene) model_ = world_model(*scene);
-}
-
-// A project with no history whose revision is another one has been opened. It is framed at once, and again when its
-// trajectories are known, unless the person has looked around by then.
+// A project with no history whose revision is another one has been opened.
 void WorldView::look_at_opened_project(const WorldContext& world, const ScreenRect& rect) {
   const Document& document = world.context.document;
   const std::uint64_t revision = document.state().number;
@@ -165,9 +153,12 @@ void WorldView::draw_world(WorldCanvas& canvas, const WorldContext& world) {
 
 void WorldView::draw(const ViewContext& context) {
   const WorldToolbarResult request = draw_world_toolbar(look_, context.ui_probe);
-  const ScreenRect rect = canvas_rect();
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const ScreenRect rect{dv(low), {low.x + room.x, low.y + room.y}};
   if (rect.size().x < 16 || rect.size().y < 16) return;
-  refresh_model(context);
+  const auto& scene = context.shown.scene;
+  if (scene && std::exchange(scene_, scene) != scene) model_ = world_model(*scene);
   const WorldMoment moment = world_moment(context);
   if (context.rig != nullptr) borders_.follow(*context.rig);
   const WorldContext world{context, model_, moment, context.rig != nullptr ? &borders_ : nullptr};
