@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/text.h"
 #include "cli/detect_inputs.h"
 #include "cli/evaluation_folder.h"
 #include "cli/process.h"
@@ -157,10 +158,8 @@ Command add_evaluate_track(CLI::App& evaluate) {
   add_subject(*command, "PROJECT_OR_LABELS", request.input.file,
               "a project, an exported clip's NAME.xml, an otb or vot sequence, or a folder of "
               "many clips: a dataset, or such sequences");
-  std::string known = "all";
-  for (const std::string_view name : tracker_names()) known.append(", ").append(name);
   add_value(*command, "--tracker", request.trackers, "NAMES ...",
-            fmt::format("OpenCV's tracker to run: {}; several by commas", known))
+            fmt::format("OpenCV's tracker to run: all, {}; several by commas", listed(tracker_names())))
       ->delimiter(',')
       ->allow_extra_args(false);
   add_input(*command, "--results", request.results,

@@ -188,18 +188,13 @@ void Document::take_step(std::vector<Step>& from, std::vector<Step>& to) {
   if (from.empty()) return;
   Step step = std::move(from.back());
   from.pop_back();
-  to.push_back(exchanged(std::move(step)));
-}
-
-// A state from before the document was saved under another name is moved there when it comes back, and not when that
-// was done: a long history would take long to move, and most of it never comes back.
-Document::Step Document::exchanged(Step step) {
+  // A state from before the document was saved under another name is moved there when it comes back, and not when that
+  // was done: a long history would take long to move, and most of it never comes back.
   const std::filesystem::path file = whole().file;
   if (step.before.project->file != file)
     step.before = {++last_number_, std::make_shared<const Project>(moved_to(*step.before.project, file))};
-  Step back{std::move(step.name), state_, std::exchange(selection_, step.selection)};
+  to.push_back({std::move(step.name), state_, std::exchange(selection_, step.selection)});
   show(std::move(step.before));
-  return back;
 }
 
 void Document::keep_selection_valid() {

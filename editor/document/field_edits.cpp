@@ -44,9 +44,7 @@ struct Words {
     return fmt::format("{}, {}, {}", number_text(v.x), number_text(v.y), number_text(v.z, field.unit));
   }
   std::string operator()(const std::vector<std::string>& values) const {
-    std::string text;
-    for (const std::string& value : values) text += (text.empty() ? "" : ", ") + value;
-    return text.empty() ? "none" : text;
+    return values.empty() ? "none" : listed(values);
   }
   std::string operator()(ChosenName value) const {
     const auto* const choice = std::get_if<Choice>(&field.value);

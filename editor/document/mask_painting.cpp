@@ -173,18 +173,15 @@ void MaskPainting::remember(std::string name, const cv::Rect& place, const cv::M
   forget_oldest();
 }
 
-void MaskPainting::swap_with(Step& step) {
+void MaskPainting::move_last(std::vector<Step>& from, std::vector<Step>& to) {
+  Step& step = from.back();
   cv::Mat here = mask_(step.place);
   const cv::Mat held = here.clone();
   step.other.copyTo(here);
   step.other = held;
   std::swap(step.other_state, state_);
   std::swap(step.other_whole_state, whole_state_);
-}
-
-void MaskPainting::move_last(std::vector<Step>& from, std::vector<Step>& to) {
-  swap_with(from.back());
-  to.push_back(std::move(from.back()));
+  to.push_back(std::move(step));
   from.pop_back();
 }
 

@@ -106,7 +106,6 @@ class MaskPainting {
   };
 
   void remember(std::string name, const cv::Rect& place, const cv::Mat& before, bool is_whole);
-  void swap_with(Step& step);
   void move_last(std::vector<Step>& from, std::vector<Step>& to);
   void move(const glm::dvec2& to);
   void forget_oldest();

@@ -58,7 +58,6 @@ class RelinkDialog {
   void browse(const ViewContext& context, const MissingFile& missing);
   // The person has chosen one: the others are looked for beside it.
   void found(const MissingFile& missing, const std::filesystem::path& place);
-  void apply(const ViewContext& context) const;
 
   bool open_ = false;
   std::vector<MissingFile> missing_;

@@ -28,6 +28,11 @@ struct RowOptions {
   bool is_hidden = false;  // rows() passes over it
 };
 
+// Where `is_off`, the row cannot be edited, for this reason.
+[[nodiscard]] inline RowOptions off_where(bool is_off, const char* reason) {
+  return {.off_because = is_off ? reason : ""};
+}
+
 // What is being typed: it becomes the value when it is finished, and is forgotten by Escape.
 struct Typing {
   std::string key;  // of the field that a text is for

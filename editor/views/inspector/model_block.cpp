@@ -250,9 +250,7 @@ void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {
       rows.row(field.key, look_of(field, settings));
   draw_rotors(context, rows, *intruder);
   rows.rows(key + ".contrail.", [&](const Field& field) {
-    RowOptions look;
-    if (settings.contrail.strands == 0 && !field.key.ends_with("strands")) look.off_because = "It has no contrail.";
-    return look;
+    return off_where(settings.contrail.strands == 0 && !field.key.ends_with("strands"), "It has no contrail.");
   });
   if (context.project().footage.spectrum == Spectrum::thermal) return rows.rows(key + ".heat.");
   if (context.ui_probe.noted(ImGui::Button(settings.lights.is_dark() ? "Lights on" : "Lights off"), "inspector/lights",

@@ -138,12 +138,9 @@ void draw_camera(const ViewContext& context, FieldRows& rows) {
 
 void draw_camera_log(const ViewContext& context, FieldRows& rows) {
   const bool has_log = !context.project().camera.track.file.empty();
-  const auto look_of = [&](const Field& field) {
-    RowOptions look;
-    if (field.key != "camera.track.file" && !has_log) look.off_because = "Counts with a log alone.";
-    return look;
-  };
-  rows.rows("camera.track.", look_of);
+  rows.rows("camera.track.", [&](const Field& field) {
+    return off_where(field.key != "camera.track.file" && !has_log, "Counts with a log alone.");
+  });
   rows.row("camera.readout_s");
   rows.row("camera.exposure_s");
   const double time_s = time_of(context, context.document.playhead());
