@@ -153,16 +153,12 @@ Result<DetectInputs> by_shared_files(std::vector<ClipFiles> clips, const Paths& 
 
 Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) {
   DetectInputs inputs{.clips = std::move(clips)};
-  if (inputs.clips.size() == 1) {
-    name_by(files, inputs);
-    inputs.clips.front().results = files;
-    return inputs;
-  }
   const bool is_one_truth = std::ranges::all_of(
       inputs.clips, [&](const ClipFiles& clip) { return clip.truth && clip.labels == inputs.clips.front().labels; });
   const bool is_json = std::ranges::all_of(files, [](const fs::path& file) { return file.extension() == ".json"; });
-  if (files.size() != inputs.clips.size() && is_one_truth && is_json) {
-    inputs.is_shared = true;
+  const bool is_one_clip = inputs.clips.size() == 1;
+  inputs.is_shared = !is_one_clip && files.size() != inputs.clips.size() && is_one_truth && is_json;
+  if (is_one_clip || inputs.is_shared) {
     for (ClipFiles& clip : inputs.clips) clip.results = files;
     name_by(files, inputs);
     return inputs;

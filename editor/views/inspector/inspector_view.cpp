@@ -95,6 +95,27 @@ void draw_badge(int count) {
   draw_icon(list, Icon::warning, {right - size.x - scaled(12), middle}, ImGui::GetFontSize(), color::kBad);
 }
 
+// What its clock makes of the footage: "films from 0.370 to 6.637 s of the first camera's time".
+std::string filming_text(const Scene& scene) {
+  const FootageShape& footage = scene.footage;
+  if (footage.times_s.empty()) return "";
+  return fmt::format("Its footage is from {:.3f} to {:.3f} s of the first camera's time.", footage.times_s.front(),
+                     footage.times_s.back());
+}
+
+void draw_buttons(const ViewContext& context) {
+  const std::size_t camera = context.document.active_camera();
+  ButtonFlow flow;
+  if (context.ui_probe.noted(flow.button("Add camera...", "Another camera of the same aircraft, by its video"),
+                             "inspector/add camera"))
+    ask_add_camera(context);
+  const bool is_first = camera == 0;
+  const char* const tooltip = is_first ? "The first camera stays: waypoints count its frames, and the clock is its"
+                                       : "Takes this camera out of the project; its files stay";
+  if (context.ui_probe.noted(flow.button("Remove", tooltip, !is_first), "inspector/remove camera"))
+    ask_remove_camera(context);
+}
+
 }  // namespace
 
 void InspectorView::follow_selection(const ViewContext& context) {
@@ -258,31 +279,6 @@ void InspectorView::draw(const ViewContext& context) {
   ImGui::PopStyleVar();
   rows.finish();
 }
-
-namespace {
-
-// What its clock makes of the footage: "films from 0.370 to 6.637 s of the first camera's time".
-std::string filming_text(const Scene& scene) {
-  const FootageShape& footage = scene.footage;
-  if (footage.times_s.empty()) return "";
-  return fmt::format("Its footage is from {:.3f} to {:.3f} s of the first camera's time.", footage.times_s.front(),
-                     footage.times_s.back());
-}
-
-void draw_buttons(const ViewContext& context) {
-  const std::size_t camera = context.document.active_camera();
-  ButtonFlow flow;
-  if (context.ui_probe.noted(flow.button("Add camera...", "Another camera of the same aircraft, by its video"),
-                             "inspector/add camera"))
-    ask_add_camera(context);
-  const bool is_first = camera == 0;
-  const char* const tooltip = is_first ? "The first camera stays: waypoints count its frames, and the clock is its"
-                                       : "Takes this camera out of the project; its files stay";
-  if (context.ui_probe.noted(flow.button("Remove", tooltip, !is_first), "inspector/remove camera"))
-    ask_remove_camera(context);
-}
-
-}  // namespace
 
 void MountBlock::draw(const ViewContext& context, FieldRows& rows) {
   const std::size_t camera = context.document.active_camera();

@@ -48,28 +48,6 @@ std::string lens_text(const Camera& camera) {
                      number_text(std::round(valid_deg * 10) / 10, "deg"));
 }
 
-}  // namespace
-
-void draw_inputs(const ViewContext& context, FieldRows& rows) {
-  const OpenedScene* const scene = context.shown.scene.get();
-  rows.row("footage.video");
-  if (scene != nullptr && scene->footage) draw_video(*scene->footage, rows);
-  RowOptions last;
-  last.suggested = scene != nullptr ? double(scene->draft.scene.footage.times_s.size()) - 1 : 0;
-  for (const Field& field : rows.sheet().fields()) {
-    if (!field.key.starts_with("footage.") || field.key == "footage.video") continue;
-    if (field.key.starts_with("footage.occluder_") || field.key.starts_with("footage.cloud_"))
-      continue;  // with the own body
-    RowOptions options = field.key == "footage.last_frame" ? last : RowOptions();
-    options.is_hidden = field.key == "footage.palette" && context.project().footage.spectrum != Spectrum::thermal;
-    rows.row(field.key, options);
-    if (field.key == "footage.calibration" && scene != nullptr && !rows.problems().contains(field.key))
-      note(lens_text(scene->draft.scene.camera));
-  }
-}
-
-namespace {
-
 RowOptions look_of_camera(const ViewContext& context, const Field& field) {
   RowOptions look;
   const Scene* const scene = shown_scene(context);
@@ -98,6 +76,24 @@ void draw_estimate(const ViewContext& context) {
 }
 
 }  // namespace
+
+void draw_inputs(const ViewContext& context, FieldRows& rows) {
+  const OpenedScene* const scene = context.shown.scene.get();
+  rows.row("footage.video");
+  if (scene != nullptr && scene->footage) draw_video(*scene->footage, rows);
+  RowOptions last;
+  last.suggested = scene != nullptr ? double(scene->draft.scene.footage.times_s.size()) - 1 : 0;
+  for (const Field& field : rows.sheet().fields()) {
+    if (!field.key.starts_with("footage.") || field.key == "footage.video") continue;
+    if (field.key.starts_with("footage.occluder_") || field.key.starts_with("footage.cloud_"))
+      continue;  // with the own body
+    RowOptions options = field.key == "footage.last_frame" ? last : RowOptions();
+    options.is_hidden = field.key == "footage.palette" && context.project().footage.spectrum != Spectrum::thermal;
+    rows.row(field.key, options);
+    if (field.key == "footage.calibration" && scene != nullptr && !rows.problems().contains(field.key))
+      note(lens_text(scene->draft.scene.camera));
+  }
+}
 
 std::vector<std::string> lines_of_motion(const CameraMotion& motion, double time_s) {
   std::vector<std::string> lines;
