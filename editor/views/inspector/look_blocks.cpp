@@ -106,11 +106,7 @@ std::vector<FoundLine> found_lines(const Appearance& appearance) {
 }
 
 void AppearanceBlock::draw_match(const ViewContext& context, const AppearanceState& state) {
-  if (state.is_running()) {
-    if (draw_job_progress(state)) context.edits.ask(StopMatchingFootage{});
-    context.ui_probe.note_item("inspector/stop matching footage");
-    return;
-  }
+  if (draw_if_running(context, state, StopMatchingFootage{}, "inspector/stop matching footage")) return;
   if (context.ui_probe.noted(
           ImGui::Button("Match the footage"), "inspector/match the footage",
           "Finds blur, noise, compression, haze and light in the footage, in the background, and sets them."))
@@ -236,11 +232,8 @@ void draw_presets(const ViewContext& context) {
 
 // The button with which something lit is boxed in the footage; what is found while it is looked at.
 void draw_lit_like(const ViewContext& context) {
-  if (context.light != nullptr && context.light->is_running()) {
-    if (draw_job_progress(*context.light)) context.edits.ask(StopLightLike{});
-    context.ui_probe.note_item("inspector/stop lit like");
+  if (context.light != nullptr && draw_if_running(context, *context.light, StopLightLike{}, "inspector/stop lit like"))
     return;
-  }
   if (context.ui_probe.noted(ImGui::Button("Lit like..."), "inspector/lit like",
                              "Draw a box around a real aircraft in the footage, or another thing that the sun lights: "
                              "the exposure is set so that the intruder is as bright as it."))

@@ -61,11 +61,7 @@ void draw_estimate(const ViewContext& context) {
   const EgoMotionState* const state = context.ego_motion;
   if (state == nullptr) return;
   ImGui::Spacing();
-  if (state->is_running()) {
-    if (draw_job_progress(*state)) context.edits.ask(StopCameraMotion{});
-    context.ui_probe.note_item("inspector/stop camera motion");
-    return;
-  }
+  if (draw_if_running(context, *state, StopCameraMotion{}, "inspector/stop camera motion")) return;
   if (context.ui_probe.noted(
           ImGui::Button("Estimate camera motion"), "inspector/estimate camera motion",
           "Finds how the camera turns from the footage itself, in the background, and writes it as a log beside the "
