@@ -74,9 +74,7 @@ Result<AppearanceFrames> frames_of(const AppearanceOptions& options, const std::
 Result<Appearance> found_in(const AppearanceFrames& frames, const std::optional<Project>& project,
                             const AppearanceOptions& options) {
   Progress progress(options.progress);
-  const AppearanceControl control{.progress = [&](int done, int total) { progress.update(done, total); },
-                                  .cancel = &interrupt_flag(),
-                                  .warn = print_warning};
+  const AppearanceControl control{.progress = progress.counter(), .cancel = &interrupt_flag(), .warn = print_warning};
   if (project) return appearance_of_footage(*project, frames, is_still_guessed(*project, "camera.position_m"), control);
   Result<FrameSource> footage = FrameSource::open(options.file, &interrupt_flag(), Quantisers::read, options.timing);
   if (!footage) return fail(footage.error());
@@ -160,8 +158,7 @@ Result<void> find_light(const Project& project, std::optional<Project>& into, co
   if (!box) return fail(box.error());
   if (!options.frame) return fail("--lit-like", "is in one frame; name it with --frame", ErrorKind::usage);
   Progress progress(options.progress);
-  const LitLikeControl control{.progress = [&](int done, int total) { progress.update(done, total); },
-                               .cancel = &interrupt_flag()};
+  const LitLikeControl control{.progress = progress.counter(), .cancel = &interrupt_flag()};
   const Result<LitLike> lit = lit_like(project, *options.frame, *box, control);
   progress.end();
   if (!lit) return fail(lit.error());

@@ -92,8 +92,7 @@ Error nothing_found(const CalibrateOptions& options, const BoardFootage& footage
 
 Result<BoardFootage> views_in(const CalibrateOptions& options, const CalibrationBoard& board) {
   Progress progress(options.progress);
-  const BoardSearch search{.progress = [&](int done, int total) { progress.update(done, total); },
-                           .cancel = &interrupt_flag()};
+  const BoardSearch search{.progress = progress.counter(), .cancel = &interrupt_flag()};
   Result<BoardFootage> found = board_footage(options.inputs, board, search);
   progress.end();
   if (!found) return found;
@@ -164,8 +163,7 @@ Result<Autocalibration> found_in(const CalibrateOptions& options) {
   AutocalibrationSettings settings{.max_frames = options.max_frames};
   if (options.fov_deg) settings.given_field_rad = rad_of_deg(*options.fov_deg);
   Progress progress(options.progress);
-  const AutocalibrationControl control{.progress = [&](int done, int total) { progress.update(done, total); },
-                                       .cancel = &interrupt_flag()};
+  const AutocalibrationControl control{.progress = progress.counter(), .cancel = &interrupt_flag()};
   return autocalibrated(*footage, inputs->log ? &*inputs->log : nullptr, inputs->log_file, settings, control);
 }
 

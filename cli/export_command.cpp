@@ -220,7 +220,7 @@ Result<void> run(const ExportOptions& options) {
   defer_interrupts();
   tune_allocator();
   Progress progress(options.progress);
-  const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+  const ExportControl control{.progress = progress.counter(),
                               .warn =
                                   [&](const Warning& warning) {
                                     progress.end();

@@ -65,13 +65,12 @@ Result<NearScenery> scenery_in(OpenedProject& opened, const OccluderOptions& opt
     return camera_at(scene.motion, time_of_frame_s(scene.footage, frame));
   };
   Progress progress(options.progress);
-  return near_scenery(
-      opened.source, scene.camera, pose_at,
-      {.frame = options.frame,
-       .span = options.span,
-       .min_parallax_px = options.min_parallax_px,
-       .max_m = options.max_m},
-      {.progress = [&](int done, int total) { progress.update(done, total); }, .cancel = &interrupt_flag()});
+  return near_scenery(opened.source, scene.camera, pose_at,
+                      {.frame = options.frame,
+                       .span = options.span,
+                       .min_parallax_px = options.min_parallax_px,
+                       .max_m = options.max_m},
+                      {.progress = progress.counter(), .cancel = &interrupt_flag()});
 }
 
 Result<void> run(const OccluderOptions& options) {
