@@ -38,12 +38,6 @@ FileStamp stamp_of_file(const Project& project) {
   return stamp_of(project.file.empty() ? project.file : std::filesystem::absolute(project.file));
 }
 
-// put_back() takes the name that seen_by() makes.
-Project whole_after(const Project& whole, Project seen) {
-  if (seen.rig_view) seen.name += "." + seen.rig_view->name;
-  return put_back(whole, std::move(seen));
-}
-
 std::size_t waypoints_in(const Project& project) {
   std::size_t count = 1;
   for (const IntruderSettings& intruder : project.intruders) count += intruder.trajectory.waypoints.size();
@@ -146,7 +140,9 @@ void Document::change(const ChangeProject& change) {
   } catch (const std::exception&) {
     return;
   }
-  if (!is_of_whole) changed = whole_after(whole(), std::move(changed));
+  // put_back() takes the name that seen_by() makes.
+  if (!is_of_whole && changed.rig_view) changed.name += "." + changed.rig_view->name;
+  if (!is_of_whole) changed = put_back(whole(), std::move(changed));
   changed.file = whole().file;
   if (!finite(changed) || changed == whole()) return;
   keep_places(whole(), changed);
