@@ -63,20 +63,18 @@ Result<AppearanceFrames> frames_of(const AppearanceOptions& options, const std::
     frames.first = project->footage.first_frame;
     frames.last = project->footage.last_frame;
   }
-  if (options.frames.empty()) return frames;
-  const Result<FrameRange> range = frame_range_of(options.frames);
+  const Result<std::optional<FrameRange>> range = frame_range_of(options.frames);
   if (!range) return fail(range.error());
-  frames.first = range->first;
-  frames.last = range->last;
+  if (!*range) return frames;
+  frames.first = (*range)->first;
+  frames.last = (*range)->last;
   return frames;
 }
 
 Result<Appearance> found_in(const AppearanceFrames& frames, const std::optional<Project>& project,
                             const AppearanceOptions& options) {
   Progress progress(options.progress);
-  const AppearanceControl control{.progress = [&](int done, int total) { progress.update(done, total); },
-                                  .cancel = &interrupt_flag(),
-                                  .warn = print_warning};
+  const AppearanceControl control{.progress = progress.counter(), .cancel = &interrupt_flag(), .warn = print_warning};
   if (project) return appearance_of_footage(*project, frames, is_still_guessed(*project, "camera.position_m"), control);
   Result<FrameSource> footage = FrameSource::open(options.file, &interrupt_flag(), Quantisers::read, options.timing);
   if (!footage) return fail(footage.error());
@@ -160,8 +158,7 @@ Result<void> find_light(const Project& project, std::optional<Project>& into, co
   if (!box) return fail(box.error());
   if (!options.frame) return fail("--lit-like", "is in one frame; name it with --frame", ErrorKind::usage);
   Progress progress(options.progress);
-  const LitLikeControl control{.progress = [&](int done, int total) { progress.update(done, total); },
-                               .cancel = &interrupt_flag()};
+  const LitLikeControl control{.progress = progress.counter(), .cancel = &interrupt_flag()};
   const Result<LitLike> lit = lit_like(project, *options.frame, *box, control);
   progress.end();
   if (!lit) return fail(lit.error());
@@ -238,21 +235,16 @@ Command add_appearance_command(CLI::App& program) {
   CLI::App* const command = program.add_subcommand("appearance", "find how footage looks: blur, noise, haze, light");
   const auto options = std::make_shared<AppearanceOptions>();
   add_subject(*command, "FILE", options->file, "the footage, or a project");
-  command->add_option("--frames", options->frames, "only these frames, first and last, both included")
-      ->option_text("A-B");
+  add_value(*command, "--frames", options->frames, "A-B", "only these frames, first and last, both included");
   add_number(*command, "--every", options->every, "N", 0, 1000000,
              "use one of so many frames; 0: 24 frames, spread over all");
   add_timing_options(*command, options->timing);
   add_camera_option(*command, options->camera);
   add_output(*command, "--out", options->out, "write the settings that follow, as JSON");
   add_input(*command, "--into", options->into, "put the settings into this project, which is rewritten", "PROJECT");
-  command
-      ->add_option(
-          "--lit-like", options->lit_like,
-          "instead: the exposure with which the project's intruder is as bright as what is in this box of --frame")
-      ->option_text("X,Y,W,H");
-  command->add_option("--frame", options->frame, "the frame of --lit-like, from 0")
-      ->option_text("N")
+  add_value(*command, "--lit-like", options->lit_like, "X,Y,W,H",
+            "instead: the exposure with which the project's intruder is as bright as what is in this box of --frame");
+  add_value(*command, "--frame", options->frame, "N", "the frame of --lit-like, from 0")
       ->check(CLI::Range(0, 10'000'000));
   add_output(*command, "--plot", options->plot, "draw why; a PNG");
   command->add_flag("--json", options->json, "print all of it as JSON");

@@ -244,20 +244,19 @@ Command add_compare_command(CLI::App& program) {
   const auto options = std::make_shared<CompareOptions>();
   add_subject(*command, "VIDEO", options->video, "footage with a real aircraft");
   add_timing_options(*command, options->timing);
-  command->add_option("--box", options->box, "where the aircraft is: its first column and row, its width and height")
-      ->option_text("X,Y,W,H");
+  add_value(*command, "--box", options->box, "X,Y,W,H",
+            "where the aircraft is: its first column and row, its width and height");
   add_input(*command, "--boxes", options->boxes, "the same for many frames: CSV with frame,label,x,y,w,h");
-  command->add_option("--frame", options->frame, "which frame, from 0; with --boxes the middle one where left out")
-      ->option_text("N")
+  add_value(*command, "--frame", options->frame, "N", "which frame, from 0; with --boxes the middle one where left out")
       ->check(CLI::Range(0, 10'000'000));
   add_input(*command, "--project", options->projects, "a project whose first intruder is put beside; may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--set", options->settings, "change a setting of the projects, KEY=VALUE; may be repeated")
-      ->option_text("KEY=VALUE")
+  add_value(*command, "--set", options->settings, "KEY=VALUE",
+            "change a setting of the projects, KEY=VALUE; may be repeated")
       ->allow_extra_args(false);
   add_input(*command, "--calibration", options->calibration, "of the footage, in place of the projects'");
-  command->add_option("--at", options->at, "where ours is put; a place with a similar background where left out")
-      ->option_text("X,Y");
+  add_value(*command, "--at", options->at, "X,Y",
+            "where ours is put; a place with a similar background where left out");
   command->add_flag("--shake", options->shake, "ours moves with the camera's shake, taken from the real one's path");
   add_number(*command, "--seed", options->seed, "N", 0, 1'000'000, "chooses place and attitude");
   add_output(*command, "--out", options->image, "draw both side by side, 8 times enlarged; a PNG");

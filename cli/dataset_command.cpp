@@ -364,9 +364,8 @@ Command add_dataset_command(CLI::App& program) {
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->add_flag("--resume", options->resume, "keep the videos that are complete and as the recipe asks");
-  command->add_option("--shard", options->shard, "only part I of N of the videos, and no index")->option_text("I/N");
-  command->add_option("--only", options->only, "only these videos, separated by commas, and no index")
-      ->option_text("NAMES")
+  add_value(*command, "--shard", options->shard, "I/N", "only part I of N of the videos, and no index");
+  add_value(*command, "--only", options->only, "NAMES", "only these videos, separated by commas, and no index")
       ->check(not_empty());
   command->add_flag("--merge", options->merge, "export nothing: make the index of videos that are there");
   command->add_flag("--dry-run", options->dry_run, "list what would be made, and write nothing");

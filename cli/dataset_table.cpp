@@ -41,11 +41,6 @@ struct Column {
   Row cells;
 };
 
-bool is_constant(const Column& column) {
-  return std::all_of(column.cells.begin(), column.cells.end(),
-                     [&](const std::string& cell) { return cell == column.cells.front(); });
-}
-
 std::string padded(const std::string& text, std::size_t width, bool to_the_right) {
   const std::string blanks(width - std::min(width, columns_of(text)), ' ');
   return to_the_right ? blanks + text : text + blanks;
@@ -69,7 +64,8 @@ std::string table_text(const std::vector<Column>& columns) {
   std::vector<Column> varying;
   std::string shared;
   for (const Column& column : columns) {
-    if (&column == &columns.front() || !is_constant(column))
+    const bool is_constant = std::ranges::count(column.cells, column.cells.front()) == std::ssize(column.cells);
+    if (&column == &columns.front() || !is_constant)
       varying.push_back(column);
     else if (column.cells.front() != "-")
       shared += fmt::format("{}{} {}", shared.empty() ? "all: " : ", ", column.title, column.cells.front());

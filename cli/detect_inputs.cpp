@@ -153,16 +153,12 @@ Result<DetectInputs> by_shared_files(std::vector<ClipFiles> clips, const Paths& 
 
 Result<DetectInputs> by_files(std::vector<ClipFiles> clips, const Paths& files) {
   DetectInputs inputs{.clips = std::move(clips)};
-  if (inputs.clips.size() == 1) {
-    name_by(files, inputs);
-    inputs.clips.front().results = files;
-    return inputs;
-  }
   const bool is_one_truth = std::ranges::all_of(
       inputs.clips, [&](const ClipFiles& clip) { return clip.truth && clip.labels == inputs.clips.front().labels; });
   const bool is_json = std::ranges::all_of(files, [](const fs::path& file) { return file.extension() == ".json"; });
-  if (files.size() != inputs.clips.size() && is_one_truth && is_json) {
-    inputs.is_shared = true;
+  const bool is_one_clip = inputs.clips.size() == 1;
+  inputs.is_shared = !is_one_clip && files.size() != inputs.clips.size() && is_one_truth && is_json;
+  if (is_one_clip || inputs.is_shared) {
     for (ClipFiles& clip : inputs.clips) clip.results = files;
     name_by(files, inputs);
     return inputs;
@@ -278,11 +274,9 @@ std::string free_name(const std::string& name, const std::vector<std::string>& t
 Result<DetectInputs> detect_inputs(const DetectSources& sources) {
   const Paths& results = sources.results;
   TruthOptions truth = sources.truth;
-  if (!sources.size.empty()) {
-    const Result<cv::Size> size_px = size_of_option(sources.size);
-    if (!size_px) return fail(size_px.error());
-    truth.size_px = *size_px;
-  }
+  const Result<std::optional<cv::Size>> size_px = size_of_option(sources.size);
+  if (!size_px) return fail(size_px.error());
+  truth.size_px = size_px->value_or(truth.size_px);
   for (const Paths* const paths : {&sources.inputs, &results})
     for (const fs::path& path : *paths)
       if (std::error_code code; !fs::exists(path, code))
@@ -325,18 +319,15 @@ std::vector<fs::path> files_read(const DetectSources& sources, const DetectInput
 void add_source_options(CLI::App& command, DetectSources& sources, const SourceHelp& help) {
   command.add_option("LABELS", sources.inputs, help.labels)->required()->check(not_empty());
   add_input(command, "--results", sources.results, help.results, help.results_value)->required();
-  command.add_option("--split", sources.split, "only the clips of this split of a dataset")->option_text("NAME");
+  add_value(command, "--split", sources.split, "NAME", "only the clips of this split of a dataset");
   add_format_option(command, sources.format);
   TruthOptions& truth = sources.truth;
-  command.add_option("--size", sources.size, "size of the images of a yolo truth; else read from the images")
-      ->option_text("WxH");
+  add_value(command, "--size", sources.size, "WxH", "size of the images of a yolo truth; else read from the images");
   command.add_option("--rate", truth.rate_hz, "frames a second of another program's truth; else as it says")
       ->type_name("HZ")
       ->check(from_to(1e-3, 1e6));
-  command
-      .add_option("--classes", truth.classes,
-                  "of another program's truth: only these classes count, boxes of others are ignored")
-      ->option_text("NAMES ...")
+  add_value(command, "--classes", truth.classes, "NAMES ...",
+            "of another program's truth: only these classes count, boxes of others are ignored")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_flag("--stills", truth.stills, "images of a coco or yolo truth are no video: gaps are allowed");

@@ -157,8 +157,7 @@ Result<void> estimate_and_write(const EgoMotionOptions& options) {
   OutputFiles files(options.force);
   if (const Result<void> free = files.reserve(options.outputs()); !free) return free;
   Progress progress(options.progress);
-  const EgoMotionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
-                                 .cancel = &interrupt_flag()};
+  const EgoMotionControl control{.progress = progress.counter(), .cancel = &interrupt_flag()};
   const Result<Estimated> found = project ? estimated_for(*project, options, control) : estimated(options, control);
   progress.end();
   if (!found) return fail(found.error());

@@ -14,7 +14,6 @@
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output_files.h"
-#include "cli/path_project.h"
 #include "cli/process.h"
 #include "encounter/daa_file.h"
 #include "encounter/encounter.h"
@@ -193,11 +192,8 @@ Command add_encounter_command(CLI::App& program) {
   const auto options = std::make_shared<EncounterOptions>();
   add_subject(*command, "FILE", options->file,
               "a project, or flights: DAIDALUS .daa or .txt, or a CSV with columns own_east_ft, int_east_ft, ...");
-  command
-      ->add_option(
-          "--volume", options->volumes,
-          "a volume by name, may be repeated: dwc-en-route, dwc-non-cooperative, dwc-terminal, small-uas, nmac")
-      ->option_text("NAME")
+  add_value(*command, "--volume", options->volumes, "NAME",
+            "a volume by name, may be repeated: dwc-en-route, dwc-non-cooperative, dwc-terminal, small-uas, nmac")
       ->allow_extra_args(false);
   add_range(*command, "--dmod-ft", options->dmod_ft, "FT", 0, 1e9,
             "a volume \"own\": like the first one but for its DMOD");
@@ -205,7 +201,7 @@ Command add_encounter_command(CLI::App& program) {
   add_range(*command, "--tau-s", options->tau_s, "S", 0, 1e9, "its modified tau");
   add_range(*command, "--zthr-ft", options->zthr_ft, "FT", 0, 1e9, "its vertical limit");
   add_range(*command, "--tcoa-s", options->tcoa_s, "S", 0, 1e9, "its time to co-altitude");
-  command->add_option("--intruder", options->intruder, "only this aircraft against the ownship")->option_text("NAME");
+  add_value(*command, "--intruder", options->intruder, "NAME", "only this aircraft against the ownship");
   add_output(*command, "--json", options->json, "write all quantities at each step, and the intervals");
   add_output(*command, "--plot", options->plot, "draw range, times and vertical offset; a PNG");
   add_output(*command, "--daa", options->daa, "write the flights as a file for DAIDALUS");

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/text.h"
 #include "cli/detect_inputs.h"
 #include "cli/evaluation_folder.h"
 #include "cli/process.h"
@@ -50,11 +51,9 @@ Result<TrackRequest> request_of(const TrackOptions& options) {
   if (request.trackers.empty() && request.results.empty())
     return fail("evaluate track", "name what is to be measured: --tracker or --results", ErrorKind::usage);
   request.policy.truth = options.truth == "visible" ? TruthBox::visible : TruthBox::amodal;
-  if (!options.frames.empty()) {
-    const Result<FrameRange> range = frame_range_of(options.frames);
-    if (!range) return fail(range.error());
-    request.frames = *range;
-  }
+  const Result<std::optional<FrameRange>> range = frame_range_of(options.frames);
+  if (!range) return fail(range.error());
+  request.frames = *range;
   request.jobs = jobs_of_option(options.jobs);
   for (const fs::path& file : request.results)
     if (std::error_code code; !fs::exists(file, code))
@@ -139,10 +138,9 @@ Result<void> run(const TrackOptions& options) {
 
 void add_scoring_options(CLI::App& command, TrackOptions& options) {
   TrackRequest& request = options.request;
-  command.add_option("--intruder", request.intruder, "which intruder is followed, where there are several")
-      ->option_text("N");
-  command.add_option("--truth", options.truth, "true box: visible, what can be seen; silhouette, the whole")
-      ->option_text("NAME=visible")
+  add_value(command, "--intruder", request.intruder, "N", "which intruder is followed, where there are several");
+  add_value(command, "--truth", options.truth, "NAME=visible",
+            "true box: visible, what can be seen; silhouette, the whole")
       ->check(CLI::IsMember({"visible", "silhouette"}));
   add_range(command, "--min-visible", request.policy.min_visible_fraction, "SHARE=0", 0, 1,
             "frames in which a smaller share of the intruder can be seen are not scored, 0 to 1");
@@ -160,22 +158,19 @@ Command add_evaluate_track(CLI::App& evaluate) {
   add_subject(*command, "PROJECT_OR_LABELS", request.input.file,
               "a project, an exported clip's NAME.xml, an otb or vot sequence, or a folder of "
               "many clips: a dataset, or such sequences");
-  std::string known = "all";
-  for (const std::string_view name : tracker_names()) known.append(", ").append(name);
-  command
-      ->add_option("--tracker", request.trackers, fmt::format("OpenCV's tracker to run: {}; several by commas", known))
-      ->option_text("NAMES ...")
+  add_value(*command, "--tracker", request.trackers, "NAMES ...",
+            fmt::format("OpenCV's tracker to run: all, {}; several by commas", listed(tracker_names())))
       ->delimiter(',')
       ->allow_extra_args(false);
   add_input(*command, "--results", request.results,
             "what trackers have reported, a file for each, of many clips a folder for each; may be repeated",
             "FILES|DIRS ...");
   add_format_option(*command, request.format);
-  command->add_option("--split", options->split, "only the clips of this split of a dataset")->option_text("NAME");
+  add_value(*command, "--split", options->split, "NAME", "only the clips of this split of a dataset");
   add_scoring_options(*command, *options);
   add_input(*command, "--video", request.video, "images of the labels; else those beside them");
   add_report_options(*command, options->folder, options->force);
-  command->add_option("--frames", options->frames, "only these frames of a project's footage")->option_text("A-B");
+  add_value(*command, "--frames", options->frames, "A-B", "only these frames of a project's footage");
   add_set_option(*command, request.input);
   command
       ->add_option("--jobs", options->jobs,

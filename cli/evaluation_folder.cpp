@@ -43,11 +43,6 @@ bool is_tracker(const fs::path& name) {
   return std::ranges::find(tracker_names(), name.string()) != tracker_names().end();
 }
 
-// Named after a tracker that ran, as evaluate track writes it.
-bool is_result_file(const fs::path& path) {
-  return is_csv(path) && is_tracker(path.stem());
-}
-
 // Named after a tracker that ran, with nothing but a file for each clip, as evaluate track writes it of many.
 bool is_results_folder(const fs::path& path) {
   std::error_code code;
@@ -66,8 +61,10 @@ Result<std::string> foreign_content_of(const fs::path& folder) {
     if (name != "results" || !is_folder(path)) return name;
     const Result<std::vector<fs::path>> results = folder_contents(path);
     if (!results) return fail(results.error());
-    for (const fs::path& result : *results)
-      if (!is_result_file(result) && !is_results_folder(result)) return "results/" + result.filename().string();
+    for (const fs::path& result : *results) {
+      const bool is_result_file = is_csv(result) && is_tracker(result.stem());
+      if (!is_result_file && !is_results_folder(result)) return "results/" + result.filename().string();
+    }
   }
   return std::string();
 }

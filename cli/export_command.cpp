@@ -163,18 +163,10 @@ Result<ExportRequest> request_of(const ExportOptions& options) {
                         .labels_descriptor = options.labels_descriptor,
                         .in_real_time = options.in_real_time};
   request.jobs = jobs_of_option(options.jobs);
-  if (!options.frames.empty()) {
-    const Result<FrameRange> range = frame_range_of(options.frames);
-    if (!range) return fail(range.error());
-    request.frames = *range;
-  }
+  const Result<std::optional<FrameRange>> range = frame_range_of(options.frames);
+  if (!range) return fail(range.error());
+  request.frames = *range;
   return request;
-}
-
-// Of the codec source.
-void print_copied(const ExportReport& report) {
-  std::fprintf(stderr, "%d of %d frames copied as they are in the footage, %d encoded\n", report.copied_frames,
-               report.frames, report.frames - report.copied_frames);
 }
 
 void print_times(const ExportReport& report) {
@@ -228,7 +220,7 @@ Result<void> run(const ExportOptions& options) {
   defer_interrupts();
   tune_allocator();
   Progress progress(options.progress);
-  const ExportControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+  const ExportControl control{.progress = progress.counter(),
                               .warn =
                                   [&](const Warning& warning) {
                                     progress.end();
@@ -241,8 +233,11 @@ Result<void> run(const ExportOptions& options) {
   if (!report) return fail(report.error());
   if (options.labels_descriptor != STDOUT_FILENO) print_written(report->written);
   if (options.times) print_times(*report);
-  if (options.progress != "none" && request->project.output.codec == VideoCodec::source) print_copied(*report);
-  if (options.progress != "none") print_visibilities(request->project, report->visibilities);
+  if (options.progress == "none") return {};
+  if (request->project.output.codec == VideoCodec::source)
+    std::fprintf(stderr, "%d of %d frames copied as they are in the footage, %d encoded\n", report->copied_frames,
+                 report->frames, report->frames - report->copied_frames);
+  print_visibilities(request->project, report->visibilities);
   return {};
 }
 
@@ -258,20 +253,16 @@ Command add_export_command(CLI::App& program) {
                    "folder to write into, made where it is not there; -: the video to standard output")
       ->capture_default_str()
       ->check(not_empty());
-  command->add_option("--frames", options->frames, "only these frames of the footage")->option_text("A-B");
+  add_value(*command, "--frames", options->frames, "A-B", "only these frames of the footage");
   for (const SettingText& setting : kSettings)
-    command->add_option(setting.option, options->settings[setting.key], help_of(setting))->option_text(setting.value);
-  command
-      ->add_option("--labels", options->labels,
-                   fmt::format("annotation formats, separated by commas: {}; none", label_names()))
-      ->option_text("NAMES");
+    add_value(*command, setting.option, options->settings[setting.key], setting.value, help_of(setting));
+  add_value(*command, "--labels", options->labels, "NAMES",
+            fmt::format("annotation formats, separated by commas: {}; none", label_names()));
   command->add_option("--jobs", options->jobs, "frames composed side by side; 0: one less than processor cores")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  command
-      ->add_option("--labels-fd", options->labels_descriptor,
-                   "labels as JSON lines to an open file descriptor, each before its frame")
-      ->option_text("N")
+  add_value(*command, "--labels-fd", options->labels_descriptor, "N",
+            "labels as JSON lines to an open file descriptor, each before its frame")
       ->check(CLI::Range(0, 1 << 20));
   command->add_flag("--realtime", options->in_real_time, "no frame goes out before its time");
   command->add_flag("--force", options->force, "overwrite what is there");

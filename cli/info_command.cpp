@@ -102,14 +102,10 @@ void print_mesh(const Mesh& mesh) {
 }
 
 Result<void> info_of_calibration(const std::filesystem::path& path, const std::string& size_text) {
-  std::optional<cv::Size> size;
-  if (!size_text.empty()) {
-    const Result<cv::Size> given = size_of_option(size_text);
-    if (!given) return fail(given.error());
-    size = *given;
-  }
+  const Result<std::optional<cv::Size>> size = size_of_option(size_text);
+  if (!size) return fail(size.error());
   if (read_project(path)) return fail(path.string(), "is a SIGS project; `sigs check` looks at it", ErrorKind::usage);
-  const Result<Camera> camera = read_calibration(path, size);
+  const Result<Camera> camera = read_calibration(path, *size);
   if (!camera) return fail(camera.error());
   print_camera(*camera);
   return {};
@@ -148,8 +144,7 @@ Command add_info_command(CLI::App& program) {
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("FILE", options->path, "a video, a calibration (xml, yml, yaml, json) or a model (obj)")
       ->required();
-  command->add_option("--size", options->size, "of the footage, for a calibration that states none or another")
-      ->option_text("WxH");
+  add_value(*command, "--size", options->size, "WxH", "of the footage, for a calibration that states none or another");
   return [options] { return info(*options); };
 }
 

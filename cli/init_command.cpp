@@ -70,8 +70,7 @@ Command add_init_command(CLI::App& program) {
   add_input(*command, "--model", options->project.model, "the intruder's model (obj); default: a light aircraft");
   add_output(*command, "--out", options->project.out,
              "the project file; default: NAME/NAME.json, of images NAME-project/NAME.json", "PROJECT.json");
-  command->add_option("--name", options->project.name, "the project's name; default: that of the file")
-      ->option_text("NAME");
+  add_value(*command, "--name", options->project.name, "NAME", "the project's name; default: that of the file");
   command->add_flag("--plain", options->project.plain, "leave out what makes the intruder look as the footage does");
   command->add_flag("--force", options->project.overwrite, "replace files that are there already");
   add_progress_option(*command, options->progress);

@@ -251,7 +251,7 @@ Result<OwnBody> found_in(FrameSource& footage, const FrameRange& range, const Pr
   OwnBodySettings settings = project.own_body;
   settings.frames = std::min(settings.frames, range.last - range.first + 1);
   Progress progress(options.progress);
-  const DetectionControl control{.progress = [&](int done, int total) { progress.update(done, total); },
+  const DetectionControl control{.progress = progress.counter(),
                                  .cancel = &interrupt_flag(),
                                  .stages = options.paths.stages.empty() ? KeepStages::no : KeepStages::yes};
   return detect_own_body(footage, range.first, settings, control);

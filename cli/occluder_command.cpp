@@ -65,13 +65,12 @@ Result<NearScenery> scenery_in(OpenedProject& opened, const OccluderOptions& opt
     return camera_at(scene.motion, time_of_frame_s(scene.footage, frame));
   };
   Progress progress(options.progress);
-  return near_scenery(
-      opened.source, scene.camera, pose_at,
-      {.frame = options.frame,
-       .span = options.span,
-       .min_parallax_px = options.min_parallax_px,
-       .max_m = options.max_m},
-      {.progress = [&](int done, int total) { progress.update(done, total); }, .cancel = &interrupt_flag()});
+  return near_scenery(opened.source, scene.camera, pose_at,
+                      {.frame = options.frame,
+                       .span = options.span,
+                       .min_parallax_px = options.min_parallax_px,
+                       .max_m = options.max_m},
+                      {.progress = progress.counter(), .cancel = &interrupt_flag()});
 }
 
 Result<void> run(const OccluderOptions& options) {
@@ -112,13 +111,11 @@ Command add_occluder_command(CLI::App& program) {
       program.add_subcommand("occluder", "find what stands near the camera and hides what is farther away");
   const auto options = std::make_shared<OccluderOptions>();
   add_project_options(*command, options->project);
-  command->add_option("--frame", options->frame, "frame of the footage that the mask is made of, from 0")
-      ->option_text("N")
+  add_value(*command, "--frame", options->frame, "N", "frame of the footage that the mask is made of, from 0")
       ->check(CLI::Range(0, 1'000'000'000));
   add_number(*command, "--span", options->span, "N", 1, 100'000,
              "frames before and after it that are compared with it");
-  command->add_option("--min-parallax", options->min_parallax_px, "px against infinity within the span: near")
-      ->option_text("PX")
+  add_value(*command, "--min-parallax", options->min_parallax_px, "PX", "px against infinity within the span: near")
       ->capture_default_str()
       ->check(from_to(0.01, 1e4));
   add_range(*command, "--max-distance", options->max_m, "M", 0.1, 1e7,

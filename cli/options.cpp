@@ -14,6 +14,8 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/input_file.h"
+#include "base/json.h"
 #include "base/paths.h"
 #include "base/text.h"
 #include "project/fields.h"
@@ -98,6 +100,21 @@ std::string value_error(const std::string& key, const std::string& text) {
   return number_error(field, text);
 }
 
+// Whether a text is meant to be a project, be it broken: an object with a member that projects or recipes have, or,
+// where it is not JSON, one that begins as projects do.
+bool is_meant_as_project(const std::string& text) {
+  constexpr const char* kSpace = " \t\r\n";
+  const std::string_view begin = without_bom(text);
+  const std::size_t brace = begin.find_first_not_of(kSpace);
+  if (brace == std::string_view::npos || begin[brace] != '{') return false;
+  if (const Result<Json> json = parsed_json(text, "", ErrorKind::bad_project)) {
+    const auto has = [&](const char* key) { return json->contains(key); };
+    return has("sigs") || has("sigs_dataset") || has("footage") || has("intruders");
+  }
+  const std::size_t key = begin.find_first_not_of(kSpace, brace + 1);
+  return key != std::string_view::npos && begin.substr(key).starts_with("\"sigs\"");
+}
+
 }  // namespace
 
 bool is_project_file(const std::filesystem::path& file) {
@@ -111,14 +128,12 @@ void add_project_options(CLI::App& command, ProjectOptions& options) {
 }
 
 void add_camera_option(CLI::App& command, std::string& camera) {
-  command.add_option("--camera", camera, "of a project with several cameras: which one")->option_text("NAME");
+  add_value(command, "--camera", camera, "NAME", "of a project with several cameras: which one");
 }
 
 void add_set_option(CLI::App& command, ProjectOptions& options) {
-  command
-      .add_option("--set", options.settings,
-                  "change a setting of the project for this once: --set camera.speed_mps=30; may be repeated")
-      ->option_text("KEY=VALUE ...")
+  add_value(command, "--set", options.settings, "KEY=VALUE ...",
+            "change a setting of the project for this once: --set camera.speed_mps=30; may be repeated")
       ->allow_extra_args(false);
 }
 
@@ -143,6 +158,20 @@ Result<Project> project_of(const ProjectOptions& options) {
   }
   const Result<std::size_t> camera = camera_of_option(*project, options.camera);
   return camera ? seen_by(*project, *camera) : Result<Project>(fail(camera.error()));
+}
+
+Result<Project> first_camera_of(Result<ReadProject> read) {
+  if (!read) return fail(read.error());
+  for (const Warning& warning : read->warnings) print_warning(warning);
+  return read->project.cameras.empty() ? std::move(read->project) : seen_by(read->project, 0);
+}
+
+Result<std::optional<Project>> project_in(const std::filesystem::path& file) {
+  const Result<std::string> text = read_text(file, kProjectLimit_bytes);
+  if (!text || !is_meant_as_project(*text)) return std::nullopt;
+  Result<Project> project = first_camera_of(parse_project(*text, file));
+  if (!project) return fail(project.error());
+  return std::move(*project);
 }
 
 Result<std::size_t> camera_of_option(const Project& project, const std::string& name) {
@@ -196,7 +225,7 @@ CLI::Validator output_path() {
 
 CLI::Option* add_output(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
                         const char* value) {
-  return command.add_option(name, path, help)->option_text(value)->check(output_path());
+  return add_value(command, name, path, value, help)->check(output_path());
 }
 
 CLI::Option* add_subject(CLI::App& command, const char* name, std::filesystem::path& path, const char* help) {
@@ -256,12 +285,12 @@ std::string path_beside(const std::filesystem::path& file, const std::filesystem
 }
 
 void add_progress_option(CLI::App& command, std::string& style) {
-  command.add_option("--progress", style, "auto, plain, json or none")
-      ->option_text("STYLE")
+  add_value(command, "--progress", style, "STYLE", "auto, plain, json or none")
       ->check(CLI::IsMember({"auto", "plain", "json", "none"}));
 }
 
-Result<FrameRange> frame_range_of(const std::string& text) {
+Result<std::optional<FrameRange>> frame_range_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
   const std::size_t dash = text.find('-');
   const std::optional<int> first = whole_number(std::string_view(text).substr(0, dash));
   const std::optional<int> last =
@@ -279,7 +308,8 @@ void print_error(const Error& error) {
   std::fprintf(stderr, "error: %s\n", Error{error.where, with_options(error.what), error.kind}.text().c_str());
 }
 
-Result<cv::Size> size_of_option(const std::string& text) {
+Result<std::optional<cv::Size>> size_of_option(const std::string& text) {
+  if (text.empty()) return std::nullopt;
   int width = 0;
   int height = 0;
   char rest = 0;

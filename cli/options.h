@@ -14,6 +14,7 @@
 #include "base/image.h"
 #include "base/result.h"
 #include "export/export_project.h"
+#include "project/json.h"
 #include "project/project.h"
 #include "video/image_sequence.h"
 
@@ -38,6 +39,13 @@ void add_camera_option(CLI::App& command, std::string& camera);
 
 // The same as one camera sees it: of a rig the one that is asked for, else the first, of which a note tells.
 [[nodiscard]] Result<Project> project_of(const ProjectOptions& options);
+
+// The same of a project that was read in another way: warnings are printed, of a rig it is what the first camera sees.
+[[nodiscard]] Result<Project> first_camera_of(Result<ReadProject> read);
+
+// The project in a file; none where the file is no project: not JSON that has a member of projects or begins as one, or
+// not readable. Warnings are printed. Errors are those of read_project(): a project, but a broken one.
+[[nodiscard]] Result<std::optional<Project>> project_in(const std::filesystem::path& file);
 
 // The index of the camera of --camera. Error usage.
 [[nodiscard]] Result<std::size_t> camera_of_option(const Project& project, const std::string& name);
@@ -69,12 +77,20 @@ void add_setting_option(CLI::App& command, const SettingOption& option, OptionSe
 // For what is written: the same, and not "-", which stands for standard output elsewhere.
 [[nodiscard]] CLI::Validator output_path();
 
+// An option with a value.
+//   unit  what the help calls it
+template <class Value>
+CLI::Option* add_value(CLI::App& command, const std::string& name, Value& value, const std::string& unit,
+                       const std::string& help) {
+  return command.add_option(name, value, help)->option_text(unit);
+}
+
 // An option that names a file or folder to read (or several of them), or one to write.
 //   value  what the help calls it
 template <class Paths>
 CLI::Option* add_input(CLI::App& command, const char* name, Paths& paths, const char* help,
                        const char* value = "FILE") {
-  return command.add_option(name, paths, help)->option_text(value)->check(not_empty());
+  return add_value(command, name, paths, value, help)->check(not_empty());
 }
 CLI::Option* add_output(CLI::App& command, const char* name, std::filesystem::path& path, const char* help,
                         const char* value = "FILE");
@@ -86,7 +102,7 @@ CLI::Option* add_subject(CLI::App& command, const char* name, std::filesystem::p
 template <class Number>
 CLI::Option* add_number(CLI::App& command, const char* name, Number& value, const char* unit,
                         std::type_identity_t<Number> low, std::type_identity_t<Number> high, const char* help) {
-  return command.add_option(name, value, help)->option_text(unit)->capture_default_str()->check(CLI::Range(low, high));
+  return add_value(command, name, value, unit, help)->capture_default_str()->check(CLI::Range(low, high));
 }
 
 // A number of this range. CLI::Range lets NaN through.
@@ -96,7 +112,7 @@ CLI::Option* add_number(CLI::App& command, const char* name, Number& value, cons
 template <class Number>
 CLI::Option* add_range(CLI::App& command, const char* name, Number& value, const char* unit, double low, double high,
                        const char* help) {
-  return command.add_option(name, value, help)->option_text(unit)->check(from_to(low, high));
+  return add_value(command, name, value, unit, help)->check(from_to(low, high));
 }
 
 // The same with its default shown.
@@ -106,8 +122,8 @@ CLI::Option* add_figure(CLI::App& command, const char* name, Number& value, cons
   return command.add_option(name, value, help)->type_name(unit)->capture_default_str()->check(from_to(low, high));
 }
 
-// The value of --size, as in "1280x960". Error usage.
-[[nodiscard]] Result<cv::Size> size_of_option(const std::string& text);
+// The value of --size, as in "1280x960"; none where it is not given. Error usage.
+[[nodiscard]] Result<std::optional<cv::Size>> size_of_option(const std::string& text);
 
 // Numbers separated by commas, as many as `count`, each below a million in size; none where the text says anything
 // else.
@@ -131,8 +147,8 @@ void add_progress_option(CLI::App& command, std::string& style);
 // --frame-rate and --timestamps, for commands that take footage and not the project that names it.
 void add_timing_options(CLI::App& command, SequenceTiming& timing);
 
-// "10-20" or "10". Error usage.
-[[nodiscard]] Result<FrameRange> frame_range_of(const std::string& text);
+// The value of --frames, "10-20" or "10"; none where it is not given. Error usage.
+[[nodiscard]] Result<std::optional<FrameRange>> frame_range_of(const std::string& text);
 
 // A line on stderr. The engine's texts know no options: where one asks for something that an option does, the option is
 // named in its place ("exists already; --force overwrites it").

@@ -15,11 +15,16 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
-#include "cli/path_project.h"
 #include "cli/process.h"
 #include "geo/geo_path.h"
 #include "geo/recorded_path.h"
 #include "geo/utc_time.h"
+#include "project/project.h"
+#include "project/validate.h"
+#include "scene/camera_track.h"
+#include "scene/geo_paths.h"
+#include "scene/opened_project.h"
+#include "video/frame_source.h"
 
 namespace sigs::cli {
 
@@ -32,6 +37,12 @@ constexpr const char* kPathFooter =
     "  sigs path aircraft.json --name DLH400 --out flight.czml --force\n"
     "  sigs path aircraft.json --name DLH400 --into encounter.json --intruder 0\n"
     "  sigs path encounter.json --out encounter.kml";
+
+struct IntoProject {
+  std::filesystem::path project;  // is rewritten
+  int intruder = 0;               // index; one more than there are: a copy of the last one is added
+  TrafficSettings traffic;
+};
 
 struct PathOptions {
   std::filesystem::path file;
@@ -156,6 +167,71 @@ Result<void> write(const std::string& text, const PathOptions& options) {
   return {};
 }
 
+// The paths of a project's camera and intruders (scene/geo_paths.h). Its footage and log are opened. Warnings are
+// printed. Error bad_project: the project has no place on the Earth.
+Result<std::vector<GeoPath>> paths_of_project(const Project& project) {
+  const Result<OpenedProject> opened = open_project(project, &interrupt_flag());
+  if (!opened) return fail(opened.error());
+  for (const Warning& warning : opened->warnings) print_warning(warning);
+  if (!opened->scene.earth)
+    return fail(project.file.string() + ": geo",
+                "does not say where on the Earth the world lies; set geo.latitude_deg, geo.longitude_deg, geo.height_m "
+                "and geo.heading_deg, or give the camera a log with positions",
+                ErrorKind::bad_project);
+  return geo_paths_of(opened->scene);
+}
+
+// What of a scene a recorded path needs: the footage's times, the camera's log and the place on the Earth. Models and
+// calibration may be missing still.
+Result<Scene> scene_for_traffic(const Project& project) {
+  const Result<FrameSource> source = open_footage(project, &interrupt_flag());
+  if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
+  const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
+  Scene scene = bare_scene(project, footage_shape(project, source->info()));
+  const Result<FrameRange, Problem> range = scene_range(project.footage, scene.footage);
+  if (!range) return failed(range.error());
+  scene.first_frame = range->first;
+  scene.last_frame = range->last;
+  SceneFiles files;
+  Result<CameraFlight, Problem> flight = camera_flight(project, scene.footage, *range, files);
+  if (!flight) return failed(flight.error());
+  set_camera_motion(scene, *std::move(flight));
+  for (const Warning& warning : scene.warnings) print_warning(warning);
+  return scene;
+}
+
+// Writes a recorded path into a project as the waypoints of an intruder, and prints what was written.
+Result<void> write_into_project(const RecordedPath& path, const IntoProject& into) {
+  Result<Project> project = first_camera_of(read_project(into.project));
+  if (!project) return fail(project.error());
+  const auto count = static_cast<int>(project->intruders.size());
+  const std::string where = fmt::format("--intruder {}", into.intruder);
+  if (count == 0)
+    return fail(into.project.string() + ": intruders", "is empty; give it an intruder with a model first",
+                ErrorKind::bad_project);
+  if (into.intruder < 0 || into.intruder > count)
+    return fail(where,
+                fmt::format("the project has {}, 0 to {}; {} adds one like the last", count_text(count, "intruder"),
+                            count - 1, count),
+                ErrorKind::usage);
+  const Result<Scene> scene = scene_for_traffic(*project);
+  if (!scene) return fail(scene.error());
+  Result<std::vector<WaypointSettings>> waypoints = traffic_waypoints(path, *scene, into.traffic);
+  if (!waypoints) return fail(waypoints.error());
+  if (into.intruder == count) {
+    const IntruderSettings last = project->intruders.back();
+    project->intruders.push_back(last);
+    if (!path.name.empty()) project->intruders.back().name = path.name;
+  }
+  const std::size_t written = waypoints->size();
+  take_traffic(*project, static_cast<std::size_t>(into.intruder), *std::move(waypoints), *scene);
+  defer_interrupts();
+  if (const Result<void> saved = rewrite_project(*project, into.project); !saved) return saved;
+  std::printf("%s: intruders[%d] flies by %s\n", into.project.c_str(), into.intruder,
+              count_text(static_cast<std::ptrdiff_t>(written), "waypoint").c_str());
+  return {};
+}
+
 // The encounter of a project on the globe.
 Result<void> run_on_project(const Project& project, const PathOptions& options) {
   const std::string extension = lower_extension(options.out);
@@ -196,27 +272,21 @@ Command add_path_command(CLI::App& program) {
   add_subject(*command, "FILE", options->file,
               "recorded paths: GPX, KML, JSON or CSV of ADS-B receivers and the OpenSky Network; or a project");
   add_output(*command, "--out", options->out, "write the paths into this file, which ends with .kml, .czml or .csv");
-  command->add_option("--name", options->name, "only paths of this name or ICAO address")->option_text("NAME");
+  add_value(*command, "--name", options->name, "NAME", "only paths of this name or ICAO address");
   add_input(*command, "--into", options->into.project, "make the path the flight of an intruder of this project",
             "PROJECT");
-  command->add_option("--intruder", options->into.intruder, "which intruder, from 0; one more adds one like the last")
-      ->option_text("N")
+  add_value(*command, "--intruder", options->into.intruder, "N",
+            "which intruder, from 0; one more adds one like the last")
       ->needs("--into");
-  command
-      ->add_option("--at-frame", options->into.traffic.at_frame,
-                   "the frame at which the path begins; without it both must know UTC")
-      ->option_text("FRAME")
+  add_value(*command, "--at-frame", options->into.traffic.at_frame, "FRAME",
+            "the frame at which the path begins; without it both must know UTC")
       ->needs("--into");
-  command
-      ->add_option("--tolerance-m", options->into.traffic.tolerance_m,
-                   "how far off the recorded points the flight may pass (2)")
-      ->option_text("M")
+  add_value(*command, "--tolerance-m", options->into.traffic.tolerance_m, "M",
+            "how far off the recorded points the flight may pass (2)")
       ->check(CLI::Range(0.0, 1e6))
       ->needs("--into");
-  command
-      ->add_option("--height-offset-m", options->into.traffic.height_offset_m,
-                   "added to the path's heights, to bring them to the ellipsoid (0)")
-      ->option_text("M")
+  add_value(*command, "--height-offset-m", options->into.traffic.height_offset_m, "M",
+            "added to the path's heights, to bring them to the ellipsoid (0)")
       ->check(CLI::Range(-1e5, 1e5))
       ->needs("--into");
   command->add_flag("--force", options->force, "overwrite what is there");

@@ -42,11 +42,6 @@ void on_signal(int signal) {
 
 constexpr int kBarWidth = 32;
 
-bool is_plain_terminal() {
-  const char* const term = std::getenv("TERM");
-  return term == nullptr || std::strcmp(term, "dumb") == 0;
-}
-
 }  // namespace
 
 const std::atomic<bool>& interrupt_flag() {
@@ -85,7 +80,8 @@ void prepare_mesa() {
 
 Progress::Progress(std::string style) : style_(std::move(style)) {
   const bool is_automatic = style_ != "plain" && style_ != "json" && style_ != "none";
-  bar_ = is_automatic && isatty(STDERR_FILENO) == 1 && !is_plain_terminal();
+  const char* const term = std::getenv("TERM");
+  bar_ = is_automatic && isatty(STDERR_FILENO) == 1 && term != nullptr && std::strcmp(term, "dumb") != 0;
   color_ = bar_ && std::getenv("NO_COLOR") == nullptr;
 }
 

@@ -49,6 +49,10 @@ class Progress {
   // Frames done and in all, 0 < done <= total; of a job that consists of steps of different kinds parts of the whole,
   // and the step that goes on, which is said in place of the count of frames. To be called from one thread at a time.
   void update(int done, int total, const std::string& step = "");
+  // update() for a job that counts its frames; lives no longer than this.
+  [[nodiscard]] auto counter() {
+    return [this](int done, int total) { update(done, total); };
+  }
 
   void end();  // ends the bar's line, so that what follows begins on its own
 

@@ -121,13 +121,10 @@ void take(const RigCalibration& rig, const std::vector<std::size_t>& places, con
 }
 
 Result<void> run_rig_calibration(const RigCalibrationOptions& options) {
-  RigReading reading{.size_px = {}, .opencv_unit_m = options.unit_m};
-  if (!options.size.empty()) {
-    const Result<cv::Size> size = size_of_option(options.size);
-    if (!size) return fail(size.error());
-    reading.size_px = *size;
-  }
-  const Result<RigCalibration> rig = read_rig_calibration(options.file, reading);
+  const Result<std::optional<cv::Size>> size = size_of_option(options.size);
+  if (!size) return fail(size.error());
+  const Result<RigCalibration> rig =
+      read_rig_calibration(options.file, {.size_px = *size, .opencv_unit_m = options.unit_m});
   if (!rig) return fail(rig.error());
   for (const Warning& warning : rig->warnings) print_warning(warning);
   print_rig(*rig);
@@ -318,7 +315,7 @@ Command add_rig_calibration(CLI::App& rig) {
   add_subject(*command, "FILE", options->file, "Kalibr's camchain.yaml, or OpenCV's stereo file");
   add_input(*command, "--into", options->into, "put mounts and clocks into this project, which is rewritten",
             "PROJECT");
-  command->add_option("--size", options->size, "of the images, for a file that states none")->option_text("WxH");
+  add_value(*command, "--size", options->size, "WxH", "of the images, for a file that states none");
   add_number(*command, "--unit", options->unit_m, "M", 1e-6, 1e3, "metres of one unit of T in OpenCV's stereo files");
   command->footer(kRigCalibrationFooter);
   return [options] { return run_rig_calibration(*options); };
@@ -328,8 +325,8 @@ Command add_rig_sync(CLI::App& rig) {
   auto options = std::make_shared<RigSyncOptions>();
   CLI::App* const command = rig.add_subcommand("sync", "find how the clocks of a rig's cameras belong together");
   add_subject(*command, "PROJECT", options->project, "a project with several cameras");
-  command->add_option("--by", options->by, "turns, sound, log, timecode, creation-time; several with commas; all")
-      ->option_text("SOURCE")
+  add_value(*command, "--by", options->by, "SOURCE",
+            "turns, sound, log, timecode, creation-time; several with commas; all")
       ->delimiter(',');
   command->add_flag("--find-mounts", options->finds_mounts,
                     "find by the turns how the cameras lie, in place of the project's mounts");

@@ -281,8 +281,7 @@ void add_encounter_options(CLI::App& command, RiskOptions& options) {
        {std::tuple("--own-speed", &options.own_speed,
                    "of straight flights, one or the lowest and the highest; else 25"),
         std::tuple("--intruder-speed", &options.intruder_speed, "the same; else 30,80")})
-    command.add_option(name, *speeds, help)
-        ->option_text("MPS[,MPS]")
+    add_value(command, name, *speeds, "MPS[,MPS]", help)
         ->delimiter(',')
         ->allow_extra_args(false)
         ->check(from_to(0, 1e4));
@@ -318,10 +317,8 @@ void add_manoeuvre_options(CLI::App& command, RiskOptions& options) {
             "a track whose line of sight turns faster waits; else none does: a collision course does not turn");
   add_input(command, "--logic", options.logic, "a table of rules that decides instead: bearing_min_deg, ..., manoeuvre",
             "CSV");
-  command
-      .add_option("--logic-command", options.logic_command,
-                  "a program that decides: it reads a JSON object a line and answers with a manoeuvre's name a line")
-      ->option_text("COMMAND");
+  add_value(command, "--logic-command", options.logic_command, "COMMAND",
+            "a program that decides: it reads a JSON object a line and answers with a manoeuvre's name a line");
 }
 
 }  // namespace
@@ -346,8 +343,8 @@ Command add_risk_command(CLI::App& program) {
   add_input(*command, "--labels", options->images.sources.inputs,
             "compare with images: labels or a dataset, whose encounters are flown", "FILES|DIR");
   add_input(*command, "--results", options->images.sources.results, "of the detector on these images", "FILES|DIR");
-  command->add_option("--split", options->images.sources.split, "of the dataset")->option_text("NAME");
-  command->add_option("--shard", options->shard, "only these of the encounters")->option_text("I/N");
+  add_value(*command, "--split", options->images.sources.split, "NAME", "of the dataset");
+  add_value(*command, "--shard", options->shard, "I/N", "only these of the encounters");
   add_input(*command, "--merge", options->merge, "results of all shards, instead of SENSOR", "FILES ...");
   add_number(*command, "--jobs", options->jobs, "N", 0, 1024, "threads; 0: as many as there are cores");
   add_output(*command, "--json", options->json, "write all figures and settings");

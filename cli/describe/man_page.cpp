@@ -59,10 +59,6 @@ std::string option_entry(const OptionFacts& option) {
   return text + "\n" + roff(sentence(help + otherwise)) + "\n";
 }
 
-std::string positional_entry(const OptionFacts& positional) {
-  return fmt::format(".TP\n.I {}\n{}\n", roff(positional.value), roff(sentence(capitalised(positional.help))));
-}
-
 std::string see_also(const CommandFacts& command, const CommandFacts& program) {
   std::vector<std::string> names;
   if (command.name != program.name) names.push_back(program.name);
@@ -91,7 +87,8 @@ std::string man_page(const CommandFacts& command, const CommandFacts& program, c
   page += ".SH SYNOPSIS\n" + synopsis(command);
   page += ".SH DESCRIPTION\n" + roff(sentence(capitalised(command.summary))) + "\n";
   for (const std::string& note : command.notes) page += ".PP\n" + roff(note) + "\n";
-  for (const OptionFacts& positional : command.positionals) page += positional_entry(positional);
+  for (const OptionFacts& positional : command.positionals)
+    page += fmt::format(".TP\n.I {}\n{}\n", roff(positional.value), roff(sentence(capitalised(positional.help))));
   if (!command.commands.empty()) page += ".SH COMMANDS\n";
   for (const CommandFacts& below : command.commands)
     page +=

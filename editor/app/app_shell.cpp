@@ -90,7 +90,7 @@ AppShell::AppShell(Document& document, Settings& settings, Setup setup)
     : document_(document),
       settings_(settings),
       setup_(std::move(setup)),
-      export_(setup_.wake),
+      export_(setup_.wake, exported),
       session_(document, settings,
                {.recovery_folder = setup_.recovery_folder,
                 .wake = setup_.wake,
@@ -188,12 +188,11 @@ void AppShell::update(double now_s) {
 }
 
 void AppShell::draw_menu(const ViewContext& context) {
-  draw_menu_bar(context, {.has_project = has_project(), .exporting = export_.state()}, settings_);
+  draw_menu_bar(context, has_project(), export_.state(), settings_);
 }
 
 void AppShell::draw_start_page(const ViewContext& context) {
-  const StartPageChoice choice =
-      start_page_.draw(context, {.abandoned = session_.abandoned(), .loading = session_.loading()});
+  const StartPageChoice choice = start_page_.draw(context, session_.abandoned(), session_.loading());
   if (choice.recover) answered_.emplace_back([this, project = *choice.recover] { session_.recover(project); });
   if (choice.discard) answered_.emplace_back([this, project = *choice.discard] { session_.discard(project); });
 }

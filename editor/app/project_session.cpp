@@ -58,14 +58,6 @@ bool ProjectSession::waits(Step step) {
   return true;
 }
 
-void ProjectSession::run_next_waiting() {
-  while (!question_ && !done_ && !waiting_.empty()) {
-    const Step step = std::move(waiting_.front());
-    waiting_.pop_front();
-    step();
-  }
-}
-
 void ProjectSession::ask(Question question, std::vector<Step> steps) {
   if (waits([this, question, steps] { ask(question, steps); })) return;
   question_ = std::move(question);
@@ -77,7 +69,12 @@ void ProjectSession::answer(int number) {
   const std::vector<Step> steps = std::exchange(steps_, {});
   if (number >= 0 && number < static_cast<int>(steps.size()) && steps[static_cast<std::size_t>(number)])
     steps[static_cast<std::size_t>(number)]();
-  run_next_waiting();
+  // What waited, until one of it asks again.
+  while (!question_ && !done_ && !waiting_.empty()) {
+    const Step step = std::move(waiting_.front());
+    waiting_.pop_front();
+    step();
+  }
 }
 
 bool ProjectSession::handle(const Request& request) {

@@ -100,7 +100,6 @@ class ProjectSession {
   void ask(Question question, std::vector<Step> steps);
   // Whether the step has to wait for the question that is open, and is queued for that; false: none is open.
   [[nodiscard]] bool waits(Step step);
-  void run_next_waiting();  // runs what waited, until one of it asks again
   // The same function, but without effect once another document is open.
   [[nodiscard]] std::function<void(const std::filesystem::path&)> for_this_document(
       std::function<void(const std::filesystem::path&)> chosen) const;

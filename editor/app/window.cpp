@@ -53,20 +53,10 @@ Error glfw_error(const std::string& what) {
   return {"window", what + (text != nullptr ? ": " + std::string(text) : std::string()), ErrorKind::unavailable};
 }
 
-void note_dropped(GLFWwindow* window, int count, const char** paths) {
-  auto& dropped = incoming_of(window).dropped;
-  dropped.insert(dropped.end(), paths, paths + count);
-}
-
 KeyKind kind_of(int key, int modifiers) {
   if (key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER) return KeyKind::modifier;
   const bool is_chord = (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0;
   return key >= GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT && !is_chord ? KeyKind::sign : KeyKind::action;
-}
-
-// Another window lay over this one, or it was hidden: what it showed is gone.
-void note_refresh(GLFWwindow* window) {
-  incoming_of(window).needs_all = true;
 }
 
 void note_key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
@@ -76,10 +66,6 @@ void note_key(GLFWwindow* window, int key, int scancode, int action, int modifie
                                  .down = action == GLFW_PRESS,
                                  .modifiers = modifiers,
                                  .kind = kind_of(key, modifiers)});
-}
-
-void note_character(GLFWwindow* window, unsigned character) {
-  incoming_of(window).keys.push({.character = character});
 }
 
 void hand_on_keys(GLFWwindow* window) {
@@ -167,11 +153,15 @@ Result<std::unique_ptr<Window>> Window::open(const Settings& settings) {
   glfwSwapInterval(1);
   glfwSetWindowSizeLimits(window, 800, 480, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwSetWindowUserPointer(window, &state->incoming);
-  glfwSetDropCallback(window, note_dropped);
-  glfwSetWindowRefreshCallback(window, note_refresh);
+  glfwSetDropCallback(window, [](GLFWwindow* to, int count, const char** paths) {
+    incoming_of(to).dropped.insert(incoming_of(to).dropped.end(), paths, paths + count);
+  });
+  // Another window lay over this one, or it was hidden: what it showed is gone.
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* hidden) { incoming_of(hidden).needs_all = true; });
   start_imgui(window);
   glfwSetKeyCallback(window, note_key);
-  glfwSetCharCallback(window, note_character);
+  glfwSetCharCallback(window,
+                      [](GLFWwindow* to, unsigned character) { incoming_of(to).keys.push({.character = character}); });
 #if IMGUI_VERSION_NUM < 18700
   glfwSetMouseButtonCallback(window, note_button);
 #endif

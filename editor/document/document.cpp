@@ -38,12 +38,6 @@ FileStamp stamp_of_file(const Project& project) {
   return stamp_of(project.file.empty() ? project.file : std::filesystem::absolute(project.file));
 }
 
-// put_back() takes the name that seen_by() makes.
-Project whole_after(const Project& whole, Project seen) {
-  if (seen.rig_view) seen.name += "." + seen.rig_view->name;
-  return put_back(whole, std::move(seen));
-}
-
 std::size_t waypoints_in(const Project& project) {
   std::size_t count = 1;
   for (const IntruderSettings& intruder : project.intruders) count += intruder.trajectory.waypoints.size();
@@ -146,7 +140,9 @@ void Document::change(const ChangeProject& change) {
   } catch (const std::exception&) {
     return;
   }
-  if (!is_of_whole) changed = whole_after(whole(), std::move(changed));
+  // put_back() takes the name that seen_by() makes.
+  if (!is_of_whole && changed.rig_view) changed.name += "." + changed.rig_view->name;
+  if (!is_of_whole) changed = put_back(whole(), std::move(changed));
   changed.file = whole().file;
   if (!finite(changed) || changed == whole()) return;
   keep_places(whole(), changed);
@@ -188,18 +184,13 @@ void Document::take_step(std::vector<Step>& from, std::vector<Step>& to) {
   if (from.empty()) return;
   Step step = std::move(from.back());
   from.pop_back();
-  to.push_back(exchanged(std::move(step)));
-}
-
-// A state from before the document was saved under another name is moved there when it comes back, and not when that
-// was done: a long history would take long to move, and most of it never comes back.
-Document::Step Document::exchanged(Step step) {
+  // A state from before the document was saved under another name is moved there when it comes back, and not when that
+  // was done: a long history would take long to move, and most of it never comes back.
   const std::filesystem::path file = whole().file;
   if (step.before.project->file != file)
     step.before = {++last_number_, std::make_shared<const Project>(moved_to(*step.before.project, file))};
-  Step back{std::move(step.name), state_, std::exchange(selection_, step.selection)};
+  to.push_back({std::move(step.name), state_, std::exchange(selection_, step.selection)});
   show(std::move(step.before));
-  return back;
 }
 
 void Document::keep_selection_valid() {

@@ -156,8 +156,6 @@ class Document {
   void take_step(std::vector<Step>& from, std::vector<Step>& to);
   void show(Revision state);  // sets the present state, and what the active camera sees of it
   [[nodiscard]] const FootageSettings& counted_footage() const;
-  // Makes the state of a step the present one, as a state of the document's file, and returns the step that leads back.
-  Step exchanged(Step step);
   // After every edit: indices and frames that no longer exist become the nearest that do.
   void keep_selection_valid();
   void keep_playhead_valid();

@@ -15,12 +15,6 @@ namespace sigs::editor {
 
 namespace {
 
-std::string with_spaces(std::string_view name) {
-  std::string text(name);
-  std::ranges::replace(text, '_', ' ');
-  return text;
-}
-
 // Beside a number. Frames are named by the label.
 std::string unit_text(std::string_view unit) {
   if (unit.empty() || unit == "frame") return "";
@@ -50,9 +44,7 @@ struct Words {
     return fmt::format("{}, {}, {}", number_text(v.x), number_text(v.y), number_text(v.z, field.unit));
   }
   std::string operator()(const std::vector<std::string>& values) const {
-    std::string text;
-    for (const std::string& value : values) text += (text.empty() ? "" : ", ") + value;
-    return text.empty() ? "none" : text;
+    return values.empty() ? "none" : listed(values);
   }
   std::string operator()(ChosenName value) const {
     const auto* const choice = std::get_if<Choice>(&field.value);
@@ -145,6 +137,12 @@ void keep_axes_apart(ModelSettings& model, const ModelSettings& before) {
 }
 
 }  // namespace
+
+std::string with_spaces(std::string_view name) {
+  std::string text(name);
+  std::ranges::replace(text, '_', ' ');
+  return text;
+}
 
 bool matches(const Field& field, std::string_view words) {
   const std::string where = lower_case(fmt::format("{} {} {}", field.key, label_of(field.key), field.help));

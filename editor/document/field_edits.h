@@ -68,6 +68,9 @@ class FieldSheet {
   std::vector<Field> default_fields_;  // in the same order
 };
 
+// A name of the project file as words: "constant_speed" is "constant speed".
+[[nodiscard]] std::string with_spaces(std::string_view name);
+
 // How a key is called on the screen: "camera.speed_mps" is "Speed".
 [[nodiscard]] std::string label_of(std::string_view key);
 

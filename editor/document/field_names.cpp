@@ -110,8 +110,7 @@ std::string label_of(std::string_view key) {
       last.remove_suffix(unit.size());
       break;
     }
-  std::string label(last);
-  std::ranges::replace(label, '_', ' ');
+  std::string label = with_spaces(last);
   if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
   return label;
 }

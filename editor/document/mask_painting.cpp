@@ -12,6 +12,13 @@
 
 namespace sigs::editor {
 
+bool is_same_mask(const cv::Mat& a, const cv::Mat& b) {
+  if (a.size() != b.size()) return false;
+  for (int y = 0; y < a.rows; ++y)
+    if (!std::equal(a.ptr<uchar>(y), a.ptr<uchar>(y) + a.cols, b.ptr<uchar>(y))) return false;
+  return true;
+}
+
 Result<void> write_mask(const cv::Mat& mask, const std::filesystem::path& path, bool overwrite) {
   std::vector<uchar> bytes;
   try {
@@ -71,12 +78,6 @@ cv::Range columns_of_row(int row, const glm::dvec2& from, const glm::dvec2& alon
 
 constexpr std::size_t kMaxBytesInHistory = std::size_t(256) << 20;
 constexpr std::size_t kMaxStrokes = 1000;
-
-bool is_same(const cv::Mat& a, const cv::Mat& b) {
-  for (int y = 0; y < a.rows; ++y)
-    if (!std::equal(a.ptr<uchar>(y), a.ptr<uchar>(y) + a.cols, b.ptr<uchar>(y))) return false;
-  return true;
-}
 
 }  // namespace
 
@@ -162,7 +163,7 @@ void MaskPainting::replace(const cv::Mat& mask, std::string name) {
 
 // A step that left every byte as it was is none.
 void MaskPainting::remember(std::string name, const cv::Rect& place, const cv::Mat& before, bool is_whole) {
-  if (is_same(mask_(place), before(place))) {
+  if (is_same_mask(mask_(place), before(place))) {
     if (is_whole) whole_state_ = state_;
     return;
   }
@@ -173,18 +174,15 @@ void MaskPainting::remember(std::string name, const cv::Rect& place, const cv::M
   forget_oldest();
 }
 
-void MaskPainting::swap_with(Step& step) {
+void MaskPainting::move_last(std::vector<Step>& from, std::vector<Step>& to) {
+  Step& step = from.back();
   cv::Mat here = mask_(step.place);
   const cv::Mat held = here.clone();
   step.other.copyTo(here);
   step.other = held;
   std::swap(step.other_state, state_);
   std::swap(step.other_whole_state, whole_state_);
-}
-
-void MaskPainting::move_last(std::vector<Step>& from, std::vector<Step>& to) {
-  swap_with(from.back());
-  to.push_back(std::move(from.back()));
+  to.push_back(std::move(step));
   from.pop_back();
 }
 

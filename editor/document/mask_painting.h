@@ -36,6 +36,9 @@ cv::Rect move_brush(cv::Mat& mask, const Brush& brush, const glm::dvec2& from, c
 // The next larger (steps > 0) or smaller radius, within the limits.
 [[nodiscard]] double stepped_radius_px(double radius_px, int steps);
 
+// Whether both, CV_8UC1, have the same bytes.
+[[nodiscard]] bool is_same_mask(const cv::Mat& a, const cv::Mat& b);
+
 // A mask as a PNG: 8 bits, one channel. Appears under its name when it is complete. Errors: cannot_create,
 // write_failed.
 [[nodiscard]] Result<void> write_mask(const cv::Mat& mask, const std::filesystem::path& path, bool overwrite);
@@ -106,7 +109,6 @@ class MaskPainting {
   };
 
   void remember(std::string name, const cv::Rect& place, const cv::Mat& before, bool is_whole);
-  void swap_with(Step& step);
   void move_last(std::vector<Step>& from, std::vector<Step>& to);
   void move(const glm::dvec2& to);
   void forget_oldest();

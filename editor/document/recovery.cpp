@@ -203,8 +203,10 @@ Result<void> Recovery::hold_lock() {
 // The mask first: the file that names it follows it, and what it no longer names goes last.
 Result<void> Recovery::write(const Document& document, const MaskToKeep& mask) {
   if (const Result<void> held = hold_lock(); !held) return held;
-  if (const Result<void> done = write_mask_of(mask); !done) return done;
   const fs::path mask_file = mask.state != 0 ? mask_of(file_) : fs::path();
+  const bool lies_there = mask_file_ == mask_file && kept_mask_ == mask.state;
+  if (mask.state != 0 && !lies_there)
+    if (const Result<void> done = write_mask(mask.pixels, mask_file, true); !done) return done;
   const std::string text = text_of_recovery(document, mask_file, mask);
   if (const Result<void> done = write_text(file_, text, true); !done) return done;
   remove_mask_other_than(mask_file);
@@ -215,20 +217,10 @@ Result<void> Recovery::write(const Document& document, const MaskToKeep& mask) {
   return {};
 }
 
-Result<void> Recovery::write_mask_of(const MaskToKeep& mask) {
-  const bool lies_there = mask_file_ == mask_of(file_) && kept_mask_ == mask.state;
-  if (mask.state == 0 || lies_there) return {};
-  return write_mask(mask.pixels, mask_of(file_), true);
-}
-
 void Recovery::remove_mask_other_than(const fs::path& kept) noexcept {
   std::error_code code;
   if (!mask_file_.empty() && mask_file_ != kept) fs::remove(mask_file_, code);
   mask_file_ = kept;
-}
-
-bool Recovery::is_kept(const Document& document, const MaskToKeep& mask) const {
-  return written_ && kept_revision_ == document.state().number && kept_mask_ == mask.state;
 }
 
 std::optional<Error> Recovery::keep(const Document& document, double now_s, double delay_s, const MaskToKeep& mask) {
@@ -237,7 +229,7 @@ std::optional<Error> Recovery::keep(const Document& document, double now_s, doub
     forget();
     return std::nullopt;
   }
-  if (is_kept(document, mask)) {
+  if (written_ && kept_revision_ == document.state().number && kept_mask_ == mask.state) {
     waiting_since_s_.reset();
     return std::nullopt;
   }

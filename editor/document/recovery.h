@@ -93,9 +93,6 @@ class Recovery {
 
  private:
   [[nodiscard]] Result<void> hold_lock();  // makes the folder and takes the lock, once
-  // Whether all of it lies on disk as it is.
-  [[nodiscard]] bool is_kept(const Document& document, const MaskToKeep& mask) const;
-  [[nodiscard]] Result<void> write_mask_of(const MaskToKeep& mask);
   void remove_mask_other_than(const std::filesystem::path& kept) noexcept;
 
   std::filesystem::path folder_;

@@ -16,14 +16,10 @@ bool has_size(const glm::dvec2& size) {
   return is_finite(size) && size.x > 0 && size.y > 0;
 }
 
-// A whole number of screen pixels an image pixel, or of image pixels a screen pixel.
-double whole_zoom(double zoom) {
-  return zoom >= 1 ? std::round(zoom) : 1 / std::round(1 / zoom);
-}
-
 // Only a whole zoom that lies ahead draws the zoom to itself: slow steps of a touch pad get away from one.
 double snapped_zoom(double before, double zoom) {
-  const double whole = whole_zoom(zoom);
+  // A whole number of screen pixels an image pixel, or of image pixels a screen pixel.
+  const double whole = zoom >= 1 ? std::round(zoom) : 1 / std::round(1 / zoom);
   const bool is_close = std::abs(whole - zoom) <= kSnapShare * zoom;
   const bool is_ahead = zoom > before ? whole > before : whole < before;
   return is_close && is_ahead ? whole : zoom;

@@ -58,23 +58,16 @@ double steady_now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-ExportJob::ExportJob(std::function<void()> wake)
-    : BackgroundJob(std::move(wake), [](const ExportRequest& request, const JobControl& control) {
-        const ExportControl passed{.progress = control.progress, .warn = control.warn, .cancel = control.cancel};
-        return request.project.cameras.empty() ? export_project(request, passed) : exported_cameras(request, passed);
-      }) {}
-
-Result<OwnBody> detected(const DetectionRequest& request, const DetectionControl& control) {
-  const Project& project = request.project;
-  Result<FrameSource> source = open_footage(project, control.cancel);
-  if (!source) return fail(source.error());
-  return detect_own_body(*source, project.footage.first_frame, project.own_body, control);
+Result<ExportReport> exported(const ExportRequest& request, const JobControl& control) {
+  const ExportControl passed{.progress = control.progress, .warn = control.warn, .cancel = control.cancel};
+  return request.project.cameras.empty() ? export_project(request, passed) : exported_cameras(request, passed);
 }
 
-OwnBodyJob::OwnBodyJob(std::function<void()> wake, Detect detect)
-    : BackgroundJob(
-          std::move(wake), [detect = std::move(detect)](const DetectionRequest& request, const JobControl& control) {
-            return detect(request, {.progress = control.progress, .cancel = control.cancel, .stages = KeepStages::yes});
-          }) {}
+Result<OwnBody> detected(const Project& project, const JobControl& control) {
+  Result<FrameSource> source = open_footage(project, control.cancel);
+  if (!source) return fail(source.error());
+  return detect_own_body(*source, project.footage.first_frame, project.own_body,
+                         {.progress = control.progress, .cancel = control.cancel, .stages = KeepStages::yes});
+}
 
 }  // namespace sigs::editor

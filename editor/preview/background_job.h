@@ -242,33 +242,16 @@ class BackgroundJob {
 
 // Exports a project as `sigs export` does, with all of its cameras where it has several. A run that is stopped leaves
 // no files behind. The request holds the project by value, so edits made meanwhile do not matter.
-using ExportState = JobState<ExportRequest, ExportReport>;
-class ExportJob : public BackgroundJob<ExportRequest, ExportReport> {
- public:
-  // Without `work` it exports; tests give work that writes nothing.
-  explicit ExportJob(std::function<void()> wake);
-  ExportJob(std::function<void()> wake, Work work) : BackgroundJob(std::move(wake), std::move(work)) {}
-};
+[[nodiscard]] Result<ExportReport> exported(const ExportRequest& request, const JobControl& control);
 
-// Whose footage is looked through for the own body: from the first frame that the project uses on, by its settings.
-struct DetectionRequest {
-  Project project;
+using ExportJob = BackgroundJob<ExportRequest, ExportReport>;
+using ExportState = ExportJob::State;
 
-  [[nodiscard]] bool operator==(const DetectionRequest&) const = default;
-};
+// Finds the own body in the footage of a project, from the first frame that the project uses on, by its settings, with
+// images of all stages. Errors: those of open_footage() and of detect_own_body().
+[[nodiscard]] Result<OwnBody> detected(const Project& project, const JobControl& control);
 
-// Opens the footage and runs the engine's detection in it, with the progress and the cancellation of `control`. On the
-// calling thread, for seconds or minutes. Errors: those of open_footage() and of detect_own_body().
-[[nodiscard]] Result<OwnBody> detected(const DetectionRequest& request, const DetectionControl& control);
-
-// Finds the own body in footage. Images of all stages are kept with the result. The request is copied, as in ExportJob.
-using DetectionState = JobState<DetectionRequest, OwnBody>;
-class OwnBodyJob : public BackgroundJob<DetectionRequest, OwnBody> {
- public:
-  // What does the work; tests give one that reads no video.
-  using Detect = std::function<Result<OwnBody>(const DetectionRequest&, const DetectionControl&)>;
-
-  explicit OwnBodyJob(std::function<void()> wake, Detect detect = detected);
-};
+using OwnBodyJob = BackgroundJob<Project, OwnBody>;
+using DetectionState = OwnBodyJob::State;
 
 }  // namespace sigs::editor

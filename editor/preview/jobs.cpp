@@ -38,10 +38,9 @@ std::string stated_lens(const std::filesystem::path& video, const VideoInfo& inf
 
 }  // namespace
 
-Result<Appearance> estimated_appearance(const AppearanceRequest& request, const JobControl& control) {
-  const FootageSettings& settings = request.project.footage;
-  return appearance_of_footage(request.project, {.first = settings.first_frame, .last = settings.last_frame},
-                               is_still_guessed(request.project, "camera.position_m"),
+Result<Appearance> estimated_appearance(const Project& project, const JobControl& control) {
+  return appearance_of_footage(project, {.first = project.footage.first_frame, .last = project.footage.last_frame},
+                               is_still_guessed(project, "camera.position_m"),
                                {.progress = control.progress, .cancel = control.cancel, .warn = control.warn});
 }
 

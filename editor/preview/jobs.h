@@ -19,17 +19,12 @@
 
 namespace sigs::editor {
 
-// Whose footage is looked at: the frames that the project uses.
-struct AppearanceRequest {
-  Project project;
-};
-
-// Estimates how the footage looks (appearance/appearance.h). On the calling thread, for seconds. Errors: those of
-// open_footage() and of estimate_appearance().
-[[nodiscard]] Result<Appearance> estimated_appearance(const AppearanceRequest& request, const JobControl& control);
+// Estimates how the footage looks (appearance/appearance.h) in the frames that the project uses. On the calling thread,
+// for seconds. Errors: those of open_footage() and of estimate_appearance().
+[[nodiscard]] Result<Appearance> estimated_appearance(const Project& project, const JobControl& control);
 
 // The same in the background (editor/views/estimate_session.h).
-using AppearanceState = JobState<AppearanceRequest, Appearance>;
+using AppearanceState = JobState<Project, Appearance>;
 
 // By what in the footage the light is to be found.
 struct LightRequest {

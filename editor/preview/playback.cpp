@@ -44,26 +44,19 @@ class PlayedStretch {
   int last_;
 };
 
-PlayedFrame forwards(const PlayedStretch& stretch, int start, double played_s, bool loop) {
+// After playing for some time from the start of a frame on, or backwards from its end.
+PlayedFrame played(const PlayedStretch& stretch, int start, double played_s, bool backwards, bool loop) {
   const double begin_s = stretch.begin_s(stretch.first());
   const double end_s = stretch.end_s(stretch.last());
-  double at_s = stretch.begin_s(start) + played_s;
-  if (at_s >= end_s - kTolerance_s) {
-    if (!loop || end_s <= begin_s) return {stretch.last(), !loop};
-    at_s = begin_s + std::fmod(at_s - begin_s + kTolerance_s, end_s - begin_s);
+  double at_s = backwards ? stretch.end_s(start) - played_s : stretch.begin_s(start) + played_s;
+  if (backwards ? at_s <= begin_s + kTolerance_s : at_s >= end_s - kTolerance_s) {
+    if (!loop || end_s <= begin_s) return {backwards ? stretch.first() : stretch.last(), !loop};
+    const double past_s = backwards ? end_s - at_s : at_s - begin_s;
+    const double again_s = std::fmod(past_s + kTolerance_s, end_s - begin_s);
+    at_s = backwards ? end_s - again_s : begin_s + again_s;
   }
-  return {std::min(stretch.frame_of(at_s, false), stretch.last()), false};
-}
-
-PlayedFrame backwards(const PlayedStretch& stretch, int start, double played_s, bool loop) {
-  const double begin_s = stretch.begin_s(stretch.first());
-  const double end_s = stretch.end_s(stretch.last());
-  double at_s = stretch.end_s(start) - played_s;
-  if (at_s <= begin_s + kTolerance_s) {
-    if (!loop || end_s <= begin_s) return {stretch.first(), !loop};
-    at_s = end_s - std::fmod(end_s - at_s + kTolerance_s, end_s - begin_s);
-  }
-  return {std::max(stretch.frame_of(at_s, true), stretch.first()), false};
+  const int frame = stretch.frame_of(at_s, backwards);
+  return {backwards ? std::max(frame, stretch.first()) : std::min(frame, stretch.last()), false};
 }
 
 }  // namespace
@@ -82,9 +75,9 @@ PlayedFrame Playback::frame_at(double now_s, const PlayTimes& times, const PlayR
   if (!playing()) return {start, false};
   const double played_s = std::max(0.0, now_s - start_s_) * std::abs(speed_);
   const int spent = range.loop ? 0 : 1;  // without a loop there is nothing left to play at the range's end
-  if (speed_ > 0)
-    return forwards(stretch, start + spent > stretch.last() ? stretch.first() : start, played_s, range.loop);
-  return backwards(stretch, start - spent < stretch.first() ? stretch.last() : start, played_s, range.loop);
+  const bool is_past = speed_ > 0 ? start + spent > stretch.last() : start - spent < stretch.first();
+  const int begin = !is_past ? start : speed_ > 0 ? stretch.first() : stretch.last();
+  return played(stretch, begin, played_s, speed_ < 0, range.loop);
 }
 
 }  // namespace sigs::editor

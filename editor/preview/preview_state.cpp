@@ -174,10 +174,6 @@ void PreviewState::stop() {
   notify_threads();
 }
 
-bool PreviewState::may_prefetch() const {
-  return !prefetch_paused_ && Clock::now() - revised_ >= kStillEditing;
-}
-
 std::optional<FrameKey> PreviewState::next_to_decode() const {
   const bool is_there = footage_.id != ContentId() && footage_.id == footage_wanted_.id && opened_footage_->video;
   if (!wanted_ || !wanted_->image || !is_there) return std::nullopt;
@@ -251,7 +247,7 @@ std::optional<PreviewSnapshot> PreviewState::snapshot() {
   snapshot->wanted = wanted_;
   snapshot->footage = footage_;
   snapshot->opened_footage = opened_footage_;
-  snapshot->ahead = may_prefetch();
+  snapshot->ahead = !prefetch_paused_ && Clock::now() - revised_ >= kStillEditing;
   if (last_decoded_.value) snapshot->fresh = last_decoded_.key;
   return snapshot;
 }

@@ -148,7 +148,6 @@ class PreviewState {
   [[nodiscard]] int clamped(int frame) const;  // into the frames of the scene that is open; unchanged without one
   [[nodiscard]] std::shared_ptr<const PreviewImage> found(FrameKey key) const;
   [[nodiscard]] bool is_decoded(FrameKey key) const;
-  [[nodiscard]] bool may_prefetch() const;
   [[nodiscard]] std::optional<FrameKey> next_to_decode() const;
   // Tells the caches where the playhead is, and shows the wanted image where a cache holds it.
   void follow_playhead();

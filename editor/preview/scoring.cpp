@@ -246,7 +246,14 @@ void Scoring::score(Tracker& tracker, const std::shared_ptr<const ClipTruth>& cl
         std::make_shared<const TrackScore>(score_track(*clip, *target_in(*clip, target), *tracker.results, *policy));
 }
 
-void Scoring::step(const ScoringRequest& wanted) {
+// What fails for want of memory is tried again at the next look at the files.
+void Scoring::update(const ScoringRequest& wanted) {
+  const bool has_work = !wanted.files.empty() && wanted.scene;
+  truth_.want(has_work ? wanted.scene : nullptr);
+  if (!has_work) {
+    trackers_.clear();
+    return;
+  }
   const FootageTruth footage = footage_truth_of(*wanted.scene);
   const TruthState truth = truth_.state();
   const std::shared_ptr<const ClipTruth> clip = clip_of(wanted, truth);
@@ -275,15 +282,6 @@ void Scoring::step(const ScoringRequest& wanted) {
                                 .score = tracker.score});
   }
   put(std::move(scored));
-}
-
-void Scoring::update(const ScoringRequest& wanted) {
-  const bool has_work = !wanted.files.empty() && wanted.scene;
-  truth_.want(has_work ? wanted.scene : nullptr);
-  if (has_work)
-    step(wanted);  // what fails for want of memory is tried again at the next look at the files
-  else
-    trackers_.clear();
 }
 
 }  // namespace sigs::editor

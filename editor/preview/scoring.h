@@ -193,8 +193,8 @@ class Scoring {
     std::shared_ptr<const TrackScore> score;
   };
 
-  void update(const ScoringRequest& wanted);  // the worker's work: has the truth measured, then makes one step
-  void step(const ScoringRequest& wanted);    // reads and scores what has changed, and puts the result
+  // The worker's work: has the truth measured, reads and scores what has changed, and puts the result.
+  void update(const ScoringRequest& wanted);
   // The measured truth where it belongs to the wanted scene, else the outlines. Null: neither is there.
   [[nodiscard]] std::shared_ptr<const ClipTruth> clip_of(const ScoringRequest& wanted, const TruthState& truth);
   // Reads the file where it, the footage or the start frame is another one than at the last time.

@@ -63,21 +63,17 @@ class LatestRequestWorker {
 
   // Returns at once. A request equal to the latest changes nothing.
   void want(Request request) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (request == latest_) return;
-      latest_ = std::move(request);
-      is_due_ = true;
-    }
+    const std::lock_guard lock(mutex_);
+    if (request == latest_) return;
+    latest_ = std::move(request);
+    is_due_ = true;
     changed_.notify_all();
   }
 
   // Has work called again, though the request is the same.
   void wake() {
-    {
-      const std::lock_guard lock(mutex_);
-      is_due_ = true;
-    }
+    const std::lock_guard lock(mutex_);
+    is_due_ = true;
     changed_.notify_all();
   }
 

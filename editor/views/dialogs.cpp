@@ -204,12 +204,6 @@ void RelinkDialog::browse(const ViewContext& context, const MissingFile& missing
                  .chosen = [this, missing](const fs::path& place) { found(missing, place_at(missing, place)); }});
 }
 
-void RelinkDialog::apply(const ViewContext& context) const {
-  std::vector<Relinked> places;
-  for (const auto& [field, place] : places_) places.push_back({field, place});
-  context.edits.change_whole("find missing files", [places](Project& project) { relink(project, places); });
-}
-
 void RelinkDialog::draw_rows(const ViewContext& context) {
   for (std::size_t i = 0; i < missing_.size(); ++i) {
     const MissingFile& missing = missing_[i];
@@ -260,7 +254,9 @@ void RelinkDialog::draw(const ViewContext& context) {
   if (dialog_button("Cancel")) closed = true;
   ImGui::SameLine();
   if (context.ui_probe.noted(dialog_button("Use these", true, !places_.empty()), "relink/apply")) {
-    apply(context);
+    std::vector<Relinked> places;
+    for (const auto& [field, place] : places_) places.push_back({field, place});
+    context.edits.change_whole("find missing files", [places](Project& project) { relink(project, places); });
     closed = true;
   }
   open_ = !closed;

@@ -58,7 +58,6 @@ class RelinkDialog {
   void browse(const ViewContext& context, const MissingFile& missing);
   // The person has chosen one: the others are looked for beside it.
   void found(const MissingFile& missing, const std::filesystem::path& place);
-  void apply(const ViewContext& context) const;
 
   bool open_ = false;
   std::vector<MissingFile> missing_;
@@ -67,15 +66,9 @@ class RelinkDialog {
   std::map<std::string, std::filesystem::path> suggested_;
 };
 
-// What the menu bar shows beside the menus.
-struct MenuBarContent {
-  bool has_project = false;
-  const ExportState& exporting;
-};
-
 // The bar along the window's upper edge: menus, the project's name with a dot where something is unsaved, the number
 // of its problems, and a running export. Which panels are shown it changes in the settings at once.
-void draw_menu_bar(const ViewContext& context, const MenuBarContent& content, Settings& settings);
+void draw_menu_bar(const ViewContext& context, bool has_project, const ExportState& exporting, Settings& settings);
 
 // Passing messages, above the timeline. Errors stay longer, and as long as the mouse is over one; a click takes any
 // away.

@@ -94,7 +94,7 @@ AppearanceSession::AppearanceSession(Edits& edits, std::function<void()> wake, W
 void AppearanceSession::start(const Document& document) {
   if (document.project().footage.video.empty())
     return edits().ask(ShowMessage{"There is no footage to match: choose a video first.", true});
-  begin(document, {document.project()});
+  begin(document, document.project());
 }
 
 }  // namespace sigs::editor

@@ -109,7 +109,7 @@ class EgoMotionSession : public EstimateSession<EgoMotionRequest, EstimatedMotio
 [[nodiscard]] std::string summary_of(const EstimatedMotion& motion);
 
 // "Match the footage": how the footage looks is estimated and set in the project.
-class AppearanceSession : public EstimateSession<AppearanceRequest, Appearance> {
+class AppearanceSession : public EstimateSession<Project, Appearance> {
  public:
   // work: tests give one that reads no video.
   AppearanceSession(Edits& edits, std::function<void()> wake, Work work = estimated_appearance);

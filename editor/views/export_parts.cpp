@@ -25,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// This desktop's program that opens folders and files, xdg-open; "": it has none.
 fs::path opener() {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
@@ -43,12 +44,6 @@ fs::path opener() {
   for (int stream = 0; stream < 3; ++stream) ::dup2(nowhere, stream);
   ::execl(program, program, argument, static_cast<char*>(nullptr));
   ::_exit(127);
-}
-
-// Whether this desktop has a program that opens folders and files: xdg-open.
-bool can_open_with_desktop() {
-  static const bool can = !opener().empty();
-  return can;
 }
 
 // Opens it with that program, which outlives us. False where that cannot be started.
@@ -262,7 +257,8 @@ void draw_result(const ViewContext& context, const ExportState& state) {
             fmt::format("{} in {}, {:.1f} frames/s", count_text(frames, "frame"), clock_text(wall_s),
                         frames / std::max(wall_s, 1e-3)));
   draw_written(context, state);
-  if (!can_open_with_desktop()) return;
+  static const bool can_open_with_desktop = !opener().empty();
+  if (!can_open_with_desktop) return;
   if (context.ui_probe.noted(dialog_button("Open folder"), "export/open folder") &&
       !open_with_desktop(state.request.folder))
     context.edits.ask(ShowMessage{state.request.folder.string() + " could not be opened", true});

@@ -212,18 +212,18 @@ class RightSide {
 
 }  // namespace
 
-void draw_menu_bar(const ViewContext& context, const MenuBarContent& content, Settings& settings) {
+void draw_menu_bar(const ViewContext& context, bool has_project, const ExportState& exporting, Settings& settings) {
   if (!ImGui::BeginMainMenuBar()) return;
-  draw_file_menu(context, content.has_project);
-  draw_edit_menu(context, content.has_project);
+  draw_file_menu(context, has_project);
+  draw_edit_menu(context, has_project);
   draw_view_menu(context, settings);
   draw_help_menu(context);
   RightSide right(context);
-  right.show_export(content.exporting);
+  right.show_export(exporting);
   right.show_estimate("camera motion progress", "Camera motion", context.ego_motion);
   right.show_estimate("matching progress", "Matching the footage", context.appearance);
   right.show_estimate("light progress", "Finding the light", context.light);
-  if (content.has_project) {
+  if (has_project) {
     if (context.shown.scene) right.show_problems(context.shown.scene->draft.problems);
     right.show_name();
   }

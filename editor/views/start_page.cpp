@@ -98,7 +98,7 @@ void StartPage::look_for(const std::vector<fs::path>& recent) {
   }
 }
 
-void StartPage::draw_head(const ViewContext& context, const StartPageContent& content) {
+void StartPage::draw_head(const ViewContext& context, const fs::path& loading) {
   draw_text("SIGS", color::kText, Font::title);
   draw_wrapped("Puts simulated aircraft into real UAV footage, with exact ground truth.", color::kQuiet);
   ImGui::Dummy({0, scaled(6)});
@@ -110,18 +110,18 @@ void StartPage::draw_head(const ViewContext& context, const StartPageContent& co
                              "Open a project file (Ctrl+O); or drop one onto this window"))
     context.edits.ask(OpenProject{});
   quiet_text("or drop a video, a folder of images or a project onto this window");
-  if (content.loading.empty()) return;
+  if (loading.empty()) return;
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  quiet_text(
-      elided(fmt::format("Reading {}...", content.loading.filename().string()), ImGui::GetContentRegionAvail().x));
+  quiet_text(elided(fmt::format("Reading {}...", loading.filename().string()), ImGui::GetContentRegionAvail().x));
 }
 
-void StartPage::draw_abandoned(const ViewContext& context, const StartPageContent& content, StartPageChoice& choice) {
-  if (content.abandoned.empty()) return;
+void StartPage::draw_abandoned(const ViewContext& context, const std::vector<AbandonedProject>& abandoned,
+                               StartPageChoice& choice) {
+  if (abandoned.empty()) return;
   heading("Not saved when the editor last ended");
-  for (std::size_t i = 0; i < content.abandoned.size(); ++i) {
-    const AbandonedProject& project = content.abandoned[i];
+  for (std::size_t i = 0; i < abandoned.size(); ++i) {
+    const AbandonedProject& project = abandoned[i];
     const bool is_readable = project.problem.empty();
     ImGui::PushID(static_cast<int>(i));
     if (is_readable) {
@@ -220,7 +220,8 @@ void StartPage::draw_recent(const ViewContext& context, float width) {
   }
 }
 
-StartPageChoice StartPage::draw(const ViewContext& context, const StartPageContent& content) {
+StartPageChoice StartPage::draw(const ViewContext& context, const std::vector<AbandonedProject>& abandoned,
+                                const fs::path& loading) {
   look_for(context.settings.recent);
   StartPageChoice choice;
   const float room = ImGui::GetContentRegionAvail().x;
@@ -228,8 +229,8 @@ StartPageChoice StartPage::draw(const ViewContext& context, const StartPageConte
   ImGui::BeginChild("start page", {0, 0});
   ImGui::SetCursorPos({(room - width) / 2, scaled(36)});
   ImGui::BeginChild("start content", {width, ImGui::GetContentRegionAvail().y}, false);
-  draw_head(context, content);
-  draw_abandoned(context, content, choice);
+  draw_head(context, loading);
+  draw_abandoned(context, abandoned, choice);
   const float inner = ImGui::GetContentRegionAvail().x;
   draw_samples(context, inner);
   draw_recent(context, inner);

@@ -15,12 +15,6 @@
 
 namespace sigs::editor {
 
-// What the page shows beside samples and recent projects; valid for the call.
-struct StartPageContent {
-  const std::vector<AbandonedProject>& abandoned;
-  std::filesystem::path loading;  // a project file that is being read; "": none
-};
-
 // What the person wants with an abandoned project, in the update in which it is chosen; everything else goes through
 // the context's edits.
 struct StartPageChoice {
@@ -48,7 +42,9 @@ class StartPage {
   StartPage(const std::filesystem::path& samples, std::function<void()> wake);
 
   // Once per update, into the current ImGui window.
-  [[nodiscard]] StartPageChoice draw(const ViewContext& context, const StartPageContent& content);
+  //   loading  a project file that is being read; "": none
+  [[nodiscard]] StartPageChoice draw(const ViewContext& context, const std::vector<AbandonedProject>& abandoned,
+                                     const std::filesystem::path& loading);
 
  private:
   // A project of Settings::recent.
@@ -58,11 +54,12 @@ class StartPage {
   };
   // Looks which recent projects are there, when the list has changed.
   void look_for(const std::vector<std::filesystem::path>& recent);
-  void draw_head(const ViewContext& context, const StartPageContent& content);
+  void draw_head(const ViewContext& context, const std::filesystem::path& loading);
   void draw_samples(const ViewContext& context, float width);
   void draw_card(const ViewContext& context, const SampleProject& sample, float width, float height);
   void draw_recent(const ViewContext& context, float width);
-  void draw_abandoned(const ViewContext& context, const StartPageContent& content, StartPageChoice& choice);
+  void draw_abandoned(const ViewContext& context, const std::vector<AbandonedProject>& abandoned,
+                      StartPageChoice& choice);
 
   std::vector<SampleProject> samples_;
   // As the disk was when the list last changed.

@@ -81,6 +81,10 @@ std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder
                          context.document.last_frame());
 }
 
+double frame_of_waypoint(const ViewContext& context, int intruder, int waypoint) {
+  return frames_of_waypoints(context, intruder)[static_cast<std::size_t>(waypoint)];
+}
+
 bool can_fix_frames(const ViewContext& context, int intruder) {
   const std::vector<WaypointSettings>& waypoints = plan_of(context, intruder).waypoints;
   if (is_range_known(context) || std::ranges::all_of(waypoints, [](const auto& w) { return w.frame.has_value(); }))
@@ -107,12 +111,10 @@ void turn_waypoint(const ViewContext& context, int intruder, int waypoint, std::
 }
 
 std::optional<glm::dvec3> position_of(const ViewContext& context, int intruder, double frame) {
-  if (!context.shown.scene) return std::nullopt;
-  const DraftScene& draft = context.shown.scene->draft;
-  const auto index = static_cast<std::size_t>(intruder);
-  if (index >= draft.intruder_of_project.size() || draft.intruder_of_project[index] < 0) return std::nullopt;
-  const auto in_scene = static_cast<std::size_t>(draft.intruder_of_project[index]);
-  return draft.scene.intruders[in_scene].trajectory.position_m(time_of(context, frame));
+  const std::optional<int> in_scene = scene_intruder(context, intruder);
+  if (!in_scene) return std::nullopt;
+  const SceneIntruder& flown = shown_scene(context)->intruders[static_cast<std::size_t>(*in_scene)];
+  return flown.trajectory.position_m(time_of(context, frame));
 }
 
 void add_waypoint(const ViewContext& context, int intruder, double frame, const glm::dvec3& position_m) {

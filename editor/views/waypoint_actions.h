@@ -29,6 +29,7 @@ namespace sigs::editor {
 [[nodiscard]] const WaypointSettings* waypoint_of(const Project& project, int intruder, int waypoint);
 // The moment of each of an intruder's waypoints, in frames of the footage; not whole where frames are spread evenly.
 [[nodiscard]] std::vector<double> frames_of_waypoints(const ViewContext& context, int intruder);
+[[nodiscard]] double frame_of_waypoint(const ViewContext& context, int intruder, int waypoint);
 
 // Whether an edit may give every waypoint of an intruder the frame at which it stands now. Not where some are spread
 // evenly over a range that nobody knows, as the footage is missing or not open yet: then a message says so.

@@ -38,21 +38,10 @@ fs::path home() {
   return folder != nullptr && *folder != '\0' ? fs::path(folder) : fs::path("/");
 }
 
-bool is_folder(const fs::path& path) {
-  std::error_code code;
-  return fs::is_directory(path, code);
-}
-
 // It, or the nearest of those above it that is there.
 fs::path nearest_folder(fs::path path) {
   while (!is_folder(path) && path.has_relative_path()) path = path.parent_path();
   return path.empty() ? home() : path;
-}
-
-bool begins_with(const std::string& name, const std::string& typed) {
-  return name.size() >= typed.size() && std::equal(typed.begin(), typed.end(), name.begin(), [](char a, char b) {
-           return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-         });
 }
 
 }  // namespace
@@ -198,6 +187,11 @@ void FileBrowser::go_to_text(const std::string& text) {
   }
 }
 
+void FileBrowser::begin_path() {
+  editing_path_ = focus_bottom_ = true;
+  path_text_ = folder_.string();
+}
+
 void FileBrowser::handle_typed() {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl || io.KeyAlt || io.InputQueueCharacters.empty()) return;
@@ -207,7 +201,7 @@ void FileBrowser::handle_typed() {
   for (const ImWchar c : io.InputQueueCharacters)
     if (c >= ' ' && c < 127) typed_ += static_cast<char>(c);
   for (std::size_t i = 0; i < shown_.size() && !typed_.empty(); ++i) {
-    if (!begins_with(shown_[i].name, typed_)) continue;
+    if (!lower_case(shown_[i].name).starts_with(lower_case(typed_))) continue;
     select(static_cast<int>(i));
     scroll_to_selected_ = true;
     return;
@@ -215,11 +209,7 @@ void FileBrowser::handle_typed() {
 }
 
 void FileBrowser::handle_keys() {
-  if (ImGui::GetIO().KeyCtrl && pressed(Key::l)) {
-    editing_path_ = true;
-    path_text_ = folder_.string();
-    focus_bottom_ = true;
-  }
+  if (ImGui::GetIO().KeyCtrl && pressed(Key::l)) begin_path();
   if (editing_path_ || bottom_ != Bottom::answer) return;
   const int before = selected_;
   const int page = 12;

@@ -131,6 +131,7 @@ class FileBrowser {
   void make_folder();
   // What was typed as a path: absolute, from the present folder, or from "~".
   void go_to_text(const std::string& text);
+  void begin_path();  // to be typed
   void handle_keys();
   // Letters select the entry whose name begins with them.
   void handle_typed();

@@ -63,16 +63,10 @@ void FileBrowser::draw_path_bar() {
     ImGui::EndChild();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
-    if (clicked_beside) {
-      editing_path_ = focus_bottom_ = true;
-      path_text_ = folder_.string();
-    }
+    if (clicked_beside) begin_path();
   }
   ImGui::SameLine();
-  if (icon_button("type", Icon::search, "Type a path (Ctrl+L)")) {
-    editing_path_ = focus_bottom_ = true;
-    path_text_ = folder_.string();
-  }
+  if (icon_button("type", Icon::search, "Type a path (Ctrl+L)")) begin_path();
   ImGui::SameLine();
   if (icon_button("refresh", Icon::reset, "Read the folder again (F5)")) refresh();
 }

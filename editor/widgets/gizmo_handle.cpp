@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "editor/widgets/keys.h"
+#include "editor/widgets/texts.h"
 #include "editor/widgets/theme.h"
 
 namespace sigs::editor {
@@ -59,11 +60,6 @@ struct Row {
 constexpr std::array<Row, 3> kRows{{{"##x", "X", "forward", color::kAxisX},
                                     {"##y", "Y", "right", color::kAxisY},
                                     {"##z", "Z", "down", color::kAxisZ}}};
-
-// What a person may type that is no place: an overflow, 1e400.
-bool is_a_place(const glm::dvec3& p_m) {
-  return std::isfinite(p_m.x) && std::isfinite(p_m.y) && std::isfinite(p_m.z);
-}
 
 }  // namespace
 
@@ -194,7 +190,8 @@ std::optional<glm::dvec3> PointEntry::draw() {
     const bool apply = ImGui::Button("Apply", {scaled(90), 0}) || enter_pressed();
     ImGui::SameLine();
     const bool leave = ImGui::Button("Cancel", {scaled(90), 0}) || pressed(Key::escape);
-    if (apply && is_a_place(point_m_)) taken = glm::clamp(point_m_, -kMaxCoordinate_m, kMaxCoordinate_m);
+    // What a person may type that is no place: an overflow, 1e400.
+    if (apply && is_finite(point_m_)) taken = glm::clamp(point_m_, -kMaxCoordinate_m, kMaxCoordinate_m);
     if (taken || leave) state_ = State::leaving;
   }
   ImGui::EndPopup();

@@ -215,11 +215,6 @@ struct IconPen {
 
 constexpr float kRestBeforeTooltip_s = 0.35F;
 
-// The side of an icon within a button of some height.
-float icon_size() {
-  return ImGui::GetFontSize() * 1.1F;
-}
-
 }  // namespace
 
 void draw_diamond(ImDrawList& list, ImVec2 c, float r, ImU32 color) {
@@ -254,7 +249,7 @@ bool icon_button(const char* id, Icon icon, const char* tooltip, bool on) {
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 center{low.x + side / 2, low.y + side / 2};
   const ImU32 shade = ImGui::GetColorU32(on ? color::kAccent : color::kText);  // paler where disabled
-  draw_icon(*ImGui::GetWindowDrawList(), icon, center, icon_size(), shade);
+  draw_icon(*ImGui::GetWindowDrawList(), icon, center, ImGui::GetFontSize() * 1.1F, shade);
   tooltip_for_item(tooltip);
   return clicked;
 }

@@ -15,10 +15,6 @@ namespace {
 
 constexpr long kUpdatesKept = 30;
 
-std::size_t bytes_on_card(const cv::Mat& image, int divisor) {
-  return 4 * static_cast<std::size_t>(reduced_size(image.size(), divisor).area());
-}
-
 // Three channels are widened here: drivers that draw in software do it sample by sample.
 cv::Mat uploadable(const cv::Mat& image) {
   ENSURE(image.type() == CV_8UC1 || image.type() == CV_8UC3 || image.type() == CV_8UC4);
@@ -110,7 +106,8 @@ ImTextureID Textures::of(const cv::Mat& image, Filter filter, int divisor) {
   if (is_new) entry = {.image = image, .name = uploaded(reduced_copy(image, divisor))};
   if (is_new || entry.filter != filter) set_filter(entry.name, filter);
   entry.filter = filter;
-  order_.use(key, bytes_on_card(image, divisor) + image.total() * image.elemSize());
+  const auto on_card = 4 * static_cast<std::size_t>(reduced_size(image.size(), divisor).area());
+  order_.use(key, on_card + image.total() * image.elemSize());
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(entry.name));
 }
 

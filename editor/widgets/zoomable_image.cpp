@@ -210,6 +210,10 @@ void draw_label(const ImageCanvas& canvas, const glm::dvec2& at, const std::stri
   draw_plate(canvas, plate_at(canvas, at, text), text, color);
 }
 
+void draw_corner_label(const ImageCanvas& canvas, const std::string& text, ImU32 color) {
+  draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)}, text, color);
+}
+
 void draw_label(const ImageCanvas& canvas, LabelPlacer& labels, std::span<const glm::dvec2> places,
                 const std::string& text, ImU32 color, bool in_any_case) {
   std::vector<ScreenRect> plates;

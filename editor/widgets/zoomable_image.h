@@ -93,6 +93,8 @@ void draw_label(const ImageCanvas& canvas, const glm::dvec2& at, const std::stri
 // in_any_case, else not at all.
 void draw_label(const ImageCanvas& canvas, LabelPlacer& labels, std::span<const glm::dvec2> places,
                 const std::string& text, ImU32 color, bool in_any_case);
+// In the lower left corner of the rect.
+void draw_corner_label(const ImageCanvas& canvas, const std::string& text, ImU32 color);
 // How large the plate of a text is.
 [[nodiscard]] glm::dvec2 label_size(const std::string& text);
 

@@ -48,7 +48,7 @@ std::string format_of(double value, const Field& field) {
   return is_whole ? "%.0f" : number_format(value, field.unit);
 }
 
-bool whole_number_input(const char* id, int& value, const Field& field, float width, Typing& typing) {
+bool number_input(const char* id, int& value, const Field& field, float width, Typing& typing) {
   const auto low = static_cast<int>(std::max(field.minimum, -1e9));
   const auto high = static_cast<int>(std::min(field.maximum, 1e9));
   ImGui::SetNextItemWidth(width);
@@ -58,14 +58,6 @@ bool whole_number_input(const char* id, int& value, const Field& field, float wi
   const bool is_new = takes_effect(is_changed, number, typing);
   value = static_cast<int>(number);
   return is_new;
-}
-
-bool any_number_input(double& value, const Field& field, float width, Typing& typing) {
-  return number_input("##number", value, field, width, typing);
-}
-
-bool any_number_input(int& value, const Field& field, float width, Typing& typing) {
-  return whole_number_input("##number", value, field, width, typing);
 }
 
 // Over a number that is 0 and means something else, while it is not changed.
@@ -109,19 +101,13 @@ std::optional<Edited> typed_text_input(const std::string& value, const Field& fi
   return std::nullopt;
 }
 
-std::string in_words(std::string_view name) {
-  std::string text(name);
-  std::ranges::replace(text, '_', ' ');
-  return text;
-}
-
 template <class Names>
 std::optional<int> combo(const Names& names, int chosen, const std::string& shown, float width) {
   std::optional<int> taken;
   ImGui::SetNextItemWidth(width);
   if (!ImGui::BeginCombo("##names", elided(shown, width).c_str())) return taken;
   for (int i = 0; i < static_cast<int>(names.size()); ++i)
-    if (ImGui::Selectable(shortened(in_words(names[static_cast<std::size_t>(i)])).c_str(), i == chosen)) taken = i;
+    if (ImGui::Selectable(shortened(with_spaces(names[static_cast<std::size_t>(i)])).c_str(), i == chosen)) taken = i;
   ImGui::EndCombo();
   return taken;
 }
@@ -194,7 +180,7 @@ struct Input {
   template <class Number>
   std::optional<Edited> number(Number value) const {
     const std::string word = value == 0 ? word_for_zero(field.key) : "";
-    const bool is_changed = any_number_input(value, field, width, typing);
+    const bool is_changed = number_input("##number", value, field, width, typing);
     if (!word.empty() && !ImGui::IsItemActive()) cover_with_word(word);
     if (!is_changed) return std::nullopt;
     return Edited{value};
@@ -216,7 +202,7 @@ struct Input {
       ImGui::TextDisabled("%s", value_text(field, PlainValue(std::optional<Number>())).c_str());
       return std::nullopt;
     }
-    if (!any_number_input(*value, field, room, typing)) return std::nullopt;
+    if (!number_input("##number", *value, field, room, typing)) return std::nullopt;
     return Edited{value};
   }
 

@@ -17,20 +17,17 @@ namespace {
 constexpr double kNarrow = 250;
 constexpr float kLabelShare = 0.4F;
 
-bool is_narrow() {
-  return ImGui::GetContentRegionAvail().x < scaled(kNarrow);
-}
-
 std::string lower_first(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
   return text;
 }
 
-bool takes_whole_row(const Field& field, const RowOptions& look) {
-  return std::holds_alternative<glm::dvec3*>(field.value) && !look.is_color;
-}
-
 }  // namespace
+
+bool has_problem(const ProblemsByField& problems, std::string_view key) {
+  const auto found = problems.lower_bound(key);
+  return found != problems.end() && found->first.starts_with(key);
+}
 
 void note(const std::string& text, bool is_warning) {
   draw_wrapped(shortened(text), is_warning ? color::kPartly : color::kQuiet, Font::small);
@@ -69,7 +66,7 @@ void RowMemory::refresh(const ViewContext& context) {
 
 float FieldRows::begin_row(const std::string& label, bool below) {
   const float room = ImGui::GetContentRegionAvail().x;
-  const bool above = below || is_narrow();
+  const bool above = below || ImGui::GetContentRegionAvail().x < scaled(kNarrow);
   const float width = above ? room - icon_button_width() : room * kLabelShare - scaled(6);
   const float start = ImGui::GetCursorPosX();
   if (!above) ImGui::AlignTextToFramePadding();
@@ -153,7 +150,7 @@ void FieldRows::row(std::string_view key, const RowOptions& look) {
     return;
   }
   const bool is_wrong = problems_.find(key) != problems_.end();
-  const bool below = takes_whole_row(*field, look);
+  const bool below = std::holds_alternative<glm::dvec3*>(field->value) && !look.is_color;
   ImGui::PushID(field->key.c_str());
   const float label_y = ImGui::GetCursorScreenPos().y;
   std::string label = look.label.empty() ? label_of(key) : look.label;

@@ -28,6 +28,11 @@ struct RowOptions {
   bool is_hidden = false;  // rows() passes over it
 };
 
+// Where `is_off`, the row cannot be edited, for this reason.
+[[nodiscard]] inline RowOptions off_where(bool is_off, const char* reason) {
+  return {.off_because = is_off ? reason : ""};
+}
+
 // What is being typed: it becomes the value when it is finished, and is forgotten by Escape.
 struct Typing {
   std::string key;  // of the field that a text is for
@@ -57,6 +62,9 @@ struct Edited {
 
 // What is wrong, by the key of the field that it is in: "intruders[0].model.file".
 using ProblemsByField = std::multimap<std::string, Problem, std::less<>>;
+
+// Whether something is wrong with a key, or with one that begins so.
+[[nodiscard]] bool has_problem(const ProblemsByField& problems, std::string_view key);
 
 // What rows remember from one update to the next; the view that makes FieldRows owns it.
 struct RowMemory {
@@ -146,13 +154,17 @@ class ButtonFlow {
   float right_x_ = -1;  // right edge of the last one, on the screen; -1: there is none yet
 };
 
-// A bar with the frames that are done, and the button "Stop" below it, which is the item drawn last. True when the
-// button is clicked.
+// A bar with the frames that are done, and the button "Stop" below it. True when the button is clicked.
 [[nodiscard]] bool draw_job_progress(int done, int total, bool is_stopping);
 
-template <class Request, class Value>
-[[nodiscard]] bool draw_job_progress(const JobState<Request, Value>& state) {
-  return draw_job_progress(state.done, state.total, state.is_stopping);
+// The progress of a job that runs, whose button, known by this id, asks `stop`. False: it does not run.
+template <class Asked, class Value>
+[[nodiscard]] bool draw_if_running(const ViewContext& context, const JobState<Asked, Value>& state, const Request& stop,
+                                   const char* id) {
+  if (!state.is_running()) return false;
+  if (draw_job_progress(state.done, state.total, state.is_stopping)) context.edits.ask(stop);
+  context.ui_probe.note_item(id);
+  return true;
 }
 
 }  // namespace sigs::editor

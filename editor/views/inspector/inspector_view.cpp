@@ -51,10 +51,10 @@ void draw_own_body(const ViewContext& context, FieldRows& rows) {
   rows.rows("footage.occluder_");
   note("Clouds in the footage, found in each frame. How far they are is yours to say.");
   rows.rows("footage.cloud_", [&](const Field& field) {
-    RowOptions look;
+    const bool is_depth = field.key == "footage.cloud_depth_m";
+    RowOptions look =
+        off_where(is_depth && !context.project().footage.cloud_distance_m, "Counts where clouds hide intruders.");
     look.suggested = 2000;
-    if (field.key == "footage.cloud_depth_m" && !context.project().footage.cloud_distance_m)
-      look.off_because = "Counts where clouds hide intruders.";
     return look;
   });
 }
@@ -62,9 +62,7 @@ void draw_own_body(const ViewContext& context, FieldRows& rows) {
 void draw_compositing(const ViewContext& context, FieldRows& rows) {
   const bool is_direct = context.project().compositing.method == MethodChoice::direct;
   rows.rows("compositing.", [&](const Field& field) {
-    RowOptions look;
-    if (field.key == "compositing.blend" && !is_direct) look.off_because = "Counts for the direct method alone.";
-    return look;
+    return off_where(field.key == "compositing.blend" && !is_direct, "Counts for the direct method alone.");
   });
 }
 
@@ -97,14 +95,28 @@ void draw_badge(int count) {
   draw_icon(list, Icon::warning, {right - size.x - scaled(12), middle}, ImGui::GetFontSize(), color::kBad);
 }
 
-}  // namespace
-
-void InspectorView::refresh(const ViewContext& context) {
-  memory_.refresh(context);
-  problems_.refresh(context);
-  if (std::optional<std::string> lost = loss_of_view_.found(context))
-    context.edits.ask(ShowMessage{*std::move(lost), true});
+// What its clock makes of the footage: "films from 0.370 to 6.637 s of the first camera's time".
+std::string filming_text(const Scene& scene) {
+  const FootageShape& footage = scene.footage;
+  if (footage.times_s.empty()) return "";
+  return fmt::format("Its footage is from {:.3f} to {:.3f} s of the first camera's time.", footage.times_s.front(),
+                     footage.times_s.back());
 }
+
+void draw_buttons(const ViewContext& context) {
+  const std::size_t camera = context.document.active_camera();
+  ButtonFlow flow;
+  if (context.ui_probe.noted(flow.button("Add camera...", "Another camera of the same aircraft, by its video"),
+                             "inspector/add camera"))
+    ask_add_camera(context);
+  const bool is_first = camera == 0;
+  const char* const tooltip = is_first ? "The first camera stays: waypoints count its frames, and the clock is its"
+                                       : "Takes this camera out of the project; its files stay";
+  if (context.ui_probe.noted(flow.button("Remove", tooltip, !is_first), "inspector/remove camera"))
+    ask_remove_camera(context);
+}
+
+}  // namespace
 
 void InspectorView::follow_selection(const ViewContext& context) {
   const Selection& selection = context.document.selection();
@@ -248,7 +260,10 @@ void InspectorView::draw_found(const ViewContext& context, FieldRows& rows) cons
 }
 
 void InspectorView::draw(const ViewContext& context) {
-  refresh(context);
+  memory_.refresh(context);
+  problems_.refresh(context);
+  if (std::optional<std::string> lost = loss_of_view_.found(context))
+    context.edits.ask(ShowMessage{*std::move(lost), true});
   follow_selection(context);
   follow_matching(context);
   FieldRows rows(context, problems_.by_field(), memory_);
@@ -264,31 +279,6 @@ void InspectorView::draw(const ViewContext& context) {
   ImGui::PopStyleVar();
   rows.finish();
 }
-
-namespace {
-
-// What its clock makes of the footage: "films from 0.370 to 6.637 s of the first camera's time".
-std::string filming_text(const Scene& scene) {
-  const FootageShape& footage = scene.footage;
-  if (footage.times_s.empty()) return "";
-  return fmt::format("Its footage is from {:.3f} to {:.3f} s of the first camera's time.", footage.times_s.front(),
-                     footage.times_s.back());
-}
-
-void draw_buttons(const ViewContext& context) {
-  const std::size_t camera = context.document.active_camera();
-  ButtonFlow flow;
-  if (context.ui_probe.noted(flow.button("Add camera...", "Another camera of the same aircraft, by its video"),
-                             "inspector/add camera"))
-    ask_add_camera(context);
-  const bool is_first = camera == 0;
-  const char* const tooltip = is_first ? "The first camera stays: waypoints count its frames, and the clock is its"
-                                       : "Takes this camera out of the project; its files stay";
-  if (context.ui_probe.noted(flow.button("Remove", tooltip, !is_first), "inspector/remove camera"))
-    ask_remove_camera(context);
-}
-
-}  // namespace
 
 void MountBlock::draw(const ViewContext& context, FieldRows& rows) {
   const std::size_t camera = context.document.active_camera();
@@ -307,11 +297,7 @@ void MountBlock::draw(const ViewContext& context, FieldRows& rows) {
                                  [camera, typed = typed_](Project& whole) { whole.cameras.at(camera).name = typed; });
   }
   rows.rows("mount.");
-  rows.rows("clock.", [&](const Field&) {
-    RowOptions look;
-    if (camera == 0) look.off_because = "The first camera's clock is that of all.";
-    return look;
-  });
+  rows.rows("clock.", [&](const Field&) { return off_where(camera == 0, "The first camera's clock is that of all."); });
   const Scene* const scene = shown_scene(context);
   if (scene != nullptr && camera > 0) note(filming_text(*scene));
   ImGui::Spacing();

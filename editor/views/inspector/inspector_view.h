@@ -222,8 +222,6 @@ class InspectorView {
   void draw(const ViewContext& context);
 
  private:
-  // Lists the fields and problems anew where the project or its surveys are others.
-  void refresh(const ViewContext& context);
   // Opens the block of what was selected in another view.
   void follow_selection(const ViewContext& context);
   // Opens the block Appearance where the footage begins to be matched from another view.

@@ -22,12 +22,9 @@ constexpr std::string_view kFirstOfColor = ", red";
 constexpr std::size_t kParts = 3;  // red, green, blue, which follow each other
 
 // Three digits, without an exponent.
-std::string three_digits(double value) {
-  return std::abs(value) < 1000 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
-}
-
-std::string deviation_text(double sd) {
-  return sd < 100 ? fmt::format("{:.2g}", sd) : fmt::format("{:.0f}", sd);
+// Never with an exponent for a large one.
+std::string digits_text(double value, int digits) {
+  return std::abs(value) < std::pow(10, digits) ? fmt::format("{:.{}g}", value, digits) : fmt::format("{:.0f}", value);
 }
 
 std::string with_unit(const std::string& number, const std::string& unit) {
@@ -39,10 +36,10 @@ FoundLine line_of(const AppearanceQuantity& quantity) {
   const Estimate& estimate = quantity.estimate;
   const std::string name = capitalised(quantity.name);
   if (estimate.is_known)
-    return {name, with_unit(three_digits(estimate.value) + " \u00b1 " + deviation_text(estimate.sd), quantity.unit), "",
-            quantity.how};
+    return {name, with_unit(digits_text(estimate.value, 3) + " \u00b1 " + digits_text(estimate.sd, 2), quantity.unit),
+            "", quantity.how};
   const bool is_clear = quantity.setting == "appearance.haze.visibility_m";  // of which there is no number
-  const std::string taken = is_clear ? "clear air" : with_unit(three_digits(estimate.value), quantity.unit);
+  const std::string taken = is_clear ? "clear air" : with_unit(digits_text(estimate.value, 3), quantity.unit);
   return {name, "not known; " + taken, estimate.why};
 }
 
@@ -106,11 +103,7 @@ std::vector<FoundLine> found_lines(const Appearance& appearance) {
 }
 
 void AppearanceBlock::draw_match(const ViewContext& context, const AppearanceState& state) {
-  if (state.is_running()) {
-    if (draw_job_progress(state)) context.edits.ask(StopMatchingFootage{});
-    context.ui_probe.note_item("inspector/stop matching footage");
-    return;
-  }
+  if (draw_if_running(context, state, StopMatchingFootage{}, "inspector/stop matching footage")) return;
   if (context.ui_probe.noted(
           ImGui::Button("Match the footage"), "inspector/match the footage",
           "Finds blur, noise, compression, haze and light in the footage, in the background, and sets them."))
@@ -236,11 +229,8 @@ void draw_presets(const ViewContext& context) {
 
 // The button with which something lit is boxed in the footage; what is found while it is looked at.
 void draw_lit_like(const ViewContext& context) {
-  if (context.light != nullptr && context.light->is_running()) {
-    if (draw_job_progress(*context.light)) context.edits.ask(StopLightLike{});
-    context.ui_probe.note_item("inspector/stop lit like");
+  if (context.light != nullptr && draw_if_running(context, *context.light, StopLightLike{}, "inspector/stop lit like"))
     return;
-  }
   if (context.ui_probe.noted(ImGui::Button("Lit like..."), "inspector/lit like",
                              "Draw a box around a real aircraft in the footage, or another thing that the sun lights: "
                              "the exposure is set so that the intruder is as bright as it."))

@@ -26,12 +26,6 @@ std::string key_of(int intruder) {
   return fmt::format("intruders[{}]", intruder);
 }
 
-bool has_problem(const ProblemsByField& problems, int intruder) {
-  const std::string key = key_of(intruder);
-  const auto found = problems.lower_bound(key);
-  return found != problems.end() && found->first.starts_with(key);
-}
-
 std::string decimetres(double metres) {
   return number_text(std::round(metres * 10) / 10);
 }
@@ -66,12 +60,9 @@ bool is_named_as_rotor(const std::string& name) {
 // The names by which a part of a model is chosen: materials, groups and objects, each once; those of rotors first.
 std::vector<std::string> part_names(const ViewContext& context, int intruder) {
   std::vector<std::string> names;
-  const OpenedScene* const shown = context.shown.scene.get();
-  const auto index = static_cast<std::size_t>(intruder);
-  if (shown == nullptr || index >= shown->draft.intruder_of_project.size()) return names;
-  const int in_scene = shown->draft.intruder_of_project[index];
-  if (in_scene < 0) return names;
-  const Mesh& mesh = shown->draft.scene.intruders[static_cast<std::size_t>(in_scene)].model->mesh;
+  const std::optional<int> in_scene = scene_intruder(context, intruder);
+  if (!in_scene) return names;
+  const Mesh& mesh = shown_scene(context)->intruders[static_cast<std::size_t>(*in_scene)].model->mesh;
   std::set<std::string> there{""};
   const auto add = [&](const std::string& name) {
     if (there.insert(name).second) names.push_back(name);
@@ -150,7 +141,7 @@ void ModelBlock::draw_list(const ViewContext& context, const FieldRows& rows) {
       ImDrawList& list = *ImGui::GetWindowDrawList();
       const float middle = (low.y + high.y) / 2;
       list.AddCircleFilled({low.x + scaled(10), middle}, scaled(4), intruder_color(i), 12);
-      const bool is_wrong = has_problem(rows.problems(), i);
+      const bool is_wrong = has_problem(rows.problems(), key_of(i));
       const std::string& name = intruders[static_cast<std::size_t>(i)].name;
       const std::string shown = elided(name.empty() ? "(no name)" : name, high.x - low.x - scaled(is_wrong ? 44 : 24));
       list.AddText({low.x + scaled(20), middle - ImGui::GetFontSize() / 2}, color::kText, shown.c_str());
@@ -259,9 +250,7 @@ void ModelBlock::draw(const ViewContext& context, FieldRows& rows) {
       rows.row(field.key, look_of(field, settings));
   draw_rotors(context, rows, *intruder);
   rows.rows(key + ".contrail.", [&](const Field& field) {
-    RowOptions look;
-    if (settings.contrail.strands == 0 && !field.key.ends_with("strands")) look.off_because = "It has no contrail.";
-    return look;
+    return off_where(settings.contrail.strands == 0 && !field.key.ends_with("strands"), "It has no contrail.");
   });
   if (context.project().footage.spectrum == Spectrum::thermal) return rows.rows(key + ".heat.");
   if (context.ui_probe.noted(ImGui::Button(settings.lights.is_dark() ? "Lights on" : "Lights off"), "inspector/lights",

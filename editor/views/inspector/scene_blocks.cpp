@@ -48,6 +48,29 @@ std::string lens_text(const Camera& camera) {
                      number_text(std::round(valid_deg * 10) / 10, "deg"));
 }
 
+RowOptions look_of_camera(const ViewContext& context, const Field& field) {
+  RowOptions look;
+  const Scene* const scene = shown_scene(context);
+  const bool has_path = scene != nullptr && scene->motion.path;
+  if (field.key == "camera.position_m" && !glm::any(movable_axes(context))) look.off_because = kWhyCameraIsFixed;
+  if (field.key == "camera.speed_mps" && has_path) look.off_because = "The log says how the camera moves.";
+  return look;
+}
+
+void draw_estimate(const ViewContext& context) {
+  const EgoMotionState* const state = context.ego_motion;
+  if (state == nullptr) return;
+  ImGui::Spacing();
+  if (draw_if_running(context, *state, StopCameraMotion{}, "inspector/stop camera motion")) return;
+  if (context.ui_probe.noted(
+          ImGui::Button("Estimate camera motion"), "inspector/estimate camera motion",
+          "Finds how the camera turns from the footage itself, in the background, and writes it as a log beside the "
+          "project. With a log that has rates of turn, both are used together."))
+    context.edits.ask(EstimateCameraMotion{});
+  if (state->value)
+    for (const Warning& warning : state->value->warnings) note(warning.what, true);
+}
+
 }  // namespace
 
 void draw_inputs(const ViewContext& context, FieldRows& rows) {
@@ -68,47 +91,13 @@ void draw_inputs(const ViewContext& context, FieldRows& rows) {
   }
 }
 
-namespace {
-
-std::string covered_text(const std::vector<PlatformAttitude>& turns) {
-  return fmt::format("{} attitudes, {:.2f} to {:.2f} s of the footage", turns.size(), turns.front().time_s,
-                     turns.back().time_s);
-}
-
-RowOptions look_of_camera(const ViewContext& context, const Field& field) {
-  RowOptions look;
-  const Scene* const scene = shown_scene(context);
-  const bool has_path = scene != nullptr && scene->motion.path;
-  if (field.key == "camera.position_m" && !glm::any(movable_axes(context))) look.off_because = kWhyCameraIsFixed;
-  if (field.key == "camera.speed_mps" && has_path) look.off_because = "The log says how the camera moves.";
-  return look;
-}
-
-void draw_estimate(const ViewContext& context) {
-  const EgoMotionState* const state = context.ego_motion;
-  if (state == nullptr) return;
-  ImGui::Spacing();
-  if (state->is_running()) {
-    if (draw_job_progress(*state)) context.edits.ask(StopCameraMotion{});
-    context.ui_probe.note_item("inspector/stop camera motion");
-    return;
-  }
-  if (context.ui_probe.noted(
-          ImGui::Button("Estimate camera motion"), "inspector/estimate camera motion",
-          "Finds how the camera turns from the footage itself, in the background, and writes it as a log beside the "
-          "project. With a log that has rates of turn, both are used together."))
-    context.edits.ask(EstimateCameraMotion{});
-  if (state->value)
-    for (const Warning& warning : state->value->warnings) note(warning.what, true);
-}
-
-}  // namespace
-
 std::vector<std::string> lines_of_motion(const CameraMotion& motion, double time_s) {
   std::vector<std::string> lines;
   if (!motion.source.position.empty()) lines.push_back("Position by " + motion.source.position);
   if (!motion.source.attitude.empty()) lines.push_back("Attitude by " + motion.source.attitude);
-  if (!motion.attitudes.empty()) lines.push_back(covered_text(motion.attitudes));
+  if (!motion.attitudes.empty())
+    lines.push_back(fmt::format("{} attitudes, {:.2f} to {:.2f} s of the footage", motion.attitudes.size(),
+                                motion.attitudes.front().time_s, motion.attitudes.back().time_s));
   if (const auto sd_rad = attitude_sd_at(motion.deviations, time_s))
     lines.push_back(fmt::format("Standard deviation here {:.2g}\u00b0, {:.2g}\u00b0, {:.2g}\u00b0 about its axes",
                                 deg_of_rad(sd_rad->x), deg_of_rad(sd_rad->y), deg_of_rad(sd_rad->z)));
@@ -141,12 +130,9 @@ void draw_camera(const ViewContext& context, FieldRows& rows) {
 
 void draw_camera_log(const ViewContext& context, FieldRows& rows) {
   const bool has_log = !context.project().camera.track.file.empty();
-  const auto look_of = [&](const Field& field) {
-    RowOptions look;
-    if (field.key != "camera.track.file" && !has_log) look.off_because = "Counts with a log alone.";
-    return look;
-  };
-  rows.rows("camera.track.", look_of);
+  rows.rows("camera.track.", [&](const Field& field) {
+    return off_where(field.key != "camera.track.file" && !has_log, "Counts with a log alone.");
+  });
   rows.row("camera.readout_s");
   rows.row("camera.exposure_s");
   const double time_s = time_of(context, context.document.playhead());

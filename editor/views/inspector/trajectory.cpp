@@ -31,11 +31,6 @@ std::string waypoint_key(int intruder, int waypoint) {
   return fmt::format("intruders[{}].trajectory.waypoints[{}]", intruder, waypoint);
 }
 
-bool has_problem(const ProblemsByField& problems, const std::string& key) {
-  const auto found = problems.lower_bound(key);
-  return found != problems.end() && found->first.starts_with(key);
-}
-
 constexpr int kHeadingColumn = 5;
 
 // Column titles in the colours of the axes.

@@ -33,12 +33,6 @@ std::optional<std::size_t> sample_called(const std::vector<SampleModel>& samples
   return static_cast<std::size_t>(found - samples.begin());
 }
 
-std::string message_of(const ChosenModel& chosen) {
-  std::string text = "Model: " + chosen.file.filename().string();
-  for (const std::string& guess : chosen.guesses) text += "; guessed: " + guess;
-  return text;
-}
-
 }  // namespace
 
 ModelGallery::ModelGallery(const fs::path& samples, std::function<void()> wake)
@@ -167,7 +161,9 @@ void ChangeModelDialog::take_result(const ViewContext& context) {
   context.edits.change("change model", [chosen = state.value, intruder = intruder_](Project& project) {
     use_model(project, intruder, *chosen);
   });
-  context.edits.ask(ShowMessage{message_of(*state.value)});
+  std::string text = "Model: " + state.value->file.filename().string();
+  for (const std::string& guess : state.value->guesses) text += "; guessed: " + guess;
+  context.edits.ask(ShowMessage{text});
   for (const Warning& warning : state.value->warnings) context.edits.ask(ShowMessage{warning.text()});
   closed_ = true;
 }

@@ -27,11 +27,6 @@ void begin_group() {
   ImGui::Dummy({0, scaled(2)});
 }
 
-std::string facts_text(const VideoFacts& facts) {
-  return fmt::format("{} pixels, {}, {}, {} frames/s", image_size_text(facts.size_px, " x "),
-                     count_text(facts.frames, "frame"), clock_text(facts.duration_s), number_text(facts.rate_hz));
-}
-
 AskForFile question_for(const char* title, std::string_view field, const std::string& start) {
   return {.title = title, .extensions = extensions_for(field), .start = typed_path(start)};
 }
@@ -75,10 +70,16 @@ bool NewProjectDialog::draw_path(const ViewContext& context, const char* name, s
   return is_typed;
 }
 
-void NewProjectDialog::draw_problem(const ViewContext& context, FormRow row) const {
-  if (!problem_ || problem_->row != row) return;
+void NewProjectDialog::choose(LensChoice lens) {
+  form_.lens = lens;
+  changed();
+}
+
+bool NewProjectDialog::draw_problem(const ViewContext& context, FormRow row) const {
+  if (!problem_ || problem_->row != row) return false;
   small_text(capitalised(problem_->what), color::kBad);
   context.ui_probe.note_item("new project/problem");
+  return true;
 }
 
 void NewProjectDialog::look_at_video() {
@@ -102,7 +103,10 @@ void NewProjectDialog::draw_video_facts(const ViewContext& context) {
   } else if (state.is_running()) {
     small_text("Reading...", color::kQuiet);
   } else if (state.phase == JobPhase::done) {
-    small_text(facts_text(*state.value), color::kQuiet);
+    const VideoFacts& facts = *state.value;
+    small_text(fmt::format("{} pixels, {}, {}, {} frames/s", image_size_text(facts.size_px, " x "),
+                           count_text(facts.frames, "frame"), clock_text(facts.duration_s), number_text(facts.rate_hz)),
+               color::kQuiet);
     context.ui_probe.note_item("new project/facts");
   } else if (state.phase == JobPhase::failed) {
     small_text(state.error.text(), color::kBad);
@@ -122,47 +126,36 @@ void NewProjectDialog::draw_video(const ViewContext& context) {
     changed();
   }
   look_at_video();
-  if (problem_ && problem_->row == FormRow::video)
-    draw_problem(context, FormRow::video);
-  else
-    draw_video_facts(context);
+  if (!draw_problem(context, FormRow::video)) draw_video_facts(context);
 }
 
 void NewProjectDialog::draw_field_of_view(const ViewContext& context) {
   if (context.ui_probe.noted(
           ImGui::RadioButton("Field of view", form_.lens == LensChoice::field_of_view), "new project/field of view",
           "Horizontal, of the whole image; from the camera's data sheet. The lens is taken as free of "
-          "distortion")) {
-    form_.lens = LensChoice::field_of_view;
-    changed();
-  }
+          "distortion"))
+    choose(LensChoice::field_of_view);
   ImGui::SameLine(scaled(150));
   ImGui::SetNextItemWidth(scaled(90));
-  if (context.ui_probe.noted(text_input("##fov", form_.fov_deg, "e.g. 70"), "new project/degrees")) {
-    form_.lens = LensChoice::field_of_view;
-    changed();
-  }
+  if (context.ui_probe.noted(text_input("##fov", form_.fov_deg, "e.g. 70"), "new project/degrees"))
+    choose(LensChoice::field_of_view);
   ImGui::SameLine();
   ImGui::TextDisabled("degrees, left to right");
 }
 
 void NewProjectDialog::draw_calibration(const ViewContext& context) {
-  const auto choose = [this] {
-    form_.lens = LensChoice::calibration;
-    changed();
-  };
   if (context.ui_probe.noted(ImGui::RadioButton("Calibration", form_.lens == LensChoice::calibration),
                              "new project/calibrated", "A file of OpenCV, ROS or Gyroflow for this camera"))
-    choose();
+    choose(LensChoice::calibration);
   ImGui::SameLine(scaled(150));
   AskForFile wanted = question_for("Choose the calibration", "footage.calibration",
                                    form_.calibration.empty() ? form_.video : form_.calibration);
   if (form_.calibration.empty()) wanted.start = wanted.start.parent_path();
-  wanted.chosen = [this, choose](const fs::path& path) {
+  wanted.chosen = [this](const fs::path& path) {
     form_.calibration = path.string();
-    choose();
+    choose(LensChoice::calibration);
   };
-  if (draw_path(context, "calibration", form_.calibration, std::move(wanted))) choose();
+  if (draw_path(context, "calibration", form_.calibration, std::move(wanted))) choose(LensChoice::calibration);
 }
 
 void NewProjectDialog::draw_lens(const ViewContext& context) {
@@ -173,10 +166,8 @@ void NewProjectDialog::draw_lens(const ViewContext& context) {
   const bool is_stated = is_known && !state.value->lens.empty();
   if (context.ui_probe.noted(ImGui::RadioButton(is_stated ? "As the video states###guess" : "Guess###guess",
                                                 form_.lens == LensChoice::guess),
-                             "new project/guess")) {
-    form_.lens = LensChoice::guess;
-    changed();
-  }
+                             "new project/guess"))
+    choose(LensChoice::guess);
   ImGui::SameLine(scaled(150));
   const std::string hint = is_stated  ? state.value->lens
                            : is_known ? "the video does not tell its lens: a usual one is assumed"
@@ -188,15 +179,6 @@ void NewProjectDialog::draw_lens(const ViewContext& context) {
   draw_problem(context, FormRow::lens);
 }
 
-void NewProjectDialog::draw_model_file(const ViewContext& context) {
-  AskForFile wanted = question_for("Choose the aircraft's model", "intruders[0].model.file", form_.model);
-  wanted.chosen = [this](const fs::path& path) {
-    form_.model = path.string();
-    changed();
-  };
-  if (draw_path(context, "model file", form_.model, std::move(wanted))) changed();
-}
-
 void NewProjectDialog::draw_model(const ViewContext& context) {
   begin_group();
   begin_setting("Model", "Of the aircraft that is put into the video");
@@ -205,7 +187,14 @@ void NewProjectDialog::draw_model(const ViewContext& context) {
     form_.sample = pressed->sample;
     changed();
   }
-  if (!form_.sample) draw_model_file(context);
+  if (!form_.sample) {
+    AskForFile wanted = question_for("Choose the aircraft's model", "intruders[0].model.file", form_.model);
+    wanted.chosen = [this](const fs::path& path) {
+      form_.model = path.string();
+      changed();
+    };
+    if (draw_path(context, "model file", form_.model, std::move(wanted))) changed();
+  }
   draw_problem(context, FormRow::model);
 }
 
@@ -236,9 +225,7 @@ void NewProjectDialog::draw_file(const ViewContext& context) {
     changed();
   }
   std::error_code code;
-  if (problem_ && problem_->row == FormRow::file) {
-    draw_problem(context, FormRow::file);
-  } else if (!asked_about_.empty() && fs::exists(asked_about_, code)) {
+  if (!draw_problem(context, FormRow::file) && !asked_about_.empty() && fs::exists(asked_about_, code)) {
     small_text(asked_about_.filename().string() + " is there already. Replace it?", color::kPartly);
     context.ui_probe.note_item("new project/replace");
   }

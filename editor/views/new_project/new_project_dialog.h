@@ -53,11 +53,10 @@ class NewProjectDialog {
   void draw_field_of_view(const ViewContext& context);
   void draw_calibration(const ViewContext& context);
   void draw_model(const ViewContext& context);
-  void draw_model_file(const ViewContext& context);
   void draw_look(const ViewContext& context);
   void draw_file(const ViewContext& context);
-  // What is wrong with a row, below it.
-  void draw_problem(const ViewContext& context, FormRow row) const;
+  // What is wrong with a row, below it; false: nothing is.
+  bool draw_problem(const ViewContext& context, FormRow row) const;
   void draw_rows(const ViewContext& context, const FirstProjectState& making);
   void draw_buttons(const ViewContext& context, NewProjectChoice& choice);
   void draw_progress(const ViewContext& context, const FirstProjectState& state, NewProjectChoice& choice);
@@ -65,6 +64,7 @@ class NewProjectDialog {
   [[nodiscard]] bool draw_path(const ViewContext& context, const char* name, std::string& text, AskForFile wanted);
   // The form was changed: what was said of it counts no more.
   void changed();
+  void choose(LensChoice lens);
   // The person wants the project: where the form is right, and what would be replaced was agreed to.
   void try_to_create(NewProjectChoice& choice);
   // Asks for the facts of the video that is in the form.

@@ -9,6 +9,7 @@
 
 #include "base/ensure.h"
 #include "base/text.h"
+#include "editor/document/mask_painting.h"
 
 namespace sigs::editor {
 
@@ -25,13 +26,6 @@ cv::Vec3b color_of_confidence(double confidence) {
 }
 
 constexpr int kTile_px = 512;
-
-bool is_same(const cv::Mat& a, const cv::Mat& b) {
-  if (a.size() != b.size()) return false;
-  for (int y = 0; y < a.rows; ++y)
-    if (!std::equal(a.ptr<uchar>(y), a.ptr<uchar>(y) + a.cols, b.ptr<uchar>(y))) return false;
-  return true;
-}
 
 cv::Mat reduced(const cv::Mat& mask, int divisor) {
   if (divisor < 2) return mask.clone();
@@ -121,7 +115,7 @@ cv::Mat tinted(const cv::Mat& mask, double opacity) {
 }
 
 void MaskTiles::refresh(Tile& tile, const cv::Mat& mask, int divisor, MaskStyle look) {
-  if (tile.divisor == divisor && tile.look == look && is_same(tile.mask, mask)) return;
+  if (tile.divisor == divisor && tile.look == look && is_same_mask(tile.mask, mask)) return;
   tile.mask = mask.clone();
   tile.divisor = divisor;
   tile.look = look;

@@ -59,7 +59,7 @@ fs::path usual_mask_file(const Project& project) {
   return is_png(named) ? named : file_beside(project, kMaskEnding, ".png");
 }
 
-OwnBodySession::OwnBodySession(Edits& edits, std::function<void()> wake, OwnBodyJob::Detect detect)
+OwnBodySession::OwnBodySession(Edits& edits, std::function<void()> wake, OwnBodyJob::Work detect)
     : edits_(edits), job_(std::move(wake), std::move(detect)) {}
 
 void OwnBodySession::forget() {
@@ -167,7 +167,7 @@ void OwnBodySession::take_project_mask(const Project& project, const cv::Mat& ow
 
 void OwnBodySession::take_found() {
   taken_ = detection_.value;
-  taken_edge_px_ = detection_.value_request.project.own_body.soft_edge_px;
+  taken_edge_px_ = detection_.value_request.own_body.soft_edge_px;
   if (taken_->mask.size() != painting_.mask().size() || taken_->mask.type() != CV_8UC1) return;
   replace(with_edge(taken_->mask, taken_edge_px_, edge_px_), "detected mask", "detected");
   found_state_ = feathered_state_ = painting_.state();
@@ -194,7 +194,7 @@ bool OwnBodySession::edge_waits() const {
 }
 
 bool OwnBodySession::start(const Document& document) {
-  const bool started = job_.start({document.project()});
+  const bool started = job_.start(document.project());
   detection_ = job_.state();
   return started;
 }

@@ -25,7 +25,7 @@ class OwnBodySession {
   //   edits   where changes of the project and requests go; must outlive this
   //   wake    called from another thread as a detection goes on
   //   detect  what a detection does; tests give one that reads no video
-  OwnBodySession(Edits& edits, std::function<void()> wake, OwnBodyJob::Detect detect = detected);
+  OwnBodySession(Edits& edits, std::function<void()> wake, OwnBodyJob::Work detect = detected);
 
   // Once per update in which the mask is looked at: begins with the project's mask and follows it as long as nothing
   // else was made here, takes over what was found where nothing is painted by hand, and feathers that as the settings

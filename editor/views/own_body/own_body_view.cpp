@@ -32,6 +32,7 @@ void draw_sign(ImDrawList& draw, const glm::dvec2& at, bool minus, ImU32 color) 
 
 constexpr double kPanel = 290;  // wide, where the text is 15 px high
 constexpr double kRadius = 120;
+constexpr const char* kNothingDetected = "Nothing is detected yet. Detect first.";
 
 }  // namespace
 
@@ -107,13 +108,11 @@ void OwnBodyCanvas::draw_confidence(const ViewContext& context, const OwnBodySes
                                     const ImageCanvas& canvas) {
   const std::shared_ptr<const OwnBody>& found = session.detection().value;
   if (!found || found->confidence.size() != canvas.image_px)
-    return draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
-                      "Nothing is detected yet. Detect first.", color::kPartly);
+    return draw_corner_label(canvas, kNothingDetected, color::kPartly);
   if (shown_confidence_of_ != found) confidence_ = confidence_image(found->confidence);
   shown_confidence_of_ = found;
   draw_image(canvas.draw, context.textures, confidence_, canvas.view, canvas.rect);
-  draw_label(canvas, {canvas.rect.low.x + scaled(8), canvas.rect.high.y - scaled(8)},
-             "blue: world    grey: nobody can tell    violet: own body", color::kText);
+  draw_corner_label(canvas, "blue: world    grey: nobody can tell    violet: own body", color::kText);
 }
 
 void OwnBodyCanvas::draw_brush(const ViewContext& context, const ImageCanvas& canvas) const {
@@ -234,9 +233,7 @@ void OwnBodyView::draw_stages(const ViewContext& context, const OwnBodySession& 
     grid_.draw(tiles, found->mask.size(), rect, context.textures);
     return;
   }
-  const ImageCanvas canvas{*ImGui::GetWindowDrawList(), rect, {}, {}};
-  draw_label(canvas, {rect.low.x + scaled(8), rect.high.y - scaled(8)}, "Nothing is detected yet. Detect first.",
-             color::kPartly);
+  draw_corner_label({*ImGui::GetWindowDrawList(), rect, {}, {}}, kNothingDetected, color::kPartly);
 }
 
 void OwnBodyView::draw_image_of(const ViewContext& context, OwnBodySession& session, const ScreenRect& rect) {

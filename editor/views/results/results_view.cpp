@@ -79,14 +79,10 @@ constexpr double kMaxName_px = 150;
 constexpr double kFarApart_px = 12;  // of the screen: nearer middles need no line
 constexpr double kFree_px = 24;
 
-glm::dvec2 middle_of(const ScreenRect& rect) {
-  return (rect.low + rect.high) / 2.0;
-}
-
 // From where the truth's middle must be, by the errors, to the reported one.
 void draw_path_line(const ImageCanvas& canvas, const ScreenRect& box, const FrameScore* score, ImU32 shade) {
   if (score == nullptr || !score->dx_px || !score->dy_px) return;
-  const glm::dvec2 to = middle_of(box);
+  const glm::dvec2 to = (box.low + box.high) / 2.0;
   const glm::dvec2 direction = glm::dvec2(*score->dx_px, *score->dy_px) * canvas.view.zoom;
   const double length = glm::length(direction);
   if (length < scaled(kFarApart_px)) return;
@@ -166,13 +162,7 @@ void draw_head(const Scored& scored) {
   }
 }
 
-std::string figure_text(double value) {
-  std::string text = pixels_text(value);
-  return text.substr(0, text.find(' '));
-}
-
-std::string share_text(double share) {
-  const std::string text = percent_text(share);
+std::string without_unit(const std::string& text) {
   return text.substr(0, text.find(' '));
 }
 
@@ -197,9 +187,10 @@ void draw_figures(const Scored& scored, const ScoredTracker& tracker) {
   const TrackScore* const score = tracker.score.get();
   const ImU32 shade = scored.truth == TruthKind::measured ? color::kText : color::kQuiet;
   const bool is_scored = score != nullptr && score->scored > 0;
-  const std::string figures[] = {
-      is_scored ? figure_text(score->mean_center_error_px) : "-", is_scored ? share_text(score->precision_at_20) : "-",
-      is_scored ? share_text(score->success_auc) : "-", is_scored ? std::to_string(score->lost) : "-"};
+  const std::string figures[] = {is_scored ? without_unit(pixels_text(score->mean_center_error_px)) : "-",
+                                 is_scored ? without_unit(percent_text(score->precision_at_20)) : "-",
+                                 is_scored ? without_unit(percent_text(score->success_auc)) : "-",
+                                 is_scored ? std::to_string(score->lost) : "-"};
   for (const std::string& figure : figures) {
     ImGui::TableNextColumn();
     right_aligned(figure, shade);

@@ -149,12 +149,8 @@ ToolbarItem StagesView::look_button(const ViewContext& context, const char* labe
   return item;
 }
 
-std::string StagesView::own_label(const ViewContext& context) const {
-  return "own: " + method_name(own_method(context));
-}
-
 void StagesView::draw_method_choice(const ViewContext& context) {
-  const std::string own = own_label(context);
+  const std::string own = "own: " + method_name(own_method(context));
   const bool comparing = look_ == Mode::against_method;
   const std::string shown = comparing ? "with " + method_name(other_method(context))
                             : method_ ? method_name(*method_)
@@ -248,8 +244,7 @@ void StagesView::draw_notice(const ViewContext& context, const ScreenRect& rect)
     text = "No intruder can be seen in this frame: the output is the footage.";
   if (text.empty()) context.ui_probe.note("stages/ready", rect);
   if (text.empty()) return;
-  ImageCanvas canvas{*ImGui::GetWindowDrawList(), rect, {}, {}};
-  draw_label(canvas, {rect.low.x + scaled(8), rect.high.y - scaled(8)}, text, color::kPartly);
+  draw_corner_label({*ImGui::GetWindowDrawList(), rect, {}, {}}, text, color::kPartly);
 }
 
 void StagesView::draw(const ViewContext& context) {

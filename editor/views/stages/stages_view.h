@@ -117,8 +117,6 @@ class StagesView {
   // Asks for what is to be shown, and takes what is there.
   void request_preview(const ViewContext& context);
   void draw_toolbar_of(const ViewContext& context);
-  // What the button for the project's own method says.
-  [[nodiscard]] std::string own_label(const ViewContext& context) const;
   void draw_method_choice(const ViewContext& context);
   void draw_intruder_choice(const ViewContext& context);
   void draw_gain();

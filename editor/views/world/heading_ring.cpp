@@ -47,9 +47,8 @@ std::optional<HeadingRing::Target> HeadingRing::target_of(const WorldContext& wo
     target.heading_rad = rad_of_deg(*waypoint->heading_deg);
     return target;
   }
-  const std::vector<double> frames = frames_of_waypoints(context, selection.intruder);
-  const std::optional<double> nose =
-      nose_rad(context, selection.intruder, frames[static_cast<std::size_t>(selection.waypoint)]);
+  const double frame = frame_of_waypoint(context, selection.intruder, selection.waypoint);
+  const std::optional<double> nose = nose_rad(context, selection.intruder, frame);
   target.heading_rad = nose.value_or(0);
   return target;
 }

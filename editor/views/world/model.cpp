@@ -149,6 +149,19 @@ CurveSamples camera_path_of(const Scene& scene) {
   return sampled_curve(place, counted.first_frame, counted.last_frame, {}, tolerance_m, kMaxPoints);
 }
 
+// All sit on the aircraft, which is where the active one says.
+std::vector<WorldCamera> rig_cameras(const ViewContext& context, const CameraPose& world_from_active) {
+  std::vector<WorldCamera> cameras;
+  const std::vector<RigCamera>& rig = context.document.cameras();
+  const std::size_t active = context.document.active_camera();
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    const CameraPose pose =
+        world_from_active * (inverse(body_from_camera(rig[active].mount)) * body_from_camera(rig[i].mount));
+    cameras.push_back({rig[i].name, pose, i == active});
+  }
+  return cameras;
+}
+
 }  // namespace
 
 CurveSamples sampled_curve(const std::function<glm::dvec3(double)>& curve, double first, double last,
@@ -238,23 +251,6 @@ void RigBorders::follow(const std::vector<PreviewOutput>& rig) {
     borders_[i] = {rig[i].scene, rig[i].scene ? image_border(rig[i].scene->draft.scene.camera) : ImageBorder()};
   }
 }
-
-namespace {
-
-// All sit on the aircraft, which is where the active one says.
-std::vector<WorldCamera> rig_cameras(const ViewContext& context, const CameraPose& world_from_active) {
-  std::vector<WorldCamera> cameras;
-  const std::vector<RigCamera>& rig = context.document.cameras();
-  const std::size_t active = context.document.active_camera();
-  for (std::size_t i = 0; i < rig.size(); ++i) {
-    const CameraPose pose =
-        world_from_active * (inverse(body_from_camera(rig[active].mount)) * body_from_camera(rig[i].mount));
-    cameras.push_back({rig[i].name, pose, i == active});
-  }
-  return cameras;
-}
-
-}  // namespace
 
 WorldMoment world_moment(const ViewContext& context) {
   const double time_s = time_of(context, context.document.playhead());

@@ -93,12 +93,6 @@ WorldPick curve_at(const WorldCanvas& canvas, const WorldContext& world, const g
   return nearest.pick;
 }
 
-std::string waypoint_title(const ViewContext& context, const Selection& what) {
-  const std::vector<double> frames = frames_of_waypoints(context, what.intruder);
-  const long frame = std::lround(frames[static_cast<std::size_t>(what.waypoint)]);
-  return fmt::format("Waypoint at frame {}", frame);
-}
-
 }  // namespace
 
 WorldPick pick_at(const WorldCanvas& canvas, const WorldContext& world, const glm::dvec2& mouse) {
@@ -109,10 +103,6 @@ WorldPick pick_at(const WorldCanvas& canvas, const WorldContext& world, const gl
   return curve_at(canvas, world, mouse);
 }
 
-std::optional<Movable> movable(const WorldContext& world) {
-  return movable(world, world.context.document.selection());
-}
-
 std::optional<Movable> movable(const WorldContext& world, const Selection& what) {
   const Project& project = world.context.project();
   if (what.kind == Selected::light && project.light.kind == LightKind::point)
@@ -120,9 +110,10 @@ std::optional<Movable> movable(const WorldContext& world, const Selection& what)
   if (what.kind == Selected::camera && glm::any(movable_axes(world.context)))
     return Movable{what, "Camera", world.moment.world_from_camera.translation_m};
   if (what.kind != Selected::waypoint) return std::nullopt;
-  if (const WaypointSettings* waypoint = waypoint_of(project, what.intruder, what.waypoint))
-    return Movable{what, waypoint_title(world.context, what), waypoint->position_m};
-  return std::nullopt;
+  const WaypointSettings* const waypoint = waypoint_of(project, what.intruder, what.waypoint);
+  if (waypoint == nullptr) return std::nullopt;
+  const long frame = std::lround(frame_of_waypoint(world.context, what.intruder, what.waypoint));
+  return Movable{what, fmt::format("Waypoint at frame {}", frame), waypoint->position_m};
 }
 
 std::string gesture_of(const Selection& moved) {

@@ -172,6 +172,13 @@ void draw_control_lines(WorldCanvas& canvas, const TrajectoryPlan& plan, ImU32 c
     canvas.line(plan.waypoints[i - 1].position_m, plan.waypoints[i].position_m, faded(color, 0.25));
 }
 
+constexpr double kMinStep_px = 1.5;  // what lies nearer to the point before adds nothing to a polyline
+
+bool holds(const ScreenRect& outer, const ScreenRect& inner) {
+  return inner.low.x >= outer.low.x && inner.low.y >= outer.low.y && inner.high.x <= outer.high.x &&
+         inner.high.y <= outer.high.y;
+}
+
 }  // namespace
 
 void draw_ground(WorldCanvas& canvas) {
@@ -307,17 +314,6 @@ void draw_closest_approaches(WorldCanvas& canvas, const WorldContext& world) {
     if (middle && current) canvas.label_beside(*middle, scaled(8), "closest " + distance_text(distance_m), color);
   }
 }
-
-namespace {
-
-constexpr double kMinStep_px = 1.5;  // what lies nearer to the point before adds nothing to a polyline
-
-bool holds(const ScreenRect& outer, const ScreenRect& inner) {
-  return inner.low.x >= outer.low.x && inner.low.y >= outer.low.y && inner.high.x <= outer.high.x &&
-         inner.high.y <= outer.high.y;
-}
-
-}  // namespace
 
 std::optional<glm::dvec2> WorldCanvas::in_sight(const glm::dvec3& p_in_world, double margin_px) const {
   const std::optional<glm::dvec2> at = eye_.screen_of(p_in_world, rect_);

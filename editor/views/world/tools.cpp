@@ -16,15 +16,11 @@ namespace {
 
 constexpr const char* kId = "world menu";
 
-double frame_of(const ViewContext& context, const Selection& waypoint) {
-  return frames_of_waypoints(context, waypoint.intruder)[static_cast<std::size_t>(waypoint.waypoint)];
-}
-
 // The selection was moved to the waypoint when the menu was asked for; what follows acts on it.
 bool draw_waypoint_items(const WorldContext& world, const Selection& what) {
   const ViewContext& context = world.context;
-  const std::string frame = std::to_string(std::lround(frame_of(context, what)));
-  if (ImGui::MenuItem(("Go to frame " + frame).c_str())) go_to_moment(context, frame_of(context, what));
+  const double frame = frame_of_waypoint(context, what.intruder, what.waypoint);
+  if (ImGui::MenuItem(fmt::format("Go to frame {}", std::lround(frame)).c_str())) go_to_moment(context, frame);
   const bool numbers = ImGui::MenuItem("Type its position ...", "N");
   ImGui::Separator();
   if (ImGui::MenuItem("Duplicate", "Ctrl+D")) duplicate_selected(context);
@@ -165,6 +161,10 @@ void WorldTools::update(const WorldContext& world, const WorldCanvas& canvas, Wo
   if (may_type && pressed(Key::n)) enter_position(world, world.context.document.selection());
 }
 
+std::optional<Movable> WorldTools::target_of(const WorldContext& world) const {
+  return movable(world, handle_.dragging() ? dragged_ : world.context.document.selection());
+}
+
 void WorldTools::move_heading(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look) {
   const bool is_free = ImGui::IsItemHovered() && holding_ == Holding::nothing && !handle_.dragging() &&
                        handle_.part() == GizmoPart::none && !approach_.is_dragging();
@@ -182,7 +182,7 @@ void WorldTools::move_approach(const WorldContext& world, const WorldCanvas& can
 void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look) {
   moved_to_.reset();
   if (handle_.dragging() && gesture_.is_lost(world.context)) handle_.abandon_drag();
-  const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
+  const std::optional<Movable> target = target_of(world);
   if (!target) return handle_.abandon_drag();
   const bool was_dragging = handle_.dragging();
   const GizmoInput input{
@@ -201,8 +201,8 @@ void WorldTools::move_handle(const WorldContext& world, const WorldCanvas& canva
   if (answer.cancelled) gesture_.cancel(world.context);
   if (answer.wants_numbers || (answer.wants_middle && target->what.kind != Selected::waypoint))
     enter_position(world, target->what);
-  else if (answer.wants_middle)
-    handle_double_click(world);
+  else if (answer.wants_middle)  // the first click has selected a waypoint, the second goes to its frame
+    go_to_moment(world.context, frame_of_waypoint(world.context, target->what.intruder, target->what.waypoint));
 }
 
 void WorldTools::begin_drag(const WorldContext& world, const Movable& moved) {
@@ -222,20 +222,15 @@ void WorldTools::press(const WorldContext& world, const WorldCanvas& canvas) {
   if (left && !ImGui::GetIO().KeyShift) {
     if (const std::optional<Movable> target = movable(world, hovered_.what);
         target && hovered_.what.kind == Selected::waypoint) {
-      take_waypoint(world, *target);
-      return;
+      // Selected by the press, and moved in the screen's plane if the mouse goes on.
+      world.context.edits.select(target->what);
+      handle_.take(GizmoPart::screen, target->at_m);
+      return begin_drag(world, *target);
     }
     holding_ = Holding::orbit;
   } else {
     holding_ = right ? Holding::menu : Holding::pan;
   }
-}
-
-// Selected by the press, and moved in the screen's plane if the mouse goes on.
-void WorldTools::take_waypoint(const WorldContext& world, const Movable& waypoint) {
-  world.context.edits.select(waypoint.what);
-  handle_.take(GizmoPart::screen, waypoint.at_m);
-  begin_drag(world, waypoint);
 }
 
 void WorldTools::hold(const ScreenRect& rect, WorldViewState& look) {
@@ -270,13 +265,6 @@ void WorldTools::release(const WorldContext& world, const WorldCanvas& canvas) {
   }
 }
 
-// The first click has selected a waypoint, the second goes to its frame.
-void WorldTools::handle_double_click(const WorldContext& world) {
-  const Selection& selection = world.context.document.selection();
-  if (selection.kind != Selected::waypoint) return;
-  go_to_moment(world.context, frame_of(world.context, selection));
-}
-
 void WorldTools::enter_position(const WorldContext& world, const Selection& what) {
   const std::optional<Movable> target = movable(world, what);
   if (!target) return;
@@ -304,7 +292,7 @@ void WorldTools::draw_readout(WorldCanvas& canvas, const Movable& moved, double 
 }
 
 void WorldTools::keep_handle_free(WorldCanvas& canvas, const WorldContext& world) const {
-  const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
+  const std::optional<Movable> target = target_of(world);
   if (!target) return;
   const glm::dvec3 at_m = moved_to_.value_or(target->at_m);
   for (const ScreenRect& rect : handle_.covered(at_m, {.camera = canvas.eye(), .rect = canvas.rect()}))
@@ -312,7 +300,7 @@ void WorldTools::keep_handle_free(WorldCanvas& canvas, const WorldContext& world
 }
 
 void WorldTools::draw(WorldCanvas& canvas, const WorldContext& world, const WorldViewState& look) {
-  const std::optional<Movable> target = handle_.dragging() ? movable(world, dragged_) : movable(world);
+  const std::optional<Movable> target = target_of(world);
   if (target) {
     const glm::dvec3 at_m = moved_to_.value_or(target->at_m);
     handle_.draw(canvas.list(), at_m, {.camera = canvas.eye(), .rect = canvas.rect()});

@@ -16,12 +16,6 @@ namespace sigs::editor {
 
 namespace {
 
-ScreenRect canvas_rect() {
-  const ImVec2 low = ImGui::GetCursorScreenPos();
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  return {{low.x, low.y}, {low.x + room.x, low.y + room.y}};
-}
-
 // Over an empty world: what to do next.
 void offer_intruder(const ViewContext& context, const ScreenRect& rect) {
   if (!context.project().intruders.empty()) return;
@@ -117,15 +111,41 @@ WorldToolbarResult draw_world_toolbar(WorldViewState& look, UiProbe& ui_probe) {
   return answer;
 }
 
-}  // namespace
+constexpr double kHandleReach_px = 10;
+constexpr glm::dvec3 kUp{0, 0, -1};
 
-void WorldView::refresh_model(const ViewContext& context) {
-  const auto& scene = context.shown.scene;
-  if (scene && std::exchange(scene_, scene) != scene) model_ = world_model(*scene);
+double snapped_to(double value, double step) {
+  return step > 0 ? std::round(value / step) * step : value;
 }
 
-// A project with no history whose revision is another one has been opened. It is framed at once, and again when its
-// trajectories are known, unless the person has looked around by then.
+// The place with the same misses but one that is another: the direction that it moves in.
+PlaneDrag plane_through(const PresentApproach& present, const glm::dvec2& mouse) {
+  PlannedApproach beside = present.approach;
+  beside.miss_m += 1;
+  const glm::dvec3 right =
+      intruder_at(beside, present.own).position_m - intruder_at(present.approach, present.own).position_m;
+  return {.start_m = present.intruder.position_m, .axes = {glm::normalize(right), kUp}, .start_mouse = mouse};
+}
+
+// From the camera sideways, then up or down to the intruder, with both lengths.
+void draw_misses(WorldCanvas& canvas, const PresentApproach& shown, ImU32 shade) {
+  const glm::dvec3& own_m = shown.own.position_m;
+  const glm::dvec3& there_m = shown.intruder.position_m;
+  const glm::dvec3 corner_m{there_m.x, there_m.y, own_m.z};
+  canvas.line(own_m, corner_m, shade, 1.6);
+  canvas.line(corner_m, there_m, shade, 1.6);
+  const auto label = [&](const glm::dvec3& a_m, const glm::dvec3& b_m, const char* name, double length_m) {
+    const std::optional<glm::dvec2> middle = canvas.in_sight((a_m + b_m) / 2.0);
+    if (middle && glm::distance(a_m, b_m) > 0.05)
+      canvas.label_beside(*middle, scaled(7), fmt::format("{} {}", name, distance_text(length_m)), shade);
+  };
+  label(own_m, corner_m, "beside", glm::distance(own_m, corner_m));
+  label(corner_m, there_m, shown.approach.vertical_miss_m < 0 ? "below" : "above", glm::distance(corner_m, there_m));
+}
+
+}  // namespace
+
+// A project with no history whose revision is another one has been opened.
 void WorldView::look_at_opened_project(const WorldContext& world, const ScreenRect& rect) {
   const Document& document = world.context.document;
   const std::uint64_t revision = document.state().number;
@@ -165,9 +185,12 @@ void WorldView::draw_world(WorldCanvas& canvas, const WorldContext& world) {
 
 void WorldView::draw(const ViewContext& context) {
   const WorldToolbarResult request = draw_world_toolbar(look_, context.ui_probe);
-  const ScreenRect rect = canvas_rect();
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const ScreenRect rect{dv(low), {low.x + room.x, low.y + room.y}};
   if (rect.size().x < 16 || rect.size().y < 16) return;
-  refresh_model(context);
+  const auto& scene = context.shown.scene;
+  if (scene && std::exchange(scene_, scene) != scene) model_ = world_model(*scene);
   const WorldMoment moment = world_moment(context);
   if (context.rig != nullptr) borders_.follow(*context.rig);
   const WorldContext world{context, model_, moment, context.rig != nullptr ? &borders_ : nullptr};
@@ -192,42 +215,6 @@ void WorldView::draw(const ViewContext& context) {
   offer_intruder(context, rect);
   ImGui::PopClipRect();
 }
-
-namespace {
-
-constexpr double kHandleReach_px = 10;
-constexpr glm::dvec3 kUp{0, 0, -1};
-
-double snapped_to(double value, double step) {
-  return step > 0 ? std::round(value / step) * step : value;
-}
-
-// The place with the same misses but one that is another: the direction that it moves in.
-PlaneDrag plane_through(const PresentApproach& present, const glm::dvec2& mouse) {
-  PlannedApproach beside = present.approach;
-  beside.miss_m += 1;
-  const glm::dvec3 right =
-      intruder_at(beside, present.own).position_m - intruder_at(present.approach, present.own).position_m;
-  return {.start_m = present.intruder.position_m, .axes = {glm::normalize(right), kUp}, .start_mouse = mouse};
-}
-
-// From the camera sideways, then up or down to the intruder, with both lengths.
-void draw_misses(WorldCanvas& canvas, const PresentApproach& shown, ImU32 shade) {
-  const glm::dvec3& own_m = shown.own.position_m;
-  const glm::dvec3& there_m = shown.intruder.position_m;
-  const glm::dvec3 corner_m{there_m.x, there_m.y, own_m.z};
-  canvas.line(own_m, corner_m, shade, 1.6);
-  canvas.line(corner_m, there_m, shade, 1.6);
-  const auto label = [&](const glm::dvec3& a_m, const glm::dvec3& b_m, const char* name, double length_m) {
-    const std::optional<glm::dvec2> middle = canvas.in_sight((a_m + b_m) / 2.0);
-    if (middle && glm::distance(a_m, b_m) > 0.05)
-      canvas.label_beside(*middle, scaled(7), fmt::format("{} {}", name, distance_text(length_m)), shade);
-  };
-  label(own_m, corner_m, "beside", glm::distance(own_m, corner_m));
-  label(corner_m, there_m, shown.approach.vertical_miss_m < 0 ? "below" : "above", glm::distance(corner_m, there_m));
-}
-
-}  // namespace
 
 std::optional<PresentApproach> ApproachHandle::shown(const ViewContext& context) {
   const std::optional<int> intruder = current_intruder(context);

@@ -33,9 +33,8 @@ struct Movable {
   std::string title;         // "Waypoint at frame 150"
   glm::dvec3 at_m{0, 0, 0};  // in the world
 };
-// What is selected, if it can be moved: a waypoint, the light, the camera (where it is at the
-// playhead), unless its log says where it is (movable_axes()).
-[[nodiscard]] std::optional<Movable> movable(const WorldContext& world);
+// It, if it can be moved: a waypoint, the light, the camera (where it is at the playhead), unless its log says where it
+// is (movable_axes()).
 [[nodiscard]] std::optional<Movable> movable(const WorldContext& world, const Selection& what);
 // Part of a gesture, of this name.
 [[nodiscard]] std::string gesture_of(const Selection& moved);
@@ -174,19 +173,17 @@ class WorldTools {
   // What a press beside the handle has become: orbiting or panning the view, or a menu when it is let go.
   enum class Holding { nothing, orbit, pan, menu };
 
+  // What the handle is at: what is dragged, else what is selected, if it can be moved.
+  [[nodiscard]] std::optional<Movable> target_of(const WorldContext& world) const;
   // The heading's knob, then the closest approach, take the mouse where nothing nearer has it.
   void move_heading(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
   void move_approach(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
   // Lets the handle of what is selected take the mouse, and moves that point.
   void move_handle(const WorldContext& world, const WorldCanvas& canvas, const WorldViewState& look);
   void begin_drag(const WorldContext& world, const Movable& moved);
-  // A press on a waypoint: selects it and begins a drag in the plane of the screen.
-  void take_waypoint(const WorldContext& world, const Movable& waypoint);
   void press(const WorldContext& world, const WorldCanvas& canvas);
   void hold(const ScreenRect& rect, WorldViewState& look);
   void release(const WorldContext& world, const WorldCanvas& canvas);
-  // Goes to the frame of the selected waypoint.
-  void handle_double_click(const WorldContext& world);
   // Opens the field for typed coordinates, where `what` can be moved.
   void enter_position(const WorldContext& world, const Selection& what);
   void draw_entry(const WorldContext& world);
@@ -219,8 +216,6 @@ class WorldView {
   void draw(const ViewContext& context);
 
  private:
-  // Makes the model of another scene.
-  void refresh_model(const ViewContext& context);
   // Frames a project that was opened, and once more when its trajectories are known, unless the person has looked
   // around.
   void look_at_opened_project(const WorldContext& world, const ScreenRect& rect);

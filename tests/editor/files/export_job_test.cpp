@@ -38,7 +38,7 @@ TEST_CASE("an export in the background gives the bytes of the command that it na
   const TinyProject tiny;
   const ExportRequest request{.project = read(tiny), .folder = tiny.file("from editor"), .frames = FrameRange{2, 7}};
   std::atomic<int> wakes = 0;
-  ExportJob job([&] { ++wakes; });
+  ExportJob job([&] { ++wakes; }, exported);
   REQUIRE(job.start(request));
   const ExportState state = finished(job);
   REQUIRE_MESSAGE(state.phase == JobPhase::done, state.error.text());
@@ -60,7 +60,7 @@ TEST_CASE("the project is exported as it is in memory, whatever lies on disk") {
   const TinyProject tiny;
   Project project = read(tiny);
   project.name = "changed";
-  ExportJob job([] {});
+  ExportJob job([] {}, exported);
   REQUIRE(job.start({.project = project, .folder = tiny.out()}));
   REQUIRE(finished(job).phase == JobPhase::done);
   CHECK(fs::exists(fs::path(tiny.out()) / "changed.mkv"));
@@ -69,7 +69,7 @@ TEST_CASE("the project is exported as it is in memory, whatever lies on disk") {
 TEST_CASE("a cancelled export leaves nothing behind, and another can follow") {
   const TinyProject tiny(2000);
   (void)tiny.file("p.json");
-  ExportJob job([] {});
+  ExportJob job([] {}, exported);
   REQUIRE(job.start({.project = read(tiny), .folder = tiny.out()}));
   CHECK_FALSE(job.start({.project = read(tiny), .folder = tiny.out()}));
   REQUIRE(comes_true([&] { return job.state().done > 3; }));
@@ -85,7 +85,7 @@ TEST_CASE("a cancelled export leaves nothing behind, and another can follow") {
 TEST_CASE("an editor that closes during an export leaves nothing behind") {
   const TinyProject tiny(2000);
   {
-    ExportJob job([] {});
+    ExportJob job([] {}, exported);
     REQUIRE(job.start({.project = read(tiny), .folder = tiny.out()}));
     REQUIRE(comes_true([&] { return job.state().done > 3; }));
   }
@@ -96,7 +96,7 @@ TEST_CASE("errors are reported by field") {
   const TinyProject tiny;
   Project project = read(tiny);
   project.intruders[0].model.file = "nowhere.obj";
-  ExportJob job([] {});
+  ExportJob job([] {}, exported);
   REQUIRE(job.start({.project = project, .folder = tiny.out()}));
   const ExportState state = finished(job);
   REQUIRE(state.phase == JobPhase::failed);
@@ -106,7 +106,7 @@ TEST_CASE("errors are reported by field") {
 
 TEST_CASE("existing files are not overwritten unless requested") {
   const TinyProject tiny(3);
-  ExportJob job([] {});
+  ExportJob job([] {}, exported);
   ExportRequest request{.project = read(tiny), .folder = tiny.out()};
   REQUIRE(job.start(request));
   REQUIRE(finished(job).phase == JobPhase::done);
@@ -121,7 +121,7 @@ TEST_CASE("the export runs at low priority, the calling thread keeps its own") {
   const TinyProject tiny(300);
   const int own = ::getpriority(PRIO_PROCESS, 0);
   std::atomic<int> exporting = own;
-  ExportJob job([&] { exporting = ::getpriority(PRIO_PROCESS, 0); });
+  ExportJob job([&] { exporting = ::getpriority(PRIO_PROCESS, 0); }, exported);
   REQUIRE(job.start({.project = read(tiny), .folder = tiny.out(), .frames = FrameRange{0, 5}}));
   REQUIRE(finished(job).phase == JobPhase::done);
   CHECK(::getpriority(PRIO_PROCESS, 0) == own);

@@ -25,13 +25,13 @@ OwnBody body_of(int frames) {
 }
 
 // Goes through its frames at once.
-Result<OwnBody> quick(const DetectionRequest& request, const DetectionControl& control) {
-  for (int i = 1; i <= request.project.own_body.frames; ++i) control.progress(i, request.project.own_body.frames);
-  return body_of(request.project.own_body.frames);
+Result<OwnBody> quick(const Project& project, const JobControl& control) {
+  for (int i = 1; i <= project.own_body.frames; ++i) control.progress(i, project.own_body.frames);
+  return body_of(project.own_body.frames);
 }
 
 // Goes on until it is stopped.
-Result<OwnBody> endless(const DetectionRequest&, const DetectionControl& control) {
+Result<OwnBody> endless(const Project&, const JobControl& control) {
   for (int i = 1; !*control.cancel; ++i) {
     control.progress(i, 1'000'000);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -40,14 +40,14 @@ Result<OwnBody> endless(const DetectionRequest&, const DetectionControl& control
 }
 
 // Endless where all of the footage is asked for.
-Result<OwnBody> either(const DetectionRequest& request, const DetectionControl& control) {
-  return request.project.own_body.frames > 1000 ? endless(request, control) : quick(request, control);
+Result<OwnBody> either(const Project& project, const JobControl& control) {
+  return project.own_body.frames > 1000 ? endless(project, control) : quick(project, control);
 }
 
-DetectionRequest of(int frames) {
-  DetectionRequest request;
-  request.project.own_body.frames = frames;
-  return request;
+Project of(int frames) {
+  Project project;
+  project.own_body.frames = frames;
+  return project;
 }
 
 }  // namespace
@@ -83,9 +83,9 @@ TEST_CASE("a detection that is stopped ends soon, and another can follow") {
 TEST_CASE("the previous result stays during another detection, and when that fails") {
   bool fails = false;
   OwnBodyJob job([] {},
-                 [&](const DetectionRequest& request, const DetectionControl& control) -> Result<OwnBody> {
+                 [&](const Project& project, const JobControl& control) -> Result<OwnBody> {
                    if (fails) return fail("clip.mp4", "nothing moves");
-                   return either(request, control);
+                   return either(project, control);
                  });
   REQUIRE(job.start(of(7)));
   REQUIRE(finished(job).value);
@@ -120,8 +120,8 @@ TEST_CASE("an editor that closes during a detection does not wait for its end") 
   std::atomic<bool> ended = false;
   {
     OwnBodyJob job([] {},
-                   [&](const DetectionRequest& request, const DetectionControl& control) {
-                     const Result<OwnBody> stopped = endless(request, control);
+                   [&](const Project& project, const JobControl& control) {
+                     const Result<OwnBody> stopped = endless(project, control);
                      ended = true;
                      return stopped;
                    });
@@ -144,7 +144,7 @@ TEST_CASE("the detection runs at low priority, the calling thread keeps its own"
   const int own = ::getpriority(PRIO_PROCESS, 0);
   std::atomic<int> detecting = own;
   OwnBodyJob job([] {},
-                 [&](const DetectionRequest&, const DetectionControl&) -> Result<OwnBody> {
+                 [&](const Project&, const JobControl&) -> Result<OwnBody> {
                    detecting = ::getpriority(PRIO_PROCESS, 0);
                    return body_of(1);
                  });
@@ -155,10 +155,10 @@ TEST_CASE("the detection runs at low priority, the calling thread keeps its own"
 }
 
 TEST_CASE("footage that cannot be opened is reported by its name") {
-  OwnBodyJob job([] {});
-  DetectionRequest request = of(10);
-  request.project.footage.video = "nowhere.mp4";
-  REQUIRE(job.start(request));
+  OwnBodyJob job([] {}, detected);
+  Project project = of(10);
+  project.footage.video = "nowhere.mp4";
+  REQUIRE(job.start(project));
   const DetectionState state = finished(job);
   CHECK(state.phase == JobPhase::failed);
   CHECK(state.error.text().find("nowhere.mp4") != std::string::npos);

@@ -19,7 +19,7 @@ Project hazy_project() {
   return project;
 }
 
-Result<Appearance> quick_look(const AppearanceRequest&, const JobControl&) {
+Result<Appearance> quick_look(const Project&, const JobControl&) {
   Appearance found;
   found.frames_used = 24;
   found.point_spread.sigma_px = {.value = 0.62, .sd = 0.03, .is_known = true};

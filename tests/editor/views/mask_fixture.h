@@ -30,8 +30,8 @@ inline bool is_same(const cv::Mat& a, const cv::Mat& b) {
 }
 
 // Finds a disk at the place that the settings give.
-inline Result<OwnBody> find_disk(const DetectionRequest& request, const DetectionControl&) {
-  return OwnBody{.mask = disk(request.project.own_body.frames), .frames_used = request.project.own_body.frames};
+inline Result<OwnBody> find_disk(const Project& project, const JobControl&) {
+  return OwnBody{.mask = disk(project.own_body.frames), .frames_used = project.own_body.frames};
 }
 
 // A project without a window, and a user who works on its mask.
