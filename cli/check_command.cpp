@@ -47,7 +47,7 @@ std::filesystem::path log_of(const Project& project) {
 // What only opening shows, of one camera: how well it sees each intruder.
 Result<std::vector<Visibility>> check_opened(const Project& seen) {
   Result<FrameSource> source = open_footage(seen);
-  if (!source) return fail(error_of(seen, {"footage.video", source.error().text(), source.error().kind}));
+  if (!source) return fail(footage_error(seen, source.error()));
   std::vector<Warning> warnings = warnings_of(source->info());
   for (Warning& warning : codec_warnings_of(seen, source->info())) warnings.push_back(std::move(warning));
   for (Problem& mistake : footage_mistakes(source->info().path, log_of(seen)))

@@ -191,8 +191,8 @@ Result<Results> results_of(const ClipFiles& files, const fs::path& file, const F
 
 void warn_of_boxes_elsewhere(const Results& results, const fs::path& file) {
   if (results.boxes_elsewhere > 0)
-    print_warning({file.string(),
-                   count_text(results.boxes_elsewhere, "report") + " of images that the truth does not have: left out"});
+    print_warning({file.string(), count_text(results.boxes_elsewhere, "report") +
+                                      " of images that the truth does not have: left out"});
 }
 
 // Of detectors that have one file for all clips.

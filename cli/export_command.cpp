@@ -235,8 +235,8 @@ Result<void> run(const ExportOptions& options) {
   if (options.times) print_times(*report);
   if (options.progress == "none") return {};
   if (request->project.output.codec == VideoCodec::source)
-    std::fprintf(stderr, "%d of %d frames copied as they are in the footage, %d encoded\n", report->copied_frames,
-                 report->frames, report->frames - report->copied_frames);
+    std::fprintf(stderr, "%d of %s copied as in the footage, %d encoded\n", report->copied_frames,
+                 count_text(report->frames, "frame").c_str(), report->frames - report->copied_frames);
   print_visibilities(request->project, report->visibilities);
   return {};
 }

@@ -49,7 +49,7 @@ Result<Frame> background_of(FrameSource& source, const Scene& scene, int frame, 
 
 Result<ComposedFrame> composed(const Project& project, const FrameOptions& options) {
   Result<FrameSource> source = open_footage(project, nullptr, quantisers_for(project));
-  if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
+  if (!source) return fail(footage_error(project, source.error()));
   const int count = source->info().frame_count();
   if (options.frame < 0 || options.frame >= count)
     return fail(fmt::format("--frame {}", options.frame), fmt::format("the footage has frames 0 to {}", count - 1),

@@ -232,8 +232,7 @@ Result<Project> project_of(const MaskOptions& options) {
 
 Result<FrameSource> footage_of(const Project& project) {
   Result<FrameSource> source = open_footage(project);
-  if (!source && !project.file.empty())
-    return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
+  if (!source && !project.file.empty()) return fail(footage_error(project, source.error()));
   if (source)
     for (const Warning& warning : warnings_of(source->info())) print_warning(warning);
   return source;

@@ -185,7 +185,7 @@ Result<std::vector<GeoPath>> paths_of_project(const Project& project) {
 // calibration may be missing still.
 Result<Scene> scene_for_traffic(const Project& project) {
   const Result<FrameSource> source = open_footage(project, &interrupt_flag());
-  if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
+  if (!source) return fail(footage_error(project, source.error()));
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   Scene scene = bare_scene(project, footage_shape(project, source->info()));
   const Result<FrameRange, Problem> range = scene_range(project.footage, scene.footage);

@@ -35,10 +35,16 @@ const char* name_of(mode_t mode) {
   return "special file";
 }
 
+// "a video", "an image".
+std::string with_article(const std::string& thing) {
+  return (std::string_view("aeiou").find(thing.front()) == std::string_view::npos ? "a " : "an ") + thing;
+}
+
 Result<void> check_mode(const fs::path& path, mode_t mode, const std::string& thing) {
   if (S_ISREG(mode)) return {};
-  if (S_ISDIR(mode)) return fail(path.string(), "is a folder, not a " + thing, ErrorKind::cannot_read);
-  return fail(path.string(), fmt::format("is a {}, not a {}; a regular file is needed", name_of(mode), thing),
+  if (S_ISDIR(mode)) return fail(path.string(), "is a folder, not " + with_article(thing), ErrorKind::cannot_read);
+  return fail(path.string(),
+              fmt::format("is a {}, not {}; a regular file is needed", name_of(mode), with_article(thing)),
               ErrorKind::cannot_read);
 }
 
@@ -46,7 +52,7 @@ Result<void> check_mode(const fs::path& path, mode_t mode, const std::string& th
 Result<void> check_file_system(const fs::path& path, const struct statfs& found, const std::string& thing) {
   for (const long kernels : {PROC_SUPER_MAGIC, SYSFS_MAGIC, DEBUGFS_MAGIC, TRACEFS_MAGIC})
     if (found.f_type == kernels)
-      return fail(path.string(), fmt::format("is a file of the kernel's (/proc, /sys), not a {}", thing),
+      return fail(path.string(), fmt::format("is a file of the kernel's (/proc, /sys), not {}", with_article(thing)),
                   ErrorKind::cannot_read);
   return {};
 }

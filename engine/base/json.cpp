@@ -20,6 +20,8 @@ using Members = Json::object_t::Container;
 // this one keeps an index of them, so that its time grows with the length of the text only.
 class JsonBuilder : public nlohmann::json_sax<Json> {
  public:
+  explicit JsonBuilder(std::vector<std::string>* doubled) : doubled_(doubled) {}
+
   [[nodiscard]] Json& built() { return root_; }
   [[nodiscard]] std::size_t wrong_byte() const { return wrong_byte_; }
   [[nodiscard]] bool is_too_large() const { return is_too_large_; }
@@ -49,6 +51,7 @@ class JsonBuilder : public nlohmann::json_sax<Json> {
  private:
   struct Level {
     Json* json;
+    std::string path;  // what its keys begin with; empty unless doubled ones are asked for
     std::unordered_map<std::string, std::size_t> places{};  // of an object's keys
   };
 
@@ -57,6 +60,7 @@ class JsonBuilder : public nlohmann::json_sax<Json> {
     Members& members = level.json->get_ref<Json::object_t&>();
     const auto [place, is_new] = level.places.emplace(key_, members.size());
     if (is_new) members.emplace_back(key_, nullptr);
+    if (!is_new && doubled_ != nullptr) doubled_->push_back(level.path + key_);
     return members[place->second].second;
   }
 
@@ -75,7 +79,10 @@ class JsonBuilder : public nlohmann::json_sax<Json> {
     return true;
   }
   bool open(Json empty) {
-    levels_.push_back({&added(std::move(empty))});
+    std::string path;
+    if (doubled_ != nullptr && !levels_.empty())
+      path = levels_.back().path + (levels_.back().json->is_array() ? "" : key_ + ".");
+    levels_.push_back({&added(std::move(empty)), std::move(path)});
     return true;
   }
   bool close() {
@@ -88,14 +95,16 @@ class JsonBuilder : public nlohmann::json_sax<Json> {
   std::string key_;
   std::size_t wrong_byte_ = 0;
   bool is_too_large_ = false;
+  std::vector<std::string>* doubled_;
 };
 
 }  // namespace
 
-Result<Json> parsed_json(const std::string& text, const std::string& file, ErrorKind kind) {
+Result<Json> parsed_json(const std::string& text, const std::string& file, ErrorKind kind,
+                         std::vector<std::string>* doubled) {
   if (json_depth(text) > kMaxNesting)
     return fail(file, fmt::format("has more than {} brackets within one another", kMaxNesting), kind);
-  JsonBuilder builder;
+  JsonBuilder builder(doubled);
   if (Json::sax_parse(text, &builder)) return std::move(builder.built());
   if (builder.is_too_large()) return fail(file, "holds a number that is too large", kind);
   return fail(file, "is not JSON: unexpected text at " + text_position(text, builder.wrong_byte()), kind);

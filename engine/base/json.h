@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "base/result.h"
 
@@ -14,9 +15,13 @@ using Json = nlohmann::ordered_json;
 
 // Parses the text of a file. The time grows with the length of the text only. Of several members of an object with the
 // same key the last one counts.
-//   file  named in errors
-//   kind  of errors: not JSON, a number that is too large, more than kMaxNesting brackets within one another
-[[nodiscard]] Result<Json> parsed_json(const std::string& text, const std::string& file, ErrorKind kind);
+//   file     named in errors
+//   kind     of errors: not JSON, a number that is too large, more than kMaxNesting brackets within one another
+//   doubled  filled with the keys that are in their object twice: "camera.speed_mps", "intruders.name"; null: not asked
+[[nodiscard]] Result<Json> parsed_json(const std::string& text, const std::string& file, ErrorKind kind,
+                                       std::vector<std::string>* doubled = nullptr);
+
+inline constexpr const char* kIsDoubled = "is there twice; the last one counts";
 
 // Appends the members of one object to another that has none of their keys. The time grows with the number of members,
 // whereas the library's update() compares each of them with all keys.

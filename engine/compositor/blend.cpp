@@ -2,7 +2,6 @@
 #include "compositor/blend.h"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
 
 #include "base/ensure.h"
 #include "video/color_space.h"
@@ -325,23 +324,6 @@ cv::Mat coverage_over(const cv::Rect& target, const Layer& layer) {
   const cv::Rect both = target & layer.rect;
   if (!both.empty()) layer.coverage(both - layer.rect.tl()).copyTo(coverage(both - target.tl()));
   return coverage;
-}
-
-Layer averaged(const Layer& fine, int steps) {
-  if (fine.empty()) return {};
-  const auto pixel_of = [steps](int sample) { return (sample - column_round(sample, steps)) / steps; };
-  const cv::Point first(pixel_of(fine.rect.x), pixel_of(fine.rect.y));
-  const cv::Point last(pixel_of(fine.rect.br().x - 1), pixel_of(fine.rect.br().y - 1));
-  const cv::Rect rect(first, last + cv::Point(1, 1));
-  const cv::Point begin = fine.rect.tl() - first * steps;
-  const cv::Point end = rect.br() * steps - fine.rect.br();
-  const auto means_of = [&](const cv::Mat& samples) {
-    cv::Mat whole, means;
-    cv::copyMakeBorder(samples, whole, begin.y, end.y, begin.x, end.x, cv::BORDER_CONSTANT, cv::Scalar::all(0));
-    cv::resize(whole, means, rect.size(), 0, 0, cv::INTER_AREA);
-    return means;
-  };
-  return {rect, means_of(fine.color), means_of(fine.coverage)};
 }
 
 Layer occluded_by_body(const Layer& layer, const cv::Mat& own_body) {

@@ -118,10 +118,6 @@ void SubsampledChroma::write(const Out& out) const {
 // The layer's coverage over another rectangle, 0 beyond its own: CV_32FC1.
 [[nodiscard]] cv::Mat coverage_over(const cv::Rect& target, const Layer& layer);
 
-// A layer of steps by steps samples for each pixel (finely_warped()) as pixels: the means over them. Its samples begin
-// and end anywhere; beyond them is nothing.
-[[nodiscard]] Layer averaged(const Layer& fine, int steps);
-
 // The layer without what the own body occludes: times (1 - mask).
 //   own_body  CV_32FC1 of the whole image, 0..1, or empty: the layer unchanged. The layer lies within the image's rows;
 //             columns beyond its sides are those of the other side (part_round)

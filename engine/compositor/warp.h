@@ -40,6 +40,10 @@ struct RenderedView {
 [[nodiscard]] Layer finely_warped(std::span<const RenderedView> views, LensTable& lens, const cv::Rect& target,
                                   int steps, const RowTransform& row_transform = nullptr);
 
+// A layer of steps by steps samples for each pixel as pixels: the means over them. Its samples begin and end anywhere;
+// beyond them is nothing.
+[[nodiscard]] Layer averaged(const Layer& fine, int steps);
+
 // The cells of each view that warped() reads in its fine layer, which need not be there yet: those that a pixel of the
 // target touches together with a rough one. All views have coarse ones. CV_8UC1, 255 or 0. None where pixels are so
 // large in a view that areas have to be summed.

@@ -343,12 +343,14 @@ void read_origin(RecipeNode& node) {
 Result<ReadRecipe> parse_recipe(const std::string& text, const std::filesystem::path& path,
                                 const std::vector<std::string>& settings) {
   const std::string file = path.string();
-  const Result<Json> json = parsed_json(text, file, ErrorKind::bad_data);
+  std::vector<std::string> doubled;
+  const Result<Json> json = parsed_json(text, file, ErrorKind::bad_data, &doubled);
   if (!json) return fail(json.error());
   if (const Result<void> checked = check_version(*json, file); !checked) return fail(checked.error());
   RecipeLog log{.file = file};
   ReadRecipe read{.recipe = {.file = path, .base = project_without_settings(path), .text = text}};
   RecipeNode node(*json, "", log);
+  for (const std::string& key : doubled) log.warn(key, kIsDoubled);
   read_into(read.recipe, node, settings);
   if (log.error) return fail(*log.error);
   read.warnings = std::move(log.warnings);

@@ -53,7 +53,7 @@ class Estimating {
 
   Result<ProjectMotion> run() {
     Result<FrameSource> footage = open_footage(project_, control_.cancel);
-    if (!footage) return fail(error_of(project_, {"footage.video", footage.error().text(), footage.error().kind}));
+    if (!footage) return fail(footage_error(project_, footage.error()));
     for (const Warning& warning : footage->info().warnings) found_.warnings.push_back(warning);
     const FootageShape shape = footage_shape(project_, footage->info());
     const Result<Camera, Problem> camera = scene_camera(project_, shape, files_);

@@ -130,19 +130,16 @@ std::vector<Overlap> overlaps_at_all_lags(const RateGrid& first, const RateGrid&
     const auto part = [axis](const glm::dvec3& rate) { return rate[axis]; };
     mixed += sums_of(part, part);
   }
-  double largest_first = 0;
-  double largest_second = 0;
-  cv::minMaxLoc(squares_first, nullptr, &largest_first);
-  cv::minMaxLoc(squares_second, nullptr, &largest_second);
   constexpr double kRounding = 1e-12;  // of the largest sum
+  const double least_first = kRounding * cv::norm(squares_first, cv::NORM_INF);
+  const double least_second = kRounding * cv::norm(squares_second, cv::NORM_INF);
   std::vector<Overlap> overlaps(static_cast<std::size_t>(length));
   for (int i = 0; i < length; ++i) {
     const double a = squares_first.at<double>(i);
     const double b = squares_second.at<double>(i);
-    Overlap& overlap = overlaps[static_cast<std::size_t>(i)];
-    overlap.count = std::round(counts.at<double>(i));
-    if (a > kRounding * largest_first && b > kRounding * largest_second)
-      overlap.correlation = std::clamp(mixed.at<double>(i) / std::sqrt(a * b), -1.0, 1.0);
+    overlaps[static_cast<std::size_t>(i)] = {
+        std::round(counts.at<double>(i)),
+        a > least_first && b > least_second ? std::clamp(mixed.at<double>(i) / std::sqrt(a * b), -1.0, 1.0) : 0};
   }
   return overlaps;
 }

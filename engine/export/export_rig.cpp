@@ -46,7 +46,7 @@ Result<PlannedCamera> planned(Project project, std::optional<Scene>& first, cons
                               SceneFiles& files) {
   const auto failed = [&](const Problem& problem) { return fail(error_of(project, problem)); };
   Result<FootageShape> shape = files.footage_shape(project);
-  if (!shape) return failed({"footage.video", shape.error().text(), shape.error().kind});
+  if (!shape) return fail(footage_error(project, shape.error()));
   Scene scene = bare_scene(project, in_rig_time(*std::move(shape), project));
   if (const Result<void, Problem> timed = set_range(scene, project, files); !timed) return failed(timed.error());
   const Result<Camera, Problem> camera = scene_camera(project, scene.footage, files);

@@ -21,7 +21,7 @@ Result<void> FrameRenderer::open_footage(const Project& project, const std::atom
   if (footage_ && footage_->key == key && footage_->quantisers == quantisers) return {};
   Result<FrameSource> source = sigs::open_footage(project, cancel, quantisers);
   if (const Result<void> on = check_interrupt(cancel); !on) return on;
-  if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
+  if (!source) return fail(footage_error(project, source.error()));
   project_.reset();  // the scene, if any, is that of other footage
   footage_.emplace(OpenedFootage{key, quantisers, std::move(*source)});
   return {};

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <opencv2/core.hpp>
@@ -150,19 +149,15 @@ void add_shadow(const Scene& scene, const SceneMoment& moment, LensTable& lens, 
 // Where pixels averaged first, what is hardly larger than one would stay in its middle while it moves through it: the
 // smaller the target, the farther off. 1: pixels average first, which the size or no blur allows.
 int steps_before_pixels(const Scene& scene, const IntruderLayers& layers) {
-  struct Tier {
-    double max_size_px;
-    int steps;
-  };
-  constexpr std::array<Tier, 3> kTiers{{{4, 8}, {32, 4}, {96, 2}}};
-  constexpr double kLongest = 64;  // blur in samples: a wider one hides where in a pixel light falls
-  if (scene.compositing.method != MethodChoice::direct || scene.compositing.quality == QualityChoice::draft) return 1;
-  if (!layers.silhouette || !layers.silhouette->all_have_image) return 1;
-  if (layers.sigma_px == 0 && layers.motion.shifts.empty()) return 1;
+  constexpr double kTiny_px = 4;
+  constexpr double kSmall_px = 40;  // above, the error of drawing is larger
+  constexpr double kLongest = 64;   // blur in samples: a wider one hides where in a pixel light falls
+  if (scene.compositing.method != MethodChoice::direct || !layers.silhouette || !layers.silhouette->all_have_image)
+    return 1;
+  if (layers.sigma_px < kMinMotion_px && layers.motion.shifts.empty()) return 1;
   const Box& box = layers.silhouette->box;
-  const auto tier =
-      std::ranges::find_if(kTiers, [&](const Tier& one) { return std::max(box.width, box.height) <= one.max_size_px; });
-  int steps = tier == kTiers.end() ? 1 : tier->steps;
+  const double size_px = std::max(box.width, box.height);
+  int steps = size_px <= kTiny_px ? 8 : size_px <= kSmall_px ? 4 : 1;
   while (steps > 1 && (steps * layers.sigma_px > kWideSigma_px || steps * layers.motion_px > kLongest)) steps /= 2;
   return steps;
 }

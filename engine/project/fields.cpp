@@ -25,9 +25,11 @@ void add_footage(FieldList list, FootageSettings& footage) {
             "of footage in images: text file with a line for each, its time in seconds; empty: evenly spaced");
   list.number("first_frame", &footage.first_frame, "frame", 0, 1e9, "first frame that is used, counted from 0");
   list.number("last_frame", &footage.last_frame, "frame", 0, 1e9, "last frame that is used; null: the footage's last");
-  list.number("crop.left_px", &footage.crop.left_px, "px", 0, 1e5,
-              "the camera's image begins at this column of the footage's; the rest is not used");
-  list.number("crop.top_px", &footage.crop.top_px, "px", 0, 1e5, "and at this row");
+  list.number(
+      "crop.left_px", &footage.crop.left_px, "px", 0, 1e5,
+      "the camera's image begins at this column of the footage's, an even one where colour has half as many; the rest "
+      "is not used");
+  list.number("crop.top_px", &footage.crop.top_px, "px", 0, 1e5, "and at this row, likewise");
   list.number("crop.width_px", &footage.crop.width_px, "px", 0, 1e5, "and has so many columns; 0: all to the right");
   list.number("crop.height_px", &footage.crop.height_px, "px", 0, 1e5, "and so many rows; 0: all below");
   list.path("calibration", footage.calibration, footage.lens_model != LensModelChoice::equirectangular,
@@ -275,7 +277,8 @@ Result<void> set_field(Project& project, const std::string& assignment) {
     return f.key.starts_with(key + ".") || f.key.starts_with(key + "[");
   });
   if (is_group) return fail(assignment, "is a group of settings; set one of its members by its key", ErrorKind::usage);
-  if (field == fields.end()) return fail(assignment, "no such setting" + suggestion(keys_of(fields), key), ErrorKind::usage);
+  if (field == fields.end())
+    return fail(assignment, "no such setting" + suggestion(keys_of(fields), key), ErrorKind::usage);
   const bool takes_text = std::holds_alternative<std::string*>(field->value) && text != "null";
   const std::string wrong = put_json(takes_text ? Json(text) : json_or_text(text), *field);
   if (!wrong.empty()) return fail(assignment, wrong, ErrorKind::usage);

@@ -263,7 +263,8 @@ Result<void> check_sections(const Json& json, const std::string& file, Project& 
 
 Result<ReadProject> parse_project(const std::string& text, const std::filesystem::path& path) {
   const std::string file = path.string();
-  Result<Json> json = parsed_json(text, file, ErrorKind::bad_project);
+  std::vector<std::string> doubled;
+  Result<Json> json = parsed_json(text, file, ErrorKind::bad_project, &doubled);
   if (!json && text.find_first_not_of(" \t\r\n") != text.find('{') && !file.ends_with(".json"))
     return fail(file, "is not JSON; `sigs init` makes a project of a video", ErrorKind::bad_project);
   if (!json) return fail(json.error());
@@ -271,6 +272,7 @@ Result<ReadProject> parse_project(const std::string& text, const std::filesystem
   read.project.file = path;
   Result<void> step = check_version(*json, file);
   if (step) read.warnings = rename_old_keys(*json, "", file + ": ");
+  for (const std::string& key : doubled) read.warnings.push_back({file + ": " + key, kIsDoubled});
   Json rest = *json;
   if (step) step = make_room_for_lists(*json, file, read.project);
   if (step) step = check_sections(*json, file, read.project);

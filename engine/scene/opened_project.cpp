@@ -85,7 +85,7 @@ Result<OpenedProject> open_project(const Project& project, const std::atomic<boo
   Result<FrameSource> source =
       footage != nullptr ? std::move(*footage) : open_footage(project, cancel, quantisers_for(project));
   if (const Result<void> on = check_interrupt(cancel); !on) return fail(on.error());
-  if (!source) return fail(error_of(project, {"footage.video", source.error().text(), source.error().kind}));
+  if (!source) return fail(footage_error(project, source.error()));
   SceneFiles own_files;
   Result<Scene> scene =
       open_valid_scene(project, footage_shape(project, source->info()), files != nullptr ? *files : own_files);
@@ -130,6 +130,11 @@ Result<FrameSource> cropped_footage(FrameSource whole, const Project& project) {
   if (const Result<void> done = whole.crop({crop.left_px, crop.top_px, crop.width_px, crop.height_px}); !done)
     return fail("footage.crop", done.error().what);
   return whole;
+}
+
+Error footage_error(const Project& project, const Error& error) {
+  if (error.where == "footage.crop") return error_of(project, {"footage.crop.left_px", error.what, error.kind});
+  return error_of(project, {"footage.video", error.text(), error.kind});
 }
 
 FootageKey footage_key(const Project& project) {

@@ -55,9 +55,13 @@ struct OpenedProject {
 [[nodiscard]] Quantisers quantisers_for(const Project& project);
 
 // The footage of a project: a video, or images with the times that the project states, of which footage.crop leaves a
-// part. Errors and arguments are those of FrameSource::open() and crop(); they do not name the project.
+// part. Errors and arguments are those of FrameSource::open() and crop(); they do not name the project: see
+// footage_error().
 [[nodiscard]] Result<FrameSource> open_footage(const Project& project, const std::atomic<bool>* cancel = nullptr,
                                                Quantisers quantisers = Quantisers::leave_out);
+
+// An error of open_footage() with the project's file and field.
+[[nodiscard]] Error footage_error(const Project& project, const Error& error);
 
 // Stamp of the project's video or folder of images, under its absolute path. A pattern names no file: the stamp is that
 // of the images' folder.

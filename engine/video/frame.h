@@ -38,6 +38,7 @@ struct ColorInfo {
   int primaries = 2;  // ISO/IEC 23091-2 code points, 2: unspecified
   int transfer = 2;
   bool matrix_stated = false;  // false: the file does not state it; the matrix above is assumed from the image's height
+  int unknown_matrix = 2;      // the code point of one that the file states and this program does not know; 2: none
   bool range_stated = false;   // false: the file does not state it; the range above is assumed
 
   [[nodiscard]] bool operator==(const ColorInfo&) const = default;

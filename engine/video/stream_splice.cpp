@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/ensure.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "video/image_sequence.h"
 #include "video/libav/splice_file.h"
@@ -160,9 +161,9 @@ Result<SplicePlan> planned(const VideoInfo& footage, const ChangedFrames& frames
   if (const int in_vain = encoded_in_vain(splice->layout, frames); in_vain > 0)
     plan.warnings.push_back(
         {footage.path.string(),
-         fmt::format("{} frames without an intruder are encoded too: their groups of pictures are cut "
-                     "by the range, or follow an encoded one without an IDR picture",
-                     in_vain)});
+         fmt::format("encoded too, though without an intruder: {}, whose groups of pictures are cut by the range, or "
+                     "follow an encoded one without an IDR picture",
+                     count_text(in_vain, "frame"))});
   plan.splice = std::move(splice);
   return plan;
 }

@@ -67,6 +67,8 @@ TEST_CASE("a missing file, a folder, a device, a pipe, a socket and a file of th
   check_refused(folder / "pipe", "pipe");
   check_refused(folder / "socket", "socket");
   check_refused("/proc/self/status", "kernel");
+  CHECK(check_input_file("/dev/zero", "image").error().what == "is a device, not an image; a regular file is needed");
+  CHECK(check_input_file(folder.path(), "video").error().what == "is a folder, not a video");
   fs::create_symlink("/proc/kmsg", folder / "log");  // never ends
   check_refused(folder / "log", "kernel");
 }

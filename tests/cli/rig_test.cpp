@@ -196,7 +196,8 @@ TEST_CASE("two cameras in one image, as of a stereo camera, give what FFmpeg's c
   CHECK(beyond.status == 65);
   CHECK_MESSAGE(rig_says(beyond.err, "64x52 from (100, 0) on is not within the footage's 132x52"), beyond.err);
   CHECK(rig_says(refused("--set footage.crop.left_px=132").err, "is not within"));
-  CHECK(rig_says(refused("--set footage.crop.left_px=1").err, "is not on a sample of colour"));
+  CHECK(rig_says(refused("--set footage.crop.left_px=1").err,
+                 "footage.crop.left_px: its corner (1, 0) is not on a sample of colour"));
   CHECK(rig_says(refused("--set footage.crop.left_px=2 --set export.video.codec=source").err, "copies packets"));
 }
 

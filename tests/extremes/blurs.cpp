@@ -18,6 +18,52 @@ ValidFrame blurred_by(double sigma_px, Scene scene, uchar luma = 100) {
   return valid_frame(scene, 1, even_frame(scene.footage.size_px, luma));
 }
 
+// The share of a row of pixels' light that falls into column k, of a line of a width about a middle, blurred by a
+// Gaussian and then averaged over the pixel: a difference of the Gaussian's second integral.
+double share_of_pixel(int k, double middle_px, double width_px, double sigma_px) {
+  const auto second = [&](double t) {
+    const double z = t / sigma_px;
+    return t * 0.5 * (1 + std::erf(z / std::numbers::sqrt2)) +
+           sigma_px * std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
+  };
+  const double right = k + 0.5 - middle_px, left = k - 0.5 - middle_px, half = width_px / 2;
+  return second(right + half) - second(left + half) - second(right - half) + second(left - half);
+}
+
+// Where the light is, and how far a pixel is from the closed form at most, as a share of the brightest.
+struct PlateImage {
+  glm::dvec2 middle_px{0, 0};
+  double off = 0;
+};
+
+PlateImage image_of_plate(const glm::dvec2& at_px, double side_px, double sigma_px) {
+  constexpr double kFocal_px = 300;
+  const auto metres = [](double px) { return px * kDistance_m / kFocal_px; };
+  Scenario scenario;
+  add_plate(scenario, metres(side_px),
+            kEye_m + glm::dvec3(kDistance_m, metres(at_px.x - 159.5), metres(at_px.y - 119.5)));
+  Scene scene = scenario.opened();
+  scene.compositing.blur_px_per_m = sigma_px / kDistance_m;
+  ComposeContext context;
+  const SceneMoment moment = scene_at(scene, 0);
+  const Result<IntruderLayers> layers = intruder_layers(scene, moment, moment.intruders[0], context);
+  REQUIRE(layers);
+  const Layer& seen = layers->blurred;
+  glm::dvec2 sum(0);
+  double all = 0, highest = 0, off = 0;
+  for (int y = seen.rect.y; y < seen.rect.br().y; ++y)
+    for (int x = seen.rect.x; x < seen.rect.br().x; ++x) {
+      const double opacity = seen.color.at<cv::Vec4f>(cv::Point(x, y) - seen.rect.tl())[3];
+      const double wanted =
+          share_of_pixel(x, at_px.x, side_px, sigma_px) * share_of_pixel(y, at_px.y, side_px, sigma_px);
+      sum += opacity * glm::dvec2(x, y);
+      all += opacity;
+      highest = std::max(highest, wanted);
+      off = std::max(off, std::abs(opacity - wanted));
+    }
+  return {sum / all, off / highest};
+}
+
 Scene aircraft_ahead() {
   Scenario scenario;
   add_aircraft(scenario, kEye_m + glm::dvec3(kDistance_m, 0, 0));
@@ -54,6 +100,21 @@ TEST_CASE("a blur of a third of a pixel keeps the light and barely moves any pix
                  opacity_soft(shared - soft.layers[0].blurred.rect.tl()), cv::NORM_INF) < 0.2);
   CHECK(cv::norm(opacity_sharp(shared - sharp.layers[0].blurred.rect.tl()),
                  opacity_soft(shared - soft.layers[0].blurred.rect.tl()), cv::NORM_INF) > 0.001);
+}
+
+TEST_CASE(
+    "a target's light is where the target is between pixels, and divided among them as a lens does, however small") {
+  for (const double sigma_px : {0.45, 1.0})
+    for (const double side_px : {0.1, 0.3, 0.6, 1.3, 2.4})
+      for (const double phase_px : {0.0, 0.15, 0.3, 0.5, 0.8}) {
+        CAPTURE(sigma_px);
+        CAPTURE(side_px);
+        CAPTURE(phase_px);
+        const glm::dvec2 at_px(160 + phase_px, 118.7 - phase_px / 2);
+        const PlateImage image = image_of_plate(at_px, side_px, sigma_px);
+        CHECK(glm::distance(image.middle_px, at_px) < 0.02);
+        CHECK(image.off < 0.03);
+      }
 }
 
 TEST_CASE("a blur of 500 px spreads the intruder as its closed form says") {

@@ -104,6 +104,20 @@ TEST_CASE("unknown keys give warnings with their whole name and are kept on save
     CHECK_MESSAGE(saved.find(kept) != std::string::npos, kept);
 }
 
+TEST_CASE("a key that is there twice gives a warning with its whole name, and the last one counts") {
+  const Result<ReadProject> read = parse_project(
+      R"({"sigs": 1, "camera": {"speed_mps": 99}, "camera": {"speed_mps": 1, "position_m": [0, 0, 0], "speed_mps": 7},
+          "intruders": [{"name": "a", "model": {"gloss": 1, "gloss": 0}}]})",
+      "w.json");
+  REQUIRE(read);
+  std::vector<std::string> texts;
+  for (const Warning& warning : read->warnings) texts.push_back(warning.text());
+  CHECK(texts == std::vector<std::string>{"w.json: camera: is there twice; the last one counts",
+                                          "w.json: camera.speed_mps: is there twice; the last one counts",
+                                          "w.json: intruders.model.gloss: is there twice; the last one counts"});
+  CHECK(read->project.camera.speed_mps == 7);
+}
+
 TEST_CASE("for an unknown key a similar known one is suggested") {
   const Result<ReadProject> read = parse_project(R"({"sigs": 1, "footage": {"vidoe": "a.mkv"}, "intruder": [],
       "cammera": {"position_m": [0, 0, 0]}, "colour_of_hangar": 1,

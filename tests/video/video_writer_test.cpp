@@ -175,6 +175,25 @@ TEST_CASE("4:2:2 states its chroma site too: motion JPEG midway, video at the le
   }
 }
 
+TEST_CASE("a colour matrix that is not known is warned of, and the written file still states it") {
+  const TemporaryFolder folder;
+  if (!make_clip("-c:v ffv1 -pix_fmt yuv420p -colorspace ycgco", folder / "a.mkv")) return;
+  FrameSource source = opened(folder / "a.mkv");
+  const VideoInfo& info = source.info();
+  CHECK_FALSE(info.color.matrix_stated);
+  CHECK(info.color.unknown_matrix == 8);  // YCgCo, ISO/IEC 23091-2
+  CHECK_FALSE(info.warnings.empty());
+  for (const VideoCodec codec : {VideoCodec::ffv1, VideoCodec::h264}) {
+    const VideoFormat format{.codec = codec, .size_px = info.size_px, .color = info.color};
+    Result<VideoWriter> writer = VideoWriter::open(folder / "b.mkv", format);
+    REQUIRE(writer.has_value());
+    REQUIRE(writer->write(*source.read(0), 0).has_value());
+    REQUIRE(writer->finish().has_value());
+    CHECK(opened(folder / "b.mkv").info().color == info.color);
+    std::filesystem::remove(folder / "b.mkv");
+  }
+}
+
 TEST_CASE("colours that the footage leaves unstated stay unstated") {
   for (const VideoCodec codec : {VideoCodec::ffv1, VideoCodec::h264, VideoCodec::hevc, VideoCodec::av1}) {
     CAPTURE(static_cast<int>(codec));

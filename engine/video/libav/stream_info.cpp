@@ -62,6 +62,7 @@ std::string read_matrix(ColorInfo& color, const AVFrame& image) {
   }
   color.matrix = image.height < kHighDefinitionLines ? ColorMatrix::bt601 : ColorMatrix::bt709;
   if (image.colorspace == AVCOL_SPC_UNSPECIFIED || image.colorspace == AVCOL_SPC_RGB) return {};
+  color.unknown_matrix = image.colorspace;
   const char* name = av_color_space_name(image.colorspace);
   return fmt::format("the colour matrix {} is not known; {} is assumed", name == nullptr ? "of this number" : name,
                      color.matrix == ColorMatrix::bt601 ? "BT.601" : "BT.709");
@@ -245,7 +246,8 @@ void tag(AVCodecContext& encoder, const ColorInfo& color, PixelLayout layout) {
   }
   const bool full = color.range == ColorRange::full;
   if (full || color.range_stated) encoder.color_range = full ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
-  if (color.matrix_stated) encoder.colorspace = kSpaces.at(static_cast<std::size_t>(color.matrix));
+  encoder.colorspace = color.matrix_stated ? kSpaces.at(static_cast<std::size_t>(color.matrix))
+                                           : static_cast<AVColorSpace>(color.unknown_matrix);
   // For 4:2:2 the standards know one site, the left; any other one must be stated.
   const bool is_odd_422 = layout == PixelLayout::yuv422 && color.chroma_site == ChromaSite::center;
   if (layout == PixelLayout::yuv420 || is_odd_422)
