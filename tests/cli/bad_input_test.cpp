@@ -82,9 +82,9 @@ TEST_CASE("an option without a value is refused by its name, and a setting is na
   check_refused(tiny, 64, "error: --set: has no value", "--set ''");
   check_refused(tiny, 64, "error: --set camera.speed_mps=nan: expected", "--set camera.speed_mps=nan");
   check_refused(tiny, 78, "light.ambient: is 1.0000001; it must lie between 0 and 1", "--set light.ambient=1.0000001");
-  const Run below = run_sigs("evaluate track --labels ''");
+  const Run below = run_sigs("evaluate detect a.xml --results b.csv --split ''");
   CHECK(below.status == 64);
-  CHECK_MESSAGE(has(below.err, "error: --labels: has no value"), below.err);
+  CHECK_MESSAGE(has(below.err, "error: --split: has no value"), below.err);
 }
 
 TEST_CASE("a calibration with too few numbers or NaN is named by file and key") {

@@ -197,9 +197,8 @@ double missing_s(const VideoInfo& info, const AVFormatContext& format) {
   if (format.nb_streams != 1 || format.duration <= 0 || info.times_s.empty() ||
       format.duration_estimation_method != AVFMT_DURATION_FROM_STREAM)
     return 0;
-  // Matroska counts its duration from 0, other containers from the first frame.
-  const bool is_from_zero = std::string_view(format.iformat->name).starts_with("matroska");
-  const std::int64_t begin = is_from_zero && format.start_time > 0 ? format.start_time : 0;
+  // Some files count their duration from 0, others from their first frame.
+  const std::int64_t begin = format.start_time == AV_NOPTS_VALUE ? 0 : std::max<std::int64_t>(0, format.start_time);
   const double promised_s = static_cast<double>(format.duration - begin) / AV_TIME_BASE;
   return promised_s - info.times_s.back() - static_cast<double>(info.frame_rate_den) / info.frame_rate_num;
 }
