@@ -47,7 +47,6 @@ UniformGrid pixels_of(int first, int count) {
   return {.first = static_cast<double>(first), .step = 1, .count = count};
 }
 
-// Samples within target keep their positions; beyond the layer everything is empty.
 // Exactly sigma_px along an axis without spread.
 glm::dvec2 remaining_sigma_px(double sigma_px, const glm::dvec2& spread_px2) {
   glm::dvec2 remaining_px(sigma_px);

@@ -171,12 +171,17 @@ bool WaypointTool::begin(const ToolContext& tool) {
   else if (waypoint != nullptr)
     start_m = waypoint->position_m;
   if (!start_m) return false;
-  const std::optional<glm::dvec2> pixel = pixel_of(*start_m, tool.eye.world_from_camera, tool.eye.lens);
-  if (!pixel || !tool.canvas.pixel_at(tool.canvas.view.screen_of(*pixel))) {
-    taken_.reset();
-    tool.context.edits.ask(ShowMessage{
-        "In its own frame this waypoint lies outside the image: move it in the World panel or by its numbers.", true});
-    return false;
+  glm::dvec2 start_mouse = taken.gesture.pressed;
+  if (!makes_one) {
+    const std::optional<glm::dvec2> pixel = pixel_of(*start_m, tool.eye.world_from_camera, tool.eye.lens);
+    if (!pixel || !tool.canvas.pixel_at(tool.canvas.view.screen_of(*pixel))) {
+      taken_.reset();
+      tool.context.edits.ask(ShowMessage{
+          "In its own frame this waypoint lies outside the image: move it in the World panel or by its numbers.",
+          true});
+      return false;
+    }
+    start_mouse = tool.canvas.view.screen_of(*pixel);
   }
   if (makes_one && !can_fix_frames(tool.context, taken.intruder)) return false;
   taken.gesture.name = fmt::format("over the footage {}", ++gestures_);
@@ -184,8 +189,8 @@ bool WaypointTool::begin(const ToolContext& tool) {
   if (makes_one)
     taken.waypoint = put_in_gesture(tool.context, taken.intruder, tool.eye.frame, *start_m, taken.gesture.name);
   taken.start_m = taken.now_m = taken.first_m = *start_m;
-  taken.start_mouse = tool.canvas.view.screen_of(*pixel);
-  taken.mouse_to_waypoint = taken.start_mouse - taken.gesture.pressed;
+  taken.start_mouse = start_mouse;
+  taken.mouse_to_waypoint = start_mouse - taken.gesture.pressed;
   taken.along = moves_along_sight();
   taken.gesture.is_moving = true;
   return !makes_one;  // the waypoint is there from the next update on
