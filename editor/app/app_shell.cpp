@@ -183,6 +183,7 @@ void AppShell::update(double now_s) {
   for (const Request& request : new_project_.take_requests()) handle(request);
   ask_for_files();
   if (std::exchange(project_file_, document_.project().file) != document_.project().file) export_view_.forget_folder();
+  if (has_project()) start_page_.rest();
   const bool exporting = export_.is_running();
   if (std::exchange(was_exporting_, exporting) && !exporting) report_export();
 }

@@ -112,13 +112,13 @@ Result<cv::Mat> untouched_image(FrameSource& source, cv::Size size_px) {
   return scaled_piece(bgr, window_around({bgr.cols / 2.0, bgr.rows / 2.0}, bgr.cols, bgr.size(), size_px), size_px);
 }
 
-Result<cv::Mat> composed_image(const Scene& scene, FrameSource& source, cv::Size size_px) {
+Result<cv::Mat> composed_image(const Scene& scene, FrameSource& source, cv::Size size_px, ComposeContext& context) {
   const std::optional<VisibilityEstimate> view = best_view(scene);
   if (!view) return fail("", "no intruder comes into view");
   Result<Frame> background = source.read(view->frame);
   if (!background) return fail(background.error());
-  ComposeContext context;
   const Result<ComposedFrame> composed = compose_frame(scene, view->frame, std::move(*background), context);
+  for (const auto& model : scene.models) context.forget(model->mesh);
   if (!composed) return fail(composed.error());
   const cv::Mat bgr = bgr_of(composed->image);
   const Box& box = *view->silhouette;
@@ -178,25 +178,26 @@ Result<cv::Mat> turntable_image(const Mesh& mesh, double turn_rad, cv::Size size
   return straight_display(color);
 }
 
-Result<cv::Mat> project_thumbnail(const fs::path& project_file, cv::Size size_px) {
+Result<cv::Mat> project_thumbnail(const fs::path& project_file, cv::Size size_px, ComposeContext& compose) {
   const Result<ReadProject> read = read_project(project_file);
   if (!read) return fail(read.error());
   const Project project = seen_by_each(read->project).front();
   Result<FrameSource> source = open_footage(project);
   if (!source) return fail(source.error());
   if (const Result<Scene> scene = open_scene(project, footage_shape(project, source->info())))
-    if (Result<cv::Mat> image = composed_image(*scene, *source, size_px)) return image;
+    if (Result<cv::Mat> image = composed_image(*scene, *source, size_px, compose)) return image;
   return untouched_image(*source, size_px);
 }
 
-Result<cv::Mat> model_thumbnail(const fs::path& file, cv::Size size_px) {
+Result<cv::Mat> model_thumbnail(const fs::path& file, cv::Size size_px, ComposeContext& compose) {
   SceneFiles files;
   const Result<FirstModel> model = is_sample_model(file) ? sample_model(file, files) : users_model(file, files);
   if (!model) return fail(model.error());
-  Result<Renderer> renderer = Renderer::create();
+  const Result<Renderer*> renderer = compose.renderer();
   if (!renderer) return fail(renderer.error());
   const int side_px = 2 * std::max(size_px.width, size_px.height);
-  const Result<cv::Mat> rgba = turntable_image(model->model->mesh, 0, {side_px, side_px}, *renderer);
+  const Result<cv::Mat> rgba = turntable_image(model->model->mesh, 0, {side_px, side_px}, **renderer);
+  compose.forget(model->model->mesh);
   if (!rgba || rgba->empty()) return rgba;
   return filling(*rgba, size_px);
 }
@@ -224,7 +225,14 @@ std::shared_ptr<const cv::Mat> Thumbnails::of(const fs::path& file) {
   return nullptr;
 }
 
+void Thumbnails::drop_waiting() {
+  const std::lock_guard lock(mutex_);
+  for (const fs::path& file : queue_) images_.erase(file);
+  queue_.clear();
+}
+
 void Thumbnails::work() {
+  ComposeContext compose;  // one renderer for all images: making it takes longer than most of them
   for (;;) {
     fs::path file;
     {
@@ -235,7 +243,7 @@ void Thumbnails::work() {
       queue_.pop_front();
     }
     const Result<void> made = guarded([&]() -> Result<void> {
-      Result<cv::Mat> image = make_(file, size_px_);
+      Result<cv::Mat> image = make_(file, size_px_, compose);
       if (!image) return fail(image.error());
       const std::lock_guard lock(mutex_);
       images_[file] = std::make_shared<const cv::Mat>(std::move(*image));

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "base/result.h"
+#include "frame/composed_frame.h"
 #include "mesh/mesh.h"
 #include "render/renderer.h"
 
@@ -20,16 +21,18 @@ namespace sigs::editor {
 
 // A composited frame of a project around one of its intruders, CV_8UC3, of that size: what a card on the start page
 // shows. Where intruders cannot be composed, the middle frame of the footage.
-[[nodiscard]] Result<cv::Mat> project_thumbnail(const std::filesystem::path& project, cv::Size size_px);
+[[nodiscard]] Result<cv::Mat> project_thumbnail(const std::filesystem::path& project, cv::Size size_px,
+                                                ComposeContext& compose);
 
 // A model by itself, as turntable_image() shows it, as large as the size allows, CV_8UC4: what a model is chosen by. A
 // sample's axes are known, those of another file are judged by its shape (first_project/first_model.h).
-[[nodiscard]] Result<cv::Mat> model_thumbnail(const std::filesystem::path& model, cv::Size size_px);
+[[nodiscard]] Result<cv::Mat> model_thumbnail(const std::filesystem::path& model, cv::Size size_px,
+                                              ComposeContext& compose);
 
 // Images of files, made one after the other on a thread of its own when they are first asked for, and kept.
 class Thumbnails {
  public:
-  using Make = std::function<Result<cv::Mat>(const std::filesystem::path&, cv::Size)>;
+  using Make = std::function<Result<cv::Mat>(const std::filesystem::path&, cv::Size, ComposeContext&)>;
 
   // wake  called from that thread when one is ready
   // make  project_thumbnail or model_thumbnail
@@ -40,6 +43,10 @@ class Thumbnails {
 
   // Asks for the image and returns at once. Null: not there yet, or there is none to be had.
   [[nodiscard]] std::shared_ptr<const cv::Mat> of(const std::filesystem::path& file);
+
+  // Drops what waits to be made, as if it had never been asked for: while nothing shows the images, others need the
+  // processor.
+  void drop_waiting();
 
  private:
   void work();

@@ -46,6 +46,9 @@ class StartPage {
   [[nodiscard]] StartPageChoice draw(const ViewContext& context, const std::vector<AbandonedProject>& abandoned,
                                      const std::filesystem::path& loading);
 
+  // While it is not shown: images that are not made yet wait until it is.
+  void rest() { images_.drop_waiting(); }
+
  private:
   // A project of Settings::recent.
   struct Recent {

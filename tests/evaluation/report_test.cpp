@@ -181,7 +181,7 @@ TEST_CASE("a name comes back from CSV, JSON and the page as it is") {
   CHECK(rows_of(written.text("summary.csv")).at(1).at("tracker") == kSpecialName);
   const nlohmann::json json = nlohmann::json::parse(written.text("evaluation.json"));
   CHECK(json["trackers"][1]["name"] == kSpecialName);
-  CHECK(json["film"] == "clip <1>");
+  CHECK(json["video"] == "clip <1>");
   const pugi::xml_document page = parsed(written.text("report.html"));
   CHECK(page.select_node("//tbody/tr[2]/td[1]").node().text().get() == std::string(kSpecialName));
   CHECK(page.select_node("//h1").node().text().get() == std::string("Trackers on clip <1>"));
@@ -281,7 +281,7 @@ TEST_CASE("a report of detectors has the same figures in the table, in CSV and i
   CHECK(summary.at(0).at("false_alarms_per_hour") == "1800");
   CHECK(summary.at(1).at("mean_first_range_m").empty());
   const std::vector<Row> encounters = rows_of(written.text("encounters.csv"));
-  CHECK(encounters.at(0).at("film") == "one, \"1\"");
+  CHECK(encounters.at(0).at("video") == "one, \"1\"");
   CHECK(encounters.at(0).at("first_detection_range_m") == "512.25");
   CHECK(encounters.at(1).at("first_detection_range_m").empty());
   CHECK(encounters.at(0).at("horizon") == "above");

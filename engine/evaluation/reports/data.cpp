@@ -132,7 +132,7 @@ Json json_of(const DetectionRate& rate) {
 }
 
 Json json_of(const EncounterScore& encounter) {
-  return {{"film", line_text(encounter.clip)},
+  return {{"video", line_text(encounter.clip)},
           {"target", encounter.target},
           {"first_frame", encounter.first_frame},
           {"last_frame", encounter.last_frame},
@@ -350,7 +350,7 @@ std::string slices_csv(const TrackSetReport& report) {
 std::string evaluation_json(const TrackReport& report) {
   const Json json{{"sigs_evaluation", 1},
                   {"kind", "track"},
-                  {"film", line_text(report.clip)},
+                  {"video", line_text(report.clip)},
                   {"footage", json_of(report.footage)},
                   {"target", line_text(report.target)},
                   {"policy", json_of(report.policy, report)},

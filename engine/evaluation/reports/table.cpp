@@ -218,7 +218,7 @@ std::vector<TableColumn> slices_of(const TrackSetReport& report) {
 }
 
 std::vector<TableColumn> encounters_of(const DetectionReport& report) {
-  std::vector<TableColumn> columns{{"detector", ""},        {"film", ""},          {"intruder", ""},
+  std::vector<TableColumn> columns{{"detector", ""},        {"video", ""},         {"intruder", ""},
                                    {"frames", ""},          {"horizon", ""},       {"nearest", "m"},
                                    {"detected", "in time"}, {"first seen", "m"},   {"first seen", "after s"},
                                    {"matched", "frames"},   {"in range", "frames"}};

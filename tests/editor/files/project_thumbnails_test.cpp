@@ -16,7 +16,8 @@ using sigs::test::TinyProject;
 
 TEST_CASE("a project's image shows its intruder") {
   const TinyProject tiny;
-  const Result<cv::Mat> image = project_thumbnail(tiny.project(), {40, 30});
+  ComposeContext context;
+  const Result<cv::Mat> image = project_thumbnail(tiny.project(), {40, 30}, context);
   REQUIRE(image);
   CHECK(image->size() == cv::Size(40, 30));
   // The footage is grey; the cube is red.
@@ -31,13 +32,14 @@ TEST_CASE("a project's image shows its intruder") {
 
 TEST_CASE("without a model the footage is shown, without footage there is no image") {
   TinyProject tiny;
+  ComposeContext context;
   tiny.change("cube.obj", "nowhere.obj");
-  const Result<cv::Mat> footage = project_thumbnail(tiny.project(), {40, 30});
+  const Result<cv::Mat> footage = project_thumbnail(tiny.project(), {40, 30}, context);
   REQUIRE(footage);
   CHECK(cv::norm(footage->row(0), footage->row(29), cv::NORM_INF) == 0);
   tiny.change("clip.mkv", "nowhere.mkv");
-  CHECK_FALSE(project_thumbnail(tiny.project(), {40, 30}));
-  CHECK_FALSE(project_thumbnail(tiny.file("nowhere.json"), {40, 30}));
+  CHECK_FALSE(project_thumbnail(tiny.project(), {40, 30}, context));
+  CHECK_FALSE(project_thumbnail(tiny.file("nowhere.json"), {40, 30}, context));
 }
 
 TEST_CASE("images come later, once, and are kept") {
@@ -53,4 +55,33 @@ TEST_CASE("images come later, once, and are kept") {
   CHECK(images.of(tiny.project()) == image);
   CHECK_FALSE(images.of(tiny.file("nowhere.json")));
   CHECK(wakes == 1);
+}
+
+TEST_CASE("what waits is dropped and made when it is asked for again") {
+  std::atomic<int> made = 0;
+  std::atomic<bool> may_go_on = false;
+  const auto make = [&](const std::filesystem::path&, cv::Size size_px, ComposeContext&) -> Result<cv::Mat> {
+    ++made;
+    while (!may_go_on) std::this_thread::yield();
+    return cv::Mat(size_px, CV_8UC3, cv::Scalar::all(0));
+  };
+  std::atomic<int> wakes = 0;
+  Thumbnails images(
+      {4, 3}, [&] { ++wakes; }, make);
+  const auto wait_for = [](const std::function<bool()>& is_so) {
+    for (int i = 0; i < 3000 && !is_so(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return is_so();
+  };
+  CHECK_FALSE(images.of("first"));
+  REQUIRE(wait_for([&] { return made == 1; }));
+  CHECK_FALSE(images.of("second"));
+  images.drop_waiting();
+  may_go_on = true;
+  REQUIRE(wait_for([&] { return wakes == 1; }));
+  CHECK(images.of("first"));  // the one at work is finished and kept
+  CHECK(made == 1);
+  CHECK_FALSE(images.of("second"));
+  REQUIRE(wait_for([&] { return wakes == 2; }));
+  CHECK(images.of("second"));
+  CHECK(made == 2);
 }
