@@ -94,6 +94,22 @@ Layer hazed(const Layer& layer, double transmission, const cv::Vec3d& airlight) 
   return out;
 }
 
+Layer hazed(const Layer& layer, const cv::Mat& distance_m, double visibility_m, const cv::Vec3d& airlight) {
+  if (layer.empty()) return layer;
+  Layer out{layer.rect, layer.color.clone(), layer.coverage};
+  for (int y = 0; y < out.color.rows; ++y) {
+    cv::Vec4f* const colors = out.color.ptr<cv::Vec4f>(y);
+    const float* const distances = distance_m.ptr<float>(y);
+    for (int x = 0; x < out.color.cols; ++x) {
+      if (!(colors[x][3] > 0)) continue;
+      const auto share = static_cast<float>(haze_transmission(distances[x], visibility_m));
+      for (int c = 0; c < 3; ++c)
+        colors[x][c] = std::lerp(static_cast<float>(airlight[c]) * colors[x][3], colors[x][c], share);
+    }
+  }
+  return out;
+}
+
 std::optional<cv::Vec3d> airlight_around(const Frame& footage, const cv::Rect& box, const cv::Mat& own_body) {
   const cv::Rect around = surroundings(box, {{0, 0}, footage.size_px()});
   if (around.empty()) return std::nullopt;

@@ -26,6 +26,11 @@ namespace sigs {
 //   airlight  linear light, BT.709's primaries: what an endless depth of this haze looks like
 [[nodiscard]] Layer hazed(const Layer& layer, double transmission, const cv::Vec3d& airlight);
 
+// The same of what is not equally far everywhere.
+//   distance_m  CV_32FC1 over the layer
+[[nodiscard]] Layer hazed(const Layer& layer, const cv::Mat& distance_m, double visibility_m,
+                          const cv::Vec3d& airlight);
+
 // The colour of the footage in and around a box: linear light, BT.709's primaries. Of the pixels of the box grown by
 // half its size (8 to 64 px on each side) about a thousand are read, evenly spread; of these the half that lies nearest
 // to the median of luma is averaged, so that birds, poles and a strip of ground do not count. Pixels in which the own

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
@@ -105,15 +106,27 @@ void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* ba
   if (intruder.contrail.strands == 0 || scene.is_thermal || scene.compositing.method != MethodChoice::direct) return;
   const cv::Rect& window = layers.window;
   const Lens& model = lens.camera().lens;
-  const double distance_m = layers.placed.distance_m();
   const std::vector<TrailStrand> strands = contrail_strands(scene, moment, layers.placed, model);
-  const Layer trail = trail_layer(strands, contrail_color(scene, moment, intruder.contrail),
-                                  grown(window, blur_margin_px(std::min(layers.sigma_px, 100.0))));
-  if (trail.empty()) return;
-  const cv::Rect box = larger_part(trail.rect & window, model, scene.footage.size_px);
-  const Layer hazed = hazed_layer(scene, trail, distance_m, box, background);
-  layers.contrail =
-      without_hidden(scene, moment, blurred_through(model, hazed, layers.sigma_px, window), distance_m, lens);
+  const Trail trail = trail_of(strands, contrail_color(scene, moment, intruder.contrail),
+                               grown(window, blur_margin_px(std::min(layers.sigma_px, 100.0))));
+  if (trail.layer.empty()) return;
+  Layer seen = toned(trail.layer, scene.appearance.saturation, scene.appearance.black);
+  if (const std::optional<double>& visibility_m = scene.appearance.haze.visibility_m) {
+    const cv::Rect box = larger_part(trail.layer.rect & window, model, scene.footage.size_px);
+    seen = hazed(seen, trail.distance_m, *visibility_m, airlight_of(scene, box, background));
+  }
+  // The part of the trail at some distances, which is before the occluder or behind it as a whole.
+  const auto shown = [&](const cv::Mat& at_these, double distance_m) {
+    Layer part{seen.rect, {}, seen.coverage};
+    seen.color.copyTo(part.color, at_these);
+    return without_hidden(scene, moment, blurred_through(model, part, layers.sigma_px, window), distance_m, lens);
+  };
+  const double occluder_m =
+      scene.occluder.mask.empty() ? std::numeric_limits<double>::max() : scene.occluder.distance_m;
+  const cv::Mat is_behind = trail.distance_m > occluder_m;
+  layers.contrail = shown(~is_behind, 0);
+  if (!layers.contrail.empty() && cv::countNonZero(is_behind) > 0)
+    layers.contrail.color += shown(is_behind, occluder_m + 1).color;
   layers.contrail_is_nearer = is_before_aircraft(scene, moment, layers.placed);
 }
 

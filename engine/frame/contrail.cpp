@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/pose.h"
 
@@ -46,8 +47,14 @@ struct Piece {
   const TrailPoint& to;
 };
 
-// Optical depth of a piece at a pixel: of its nearest place.
-float depth_of(const Piece& piece, const glm::dvec2& pixel) {
+// Ice in a pixel.
+struct Ice {
+  float depth = 0;  // optical
+  float distance_m = 0;
+};
+
+// Of a piece at a pixel: that of its nearest place.
+Ice ice_of(const Piece& piece, const glm::dvec2& pixel) {
   const glm::dvec2 way = piece.to.pixel - piece.from.pixel;
   const double length2 = glm::dot(way, way);
   const double share = length2 > 0 ? std::clamp(glm::dot(pixel - piece.from.pixel, way) / length2, 0.0, 1.0) : 0.0;
@@ -55,7 +62,8 @@ float depth_of(const Piece& piece, const glm::dvec2& pixel) {
   const glm::dvec2 off = pixel - (piece.from.pixel + share * way);
   const double wide_px = std::max(sigma_px, kMinSigma_px);
   const double depth = std::lerp(piece.from.depth, piece.to.depth, share) * sigma_px / wide_px;
-  return static_cast<float>(depth * std::exp(-glm::dot(off, off) / (2 * wide_px * wide_px)));
+  return {static_cast<float>(depth * std::exp(-glm::dot(off, off) / (2 * wide_px * wide_px))),
+          static_cast<float>(std::lerp(piece.from.distance_m, piece.to.distance_m, share))};
 }
 
 // Where the lens' columns repeat, each strand in one piece, and three times: in its place and a period to each side, so
@@ -104,8 +112,8 @@ cv::Rect rect_of(const Piece& piece, const cv::Rect& bounds) {
   return pixels_touched({low.x, low.y, high.x - low.x, high.y - low.y}, 0, bounds);
 }
 
-// Adds a piece to the strand's depths (CV_32FC1 over rect): where two pieces meet, the larger one counts.
-void draw(const Piece& piece, const cv::Rect& rect, cv::Mat& depths) {
+// Adds a piece to the strand's depths and distances (CV_32FC1 over rect): where two pieces meet, the denser one counts.
+void draw(const Piece& piece, const cv::Rect& rect, cv::Mat& depths, cv::Mat& distances_m) {
   const double reach = reach_px(piece);
   const glm::dvec2 way = piece.to.pixel - piece.from.pixel;
   const cv::Rect own = rect_of(piece, rect);
@@ -125,7 +133,13 @@ void draw(const Piece& piece, const cv::Rect& rect, cv::Mat& depths) {
     const int begin = std::max(own.x, static_cast<int>(std::floor(std::max(low - reach, own.x - 1.0))));
     const int end = std::min(own.x + own.width, static_cast<int>(std::ceil(std::min(high + reach, 1e6))) + 1);
     float* const row = depths.ptr<float>(y - rect.y);
-    for (int x = begin; x < end; ++x) row[x - rect.x] = std::max(row[x - rect.x], depth_of(piece, {x, y}));
+    float* const distances = distances_m.ptr<float>(y - rect.y);
+    for (int x = begin; x < end; ++x) {
+      const Ice ice = ice_of(piece, {x, y});
+      if (!(ice.depth > row[x - rect.x])) continue;
+      row[x - rect.x] = ice.depth;
+      distances[x - rect.x] = ice.distance_m;
+    }
   }
 }
 
@@ -166,23 +180,26 @@ std::vector<TrailStrand> contrail_strands(const Scene& scene, const SceneMoment&
       }
       const double sine = glm::length(glm::cross(along, seen / distance_m));
       open[k].push_back({*pixel, pixels_across(lens, seen, along, *pixel) * sigma_m / distance_m,
-                         depth_at(intruder.contrail, behind_m, sigma_m, aircraft_m) / std::max(sine, kMinSine)});
+                         depth_at(intruder.contrail, behind_m, sigma_m, aircraft_m) / std::max(sine, kMinSine),
+                         distance_m});
     }
   }
   for (TrailStrand& strand : open) close(strand);
   return all_round(std::move(strands), lens);
 }
 
-Layer trail_layer(std::span<const TrailStrand> strands, const cv::Vec3d& color, const cv::Rect& bounds) {
+Trail trail_of(std::span<const TrailStrand> strands, const cv::Vec3d& color, const cv::Rect& bounds) {
   cv::Rect rect;
   for (const TrailStrand& strand : strands)
     for (std::size_t i = 1; i < strand.size(); ++i) rect |= rect_of({strand[i - 1], strand[i]}, bounds);
   if (rect.empty()) return {};
   cv::Mat sum = cv::Mat::zeros(rect.size(), CV_32FC1);
+  cv::Mat moment_m = cv::Mat::zeros(rect.size(), CV_32FC1);  // sum of depths times distances
   for (const TrailStrand& strand : strands) {
-    cv::Mat depths = cv::Mat::zeros(rect.size(), CV_32FC1);
-    for (std::size_t i = 1; i < strand.size(); ++i) draw({strand[i - 1], strand[i]}, rect, depths);
+    cv::Mat depths = cv::Mat::zeros(rect.size(), CV_32FC1), distances_m = cv::Mat::zeros(rect.size(), CV_32FC1);
+    for (std::size_t i = 1; i < strand.size(); ++i) draw({strand[i - 1], strand[i]}, rect, depths, distances_m);
     sum += depths;
+    moment_m += depths.mul(distances_m);
   }
   Layer layer{.rect = rect, .color = cv::Mat(rect.size(), CV_32FC4), .coverage = cv::Mat::zeros(rect.size(), CV_32FC1)};
   for (int y = 0; y < rect.height; ++y)
@@ -192,7 +209,9 @@ Layer trail_layer(std::span<const TrailStrand> strands, const cv::Vec3d& color, 
       for (int c = 0; c < 3; ++c) pixel[c] = opacity * static_cast<float>(color[c]);
       pixel[3] = opacity;
     }
-  return layer;
+  cv::Mat distance_m = moment_m / sum;
+  distance_m.setTo(0, sum == 0);
+  return {std::move(layer), std::move(distance_m)};
 }
 
 cv::Vec3d contrail_color(const Scene& scene, const SceneMoment& moment, const ContrailSettings& contrail) {

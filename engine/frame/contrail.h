@@ -20,6 +20,7 @@ struct TrailPoint {
   glm::dvec2 pixel{0, 0};
   double sigma_px = 0;  // of the profile across the strand
   double depth = 0;     // optical depth of the middle, along the line of sight
+  double distance_m = 0;
 };
 
 // Places along a strand, from its beginning behind the engine on.
@@ -30,9 +31,15 @@ using TrailStrand = std::vector<TrailPoint>;
 [[nodiscard]] std::vector<TrailStrand> contrail_strands(const Scene& scene, const SceneMoment& moment,
                                                         const PlacedIntruder& placed, const Lens& lens);
 
-// The strands as a layer over their pixels within bounds: opacity 1 - exp(-sum of depths), of one colour (linear
+// Strands as the camera would see them without haze.
+struct Trail {
+  Layer layer;
+  cv::Mat distance_m;  // CV_32FC1 over the layer: of the ice in a pixel, in the mean; 0 where there is none
+};
+
+// The strands over their pixels within bounds: opacity 1 - exp(-sum of depths), of one colour (linear
 // light). A profile narrower than a pixel is spread over one. No coverage: a trail is no part of the silhouette.
-[[nodiscard]] Layer trail_layer(std::span<const TrailStrand> strands, const cv::Vec3d& color, const cv::Rect& bounds);
+[[nodiscard]] Trail trail_of(std::span<const TrailStrand> strands, const cv::Vec3d& color, const cv::Rect& bounds);
 
 // What the trail's ice looks like in the scene's light, where nothing shines through: linear light.
 [[nodiscard]] cv::Vec3d contrail_color(const Scene& scene, const SceneMoment& moment, const ContrailSettings& contrail);

@@ -57,7 +57,7 @@ TEST_CASE("the opacity of a straight strand is that of a Gaussian's depth, at an
     const glm::dvec2 way(std::cos(slope), std::sin(slope)), middle(100.3, 60.4);
     TrailStrand strand;
     for (int i = -40; i <= 40; ++i) strand.push_back({middle + 10.0 * i * way, 2.5, 0.9});
-    const Layer layer = trail_layer({{strand}}, {0.5, 0.6, 0.7}, kTrailImage);
+    const Layer layer = trail_of({{strand}}, {0.5, 0.6, 0.7}, kTrailImage).layer;
     for (int y = 0; y < kTrailImage.height; y += 3)
       for (int x = 0; x < kTrailImage.width; x += 3) {
         const glm::dvec2 off = glm::dvec2(x, y) - middle;
@@ -75,24 +75,40 @@ TEST_CASE("strands add up in depth, and one far thinner than a pixel keeps its d
   const auto strand_of = [](double sigma_px, double depth) {
     return TrailStrand{{{-500, 60.2}, sigma_px, depth}, {{700, 60.2}, sigma_px, depth}};
   };
-  const Layer one = trail_layer({{strand_of(2, 0.4)}}, {1, 1, 1}, kTrailImage);
-  const Layer two = trail_layer({{strand_of(2, 0.4), strand_of(2, 0.4)}}, {1, 1, 1}, kTrailImage);
+  const Layer one = trail_of({{strand_of(2, 0.4)}}, {1, 1, 1}, kTrailImage).layer;
+  const Layer two = trail_of({{strand_of(2, 0.4), strand_of(2, 0.4)}}, {1, 1, 1}, kTrailImage).layer;
   CHECK(depth_sum_of(two) == doctest::Approx(2 * depth_sum_of(one)).epsilon(1e-5));
   const double root = std::sqrt(2 * std::numbers::pi);
   CHECK(depth_sum_of(one) == doctest::Approx(200 * 0.4 * 2 * root).epsilon(0.002));
-  const Layer thin = trail_layer({{strand_of(0.01, 0.4)}}, {1, 1, 1}, kTrailImage);
+  const Layer thin = trail_of({{strand_of(0.01, 0.4)}}, {1, 1, 1}, kTrailImage).layer;
   CHECK(depth_sum_of(thin) == doctest::Approx(200 * 0.4 * 0.01 * root).epsilon(0.02));
+}
+
+TEST_CASE("each pixel's ice is as far as the strand is there, two strands by their depths") {
+  const auto strand_of = [](double depth, double begin_m, double end_m) {
+    return TrailStrand{{{0, 60}, 3, depth, begin_m}, {{200, 60}, 3, depth, end_m}};
+  };
+  const Trail one = trail_of({{strand_of(0.4, 1000, 3000)}}, {1, 1, 1}, kTrailImage);
+  const Trail two = trail_of({{strand_of(0.4, 1000, 3000), strand_of(1.2, 2000, 2000)}}, {1, 1, 1}, kTrailImage);
+  REQUIRE(one.distance_m.size() == one.layer.rect.size());
+  for (const int x : {10, 100, 180}) {
+    const cv::Point place = cv::Point(x, 61) - one.layer.rect.tl();
+    CHECK(one.distance_m.at<float>(place) == doctest::Approx(1000 + 10 * x));
+    CHECK(two.distance_m.at<float>(place) == doctest::Approx(0.25 * (1000 + 10 * x) + 0.75 * 2000));
+  }
+  CHECK(one.distance_m.at<float>(cv::Point(100, 60 + 10) - one.layer.rect.tl()) ==
+        doctest::Approx(opacity_at(one.layer, 100, 70) > 0 ? 2000 : 0));
 }
 
 TEST_CASE("places at any distance and sizes without end give a layer within its bounds") {
   for (const double far_px : {1e3, 1e6, 1e9, 1e12}) {
     const TrailStrand strand{{{10, 10}, 1, 0.5}, {{far_px, far_px}, far_px, 0.5}};
-    const Layer layer = trail_layer({{strand}}, {1, 1, 1}, kTrailImage);
+    const Layer layer = trail_of({{strand}}, {1, 1, 1}, kTrailImage).layer;
     CHECK((layer.rect & kTrailImage) == layer.rect);
     CHECK(cv::checkRange(layer.color));
   }
-  CHECK(trail_layer({}, {1, 1, 1}, kTrailImage).empty());
-  CHECK(trail_layer({{TrailStrand{{{-90, -90}, 1, 1}, {{-80, -80}, 1, 1}}}}, {1, 1, 1}, kTrailImage).empty());
+  CHECK(trail_of({}, {1, 1, 1}, kTrailImage).layer.empty());
+  CHECK(trail_of({{TrailStrand{{{-90, -90}, 1, 1}, {{-80, -80}, 1, 1}}}}, {1, 1, 1}, kTrailImage).layer.empty());
 }
 
 TEST_CASE("strands begin behind the aircraft, at its engines, widen with age and end where their length says") {
@@ -166,6 +182,48 @@ TEST_CASE("a contrail brightens the sky behind the aircraft, and changes neither
   CHECK(box.x == 0);  // 4 km of trail to the left
   CHECK(box.x + box.width <= seen.visible_box->x + seen.visible_box->width);
   CHECK(cv::countNonZero(with.mask) > cv::countNonZero(without.mask));
+}
+
+TEST_CASE("haze and occluders come before each place of a trail by its own distance") {
+  // It flies away and to the right.
+  const glm::dvec3 begin_m(400, -60, 0), end_m(1400, 60, 0);  // from the camera
+  Scenario scenario(kJetImage, kJetFrames);
+  prepare_jet(scenario);
+  IntruderSettings& jet = scenario.project.intruders.front();
+  const glm::dvec3 camera_m(0, 0, -150);
+  jet.trajectory.waypoints = {{.frame = 0, .position_m = camera_m + begin_m},
+                              {.frame = 5, .position_m = camera_m + end_m}};
+  jet.contrail.opacity = 0.9;
+  HazeSettings& haze = scenario.project.appearance.haze;
+  haze = {.airlight = AirlightChoice::color, .airlight_color = {0, 0, 0}};
+  const Lens lens = compositing_camera(opened_jet(scenario.project)).lens;
+  const auto light_of_trail = [&](double occluder_m) {
+    Scene scene = opened_jet(scenario.project);
+    const SceneMoment moment = scene_at(scene, 5);
+    if (occluder_m > 0)
+      scene.occluder = {cv::Mat(kJetImage, CV_32FC1, cv::Scalar(1)), moment.world_from_camera, occluder_m};
+    ComposeContext context;
+    const Result<IntruderLayers> layers = intruder_layers(scene, moment, moment.intruders.front(), context);
+    REQUIRE(layers);
+    std::vector<double> light;
+    for (const double share : {0.05, 0.3, 0.6, 0.8}) {
+      const glm::dvec2 pixel = glm::round(*lens.pixel(glm::mix(begin_m, end_m, share)));
+      const cv::Point at = cv::Point(int(pixel.x), int(pixel.y)) - layers->contrail.rect.tl();
+      REQUIRE(cv::Rect({0, 0}, layers->contrail.rect.size()).contains(at));
+      light.push_back(layers->contrail.color.at<cv::Vec4f>(at)[1]);
+    }
+    return light;
+  };
+  const std::vector<double> clear = light_of_trail(0), behind_trees = light_of_trail(800);
+  haze.visibility_m = 2000;
+  const std::vector<double> hazed = light_of_trail(0);
+  for (std::size_t i = 0; i < clear.size(); ++i) {
+    CAPTURE(i);
+    const double distance_m = glm::length(glm::mix(begin_m, end_m, std::vector{0.05, 0.3, 0.6, 0.8}[i]));
+    REQUIRE(clear[i] > 0.01);
+    CHECK(hazed[i] / clear[i] == doctest::Approx(std::exp(-3 * distance_m / 2000)).epsilon(0.03));
+    CHECK(behind_trees[i] == doctest::Approx(distance_m < 800 ? clear[i] : 0));
+  }
 }
 
 }  // namespace sigs::test
