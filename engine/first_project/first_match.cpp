@@ -156,6 +156,8 @@ struct Brightness {
   ThermalLevels levels;  // where they may be those of a thermal camera
 
   [[nodiscard]] bool has_both() const { return 2 * skies.size() >= all.size(); }
+  [[nodiscard]] bool is_ground_warm() const { return has_both() && median(differences) >= kWarmGround_codes; }
+  [[nodiscard]] bool is_ground_dark() const { return has_both() && median(differences) <= -kWarmGround_codes; }
 };
 
 Result<Brightness> brightness_of(FrameSource& footage, const Scene& scene, bool may_be_thermal,
@@ -187,6 +189,9 @@ FirstProjectNote set_thermal(const Brightness& seen, int width_px, Project& proj
     project.appearance.sharpening_px = kThermalGlow_px;
   }
   project.appearance.thermal.sky = std::round(median(seen.has_both() ? seen.skies : seen.all));
+  const bool has_palette = project.footage.palette != HeatPalette::gray;
+  // No ground is colder than the sky: the palette runs the other way.
+  if (has_palette && seen.is_ground_dark()) project.appearance.thermal.hot = HotChoice::black;
   const LevelsEstimate levels = seen.levels.finish();
   const auto rounded = [](double value, double parts) { return std::round(value * parts) / parts; };
   project.appearance.thermal.halo_px =
@@ -195,11 +200,14 @@ FirstProjectNote set_thermal(const Brightness& seen, int width_px, Project& proj
   if (levels.halo.is_known) project.appearance.thermal.halo = rounded(levels.halo.value, 100);
   FirstProjectNote note{.field = "footage.spectrum", .is_guess = true};
   note.text = fmt::format(
-      "thermal: the footage {}; its sky has code {:.0f}; {}; how warm the intruder is (intruders[].heat) is a guess",
-      project.footage.palette != HeatPalette::gray ? "has the colours of a palette"
-      : seen.has_both()                            ? "is gray and its ground is brighter than its sky"
-                                                   : "is gray and as small as that of thermal cameras",
+      "thermal: the footage {}; its sky has code {:.0f}{}; {}; how warm the intruder is (intruders[].heat) is a guess",
+      has_palette       ? "has the colours of a palette"
+      : seen.has_both() ? "is gray and its ground is brighter than its sky"
+                        : "is gray and as small as that of thermal cameras",
       project.appearance.thermal.sky,
+      project.appearance.thermal.hot == HotChoice::black
+          ? " and its ground less, so that low codes are warm (appearance.thermal.hot)"
+          : "",
       levels.halo_px.is_known
           ? fmt::format(
                 "by the dark sky above its ground the camera's halo is {:.0f} px wide (appearance.thermal.halo)",
@@ -255,19 +263,28 @@ Result<std::optional<FirstProjectNote>> set_palette(FrameSource& footage, const 
       .remedy = "set footage.palette, or footage.spectrum to visible if it is footage by light"};
 }
 
-Result<std::optional<FirstProjectNote>> set_dark_or_thermal(FrameSource& footage, const Scene& scene, Project& project,
-                                                            const std::atomic<bool>* cancel) {
+Result<DarkOrThermal> set_dark_or_thermal(FrameSource& footage, const Scene& scene, Project& project,
+                                          const std::atomic<bool>* cancel) {
   const bool has_palette = scene.palette != HeatPalette::gray;
   const bool may_be_thermal = has_palette || project.appearance.saturation == 0;
   const Result<Brightness> seen = brightness_of(footage, scene, may_be_thermal, cancel);
   if (!seen) return fail(seen.error());
-  if (seen->all.empty()) return std::nullopt;
+  if (seen->all.empty()) return DarkOrThermal{};
   const cv::Size& size_px = scene.footage.size_px;
-  const bool is_warm =
-      seen->has_both() ? median(seen->differences) >= kWarmGround_codes : is_as_small_as_thermal(size_px);
-  if (has_palette || (may_be_thermal && is_warm)) return set_thermal(*seen, size_px.width, project);
-  const double code = median(seen->all);
-  return code < kNight_code ? std::optional(set_night(code, scene, project)) : std::nullopt;
+  const bool is_small = is_as_small_as_thermal(size_px);
+  const bool is_warm = seen->has_both() ? seen->is_ground_warm() : is_small;
+  if (has_palette || (may_be_thermal && is_warm))
+    return DarkOrThermal{.note = set_thermal(*seen, size_px.width, project), .is_lit = false};
+  if (const double code = median(seen->all); code < kNight_code)
+    return DarkOrThermal{.note = set_night(code, scene, project), .is_lit = false};
+  if (!may_be_thermal || !is_small || !seen->is_ground_dark()) return DarkOrThermal{};
+  return DarkOrThermal{.note = FirstProjectNote{
+                           .field = "footage.spectrum",
+                           .text = "visible: the footage is gray and its ground darker than its sky, as by day; one of "
+                                   "a thermal camera that shows dark what is warm looks alike",
+                           .is_guess = true,
+                           .remedy = "if it is such a one, set footage.spectrum to thermal and appearance.thermal.hot "
+                                     "to black, then run sigs appearance with --into"}};
 }
 
 namespace {

@@ -272,12 +272,11 @@ class Planning {
     const Result<std::vector<FirstProjectNote>> found =
         match_appearance(source, scene(), project(), {.progress = tell, .cancel = control_.cancel});
     if (!found) return fail(found.error());
-    const Result<std::optional<FirstProjectNote>> unlit =
-        set_dark_or_thermal(source, scene(), project(), control_.cancel);
-    if (!unlit) return fail(unlit.error());
-    if (*unlit) note(**unlit);
+    const Result<DarkOrThermal> light = set_dark_or_thermal(source, scene(), project(), control_.cancel);
+    if (!light) return fail(light.error());
+    if (light->note) note(*light->note);
     constexpr double kMinCover = 0.1;
-    if (!*unlit && look.cloud_cover >= kMinCover)
+    if (light->is_lit && look.cloud_cover >= kMinCover)
       note({.field = "footage.cloud_distance_m",
             .text = fmt::format("none: clouds cover {} % of the sky, and hide nothing as long as their distance is not "
                                 "stated, which no footage tells",
@@ -285,7 +284,7 @@ class Planning {
             .is_guess = true});
     // What daylight would do is of no use then.
     for (const FirstProjectNote& one : *found)
-      if (!*unlit || (!one.field.starts_with("light.") && one.field != "appearance.haze.visibility_m")) note(one);
+      if (light->is_lit || (!one.field.starts_with("light.") && one.field != "appearance.haze.visibility_m")) note(one);
     return {};
   }
 

@@ -78,16 +78,22 @@ struct MatchControl {
 [[nodiscard]] Result<std::optional<FirstProjectNote>> set_palette(FrameSource& footage, const Scene& scene,
                                                                   Project& project, const std::atomic<bool>* cancel);
 
-// Makes the project thermal or one of the night, where the footage looks so: a guess, which the note says. None:
-// neither. Thermal: it is gray, and its ground is brighter than its sky, as things that are warm are, or there is no
-// ground and the image is as small as most thermal ones. Then the sky's code value is by the footage, the halo's width
-// by the image's, and the visible light's estimates are taken back. Night: half of it is darker than code 25 of 8 bits.
-// Then the intruder is lit as dark.
+// What footage looks like beside footage by day.
+struct DarkOrThermal {
+  std::optional<FirstProjectNote> note;
+  bool is_lit = true;  // by day, so that what was found of its light counts
+};
+
+// Makes the project thermal or one of the night, where the footage looks so: a guess, which the note says. Thermal: it
+// is gray, and its ground is brighter than its sky, as things that are warm are, or there is no ground and the image is
+// as small as most thermal ones; or it has a palette. Then the sky's code value is by the footage, the halo's width by
+// the image's, and the visible light's estimates are taken back; a palette whose ground has less heat than its sky runs
+// the other way. Night: half of it is darker than code 25 of 8 bits. Then the intruder is lit as dark. Small gray
+// footage by day may be thermal with what is warm dark, which the note says.
 //   project  after match_appearance()
 // Errors: those of FrameSource::read(), interrupted.
-[[nodiscard]] Result<std::optional<FirstProjectNote>> set_dark_or_thermal(FrameSource& footage, const Scene& scene,
-                                                                          Project& project,
-                                                                          const std::atomic<bool>* cancel);
+[[nodiscard]] Result<DarkOrThermal> set_dark_or_thermal(FrameSource& footage, const Scene& scene, Project& project,
+                                                        const std::atomic<bool>* cancel);
 
 // The camera's turns as the images show them (ego_motion).
 struct FirstMotion {

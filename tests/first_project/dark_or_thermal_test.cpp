@@ -56,9 +56,27 @@ TEST_CASE(
   const FirstProject small = made_of("small", {320, 256}, 90, 90);
   CHECK(small.project.footage.spectrum == Spectrum::thermal);
   CHECK(small.project.camera.pitch_deg.value_or(0) > -5);  // rough clouds, or ground: it is not said to look down
-  CHECK(made_of("small-day", {320, 256}, 180, 70).project.footage.spectrum == Spectrum::visible);
+  const FirstProject small_day = made_of("small-day", {320, 256}, 180, 70);
+  CHECK(small_day.project.footage.spectrum == Spectrum::visible);
+  CHECK(note_on(small_day, "footage.spectrum").remedy.find("appearance.thermal.hot") != std::string::npos);
   CHECK(made_of("large", {800, 600}, 90, 90).project.footage.spectrum == Spectrum::visible);
   CHECK(made_of("dim", {800, 600}, 60, 20).project.intruders.front().lights.is_dark());
+
+  // In a palette low heat is what is warm where the ground has less of it than the sky.
+  const auto in_colors = [&](const std::string& name, int sky, int ground) {
+    const fs::path images = sky_over_ground(folder, name, {320, 256}, sky, ground);
+    for (const fs::directory_entry& file : fs::directory_iterator(images)) {
+      cv::Mat colors;
+      cv::applyColorMap(cv::imread(file.path(), cv::IMREAD_GRAYSCALE), colors, cv::COLORMAP_INFERNO);
+      cv::imwrite(file.path(), colors);
+    }
+    return made_and_opened({.video = images, .timing = {.frame_rate_hz = 25}, .out = folder / (name + ".json")});
+  };
+  const FirstProject warm_bright = in_colors("inferno", 70, 180), warm_dark = in_colors("inverted", 180, 70);
+  CHECK(warm_bright.project.footage.palette == HeatPalette::inferno);
+  CHECK(warm_dark.project.footage.palette == HeatPalette::inferno);
+  CHECK(warm_bright.project.appearance.thermal.hot == HotChoice::white);
+  CHECK(warm_dark.project.appearance.thermal.hot == HotChoice::black);
 
   const FirstProject night = made_of("night", {800, 600}, 16, 6);
   CHECK(night.project.footage.spectrum == Spectrum::visible);
