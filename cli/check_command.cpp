@@ -13,6 +13,7 @@
 #include "cli/process.h"
 #include "ego_motion/project_motion.h"
 #include "export/export_project.h"
+#include "frame/compose_frame.h"
 #include "project/project.h"
 #include "project/validate.h"
 #include "scene/opened_project.h"
@@ -56,6 +57,12 @@ Result<std::vector<Visibility>> check_opened(const Project& seen) {
   SceneFiles files;
   const Result<Scene> scene = open_valid_scene(seen, footage_shape(seen, source->info()), files);
   if (!scene) return fail(scene.error());
+  if (scene->is_thermal) {
+    const Result<Frame> frame = source->read(scene->first_frame);
+    if (!frame) return fail(frame.error());
+    if (const Result<void> heat = check_spectrum(*scene, *frame, scene->first_frame); !heat)
+      return fail(composing_error(seen, heat.error()));
+  }
   const std::vector<Visibility> visibilities = estimated_visibilities(*scene, std::numeric_limits<int>::max());
   for (Warning& warning : warnings_of(seen, *scene, visibilities)) warnings.push_back(std::move(warning));
   if (scene->horizon_is_known)

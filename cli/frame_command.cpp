@@ -65,8 +65,10 @@ Result<ComposedFrame> composed(const Project& project, const FrameOptions& optio
   if (background->damaged)
     print_warning({source->info().path.string(),
                    fmt::format("frame {} is damaged; another frame of the footage stands in for it", options.frame)});
-  return compose_frame(*scene, options.frame, std::move(*background), context,
-                       options.stages ? Stages::keep : Stages::leave_out);
+  Result<ComposedFrame> composed = compose_frame(*scene, options.frame, std::move(*background), context,
+                                                 options.stages ? Stages::keep : Stages::leave_out);
+  if (!composed) return fail(composing_error(project, composed.error()));
+  return composed;
 }
 
 using NamedImages = std::vector<std::pair<fs::path, cv::Mat>>;

@@ -273,6 +273,7 @@ Result<ExportReport> export_project(const ExportRequest& request, const ExportCo
   Result<ExportReport> report = guarded([&] { return exported(request, control); });
   if (!report && report.error().kind == ErrorKind::interrupted && request.video_descriptor >= 0)
     return fail("", "interrupted; the stream ends early", ErrorKind::interrupted);
+  if (!report) return fail(composing_error(request.project, report.error()));
   return report;
 }
 

@@ -60,10 +60,15 @@ Result<ComposedFrame> FrameRenderer::render(const Project& project, int frame, c
                   ErrorKind::usage);
     Result<Frame> background = footage_->source.read(frame);
     if (!background) return fail(background.error());
-    if (poses.empty()) return compose_frame(*scene_, frame, std::move(*background), *context_);
-    const Result<Scene> posed = with_poses(*scene_, frame, poses);
-    if (!posed) return fail(posed.error());
-    return compose_frame(*posed, frame, std::move(*background), *context_);
+    std::optional<Scene> posed;
+    if (!poses.empty()) {
+      Result<Scene> scene = with_poses(*scene_, frame, poses);
+      if (!scene) return fail(scene.error());
+      posed = std::move(*scene);
+    }
+    Result<ComposedFrame> composed = compose_frame(posed ? *posed : *scene_, frame, std::move(*background), *context_);
+    if (!composed) return fail(composing_error(project, composed.error()));
+    return composed;
   });
 }
 

@@ -76,27 +76,14 @@ Layer without_hidden(const Scene& scene, const SceneMoment& moment, const Layer&
   return occluded_by(free, occluder_seen_from(moment.world_from_camera, scene.occluder, lens, free.rect));
 }
 
-// Error: thermal footage in colours, and no palette is stated.
-Result<void> check_spectrum(const Scene& scene, const Frame& background) {
-  constexpr double kGray_codes = 6;  // of 8 bits, from gray in the mean: more than what compression leaves
-  if (!scene.is_thermal || background.plane_count() == 1) return {};
-  const double code = codes_per_8_bit_step(background.bit_depth);
-  double off = 0;
-  for (std::size_t plane = 1; plane < 3; ++plane) {
-    const cv::Mat& codes = background.planes[plane];
-    const double differs =
-        background.layout == PixelLayout::rgb
-            ? cv::norm(codes, background.planes[0], cv::NORM_L1)
-            : cv::norm(codes, cv::Mat(codes.size(), codes.type(), cv::Scalar(128 * code)), cv::NORM_L1);
-    off = std::max(off, differs / static_cast<double>(codes.total()) / code);
-  }
-  if (off <= kGray_codes) return {};
-  return fail(
-      "footage.spectrum",
-      fmt::format("thermal, but the footage is in colours: set footage.palette to the camera's palette ({}), where "
-                  "it is one of these; else record it white-hot or black-hot",
-                  fmt::join(kHeatPaletteNames.begin() + 1, kHeatPaletteNames.end(), ", ")),
-      ErrorKind::bad_project);
+// Error: the colours are not those of the palette that is stated.
+Result<void> check_palette(const Scene& scene, double off_codes, int frame) {
+  if (off_codes <= kMaxOffPalette_codes) return {};
+  return fail("footage.palette",
+              fmt::format("the footage's colours are not those of {}: in frame {} they are off by {:.0f} codes in the "
+                          "mean; set it to the camera's palette, or record white-hot or black-hot",
+                          kHeatPaletteNames[static_cast<std::size_t>(scene.palette)], frame, off_codes),
+              ErrorKind::bad_project);
 }
 
 // Fills `contrail`: through haze, blurred by the lens. How warm ice looks is not modelled.
@@ -246,13 +233,7 @@ Result<ComposedFrame> composed_in_colors(Frame&& background, const Scene& scene,
                                          Stages stages) {
   const HeatColors& colors = context.colors_of(scene.palette);
   HeatColors::Heat heat = colors.heat_of(background);
-  if (heat.off_codes > kMaxOffPalette_codes)
-    return fail(
-        "footage.palette",
-        fmt::format("the footage's colours are not those of {}: in frame {} they are off by {:.0f} codes in the "
-                    "mean; set it to the camera's palette, or record white-hot or black-hot",
-                    kHeatPaletteNames[static_cast<std::size_t>(scene.palette)], frame, heat.off_codes),
-        ErrorKind::bad_project);
+  if (const Result<void> fits = check_palette(scene, heat.off_codes, frame); !fits) return fail(fits.error());
   const cv::Mat before = heat.frame.planes[0].clone();
   Result<ComposedFrame> composed = composed_onto(std::move(heat.frame), scene, frame, context, stages);
   if (!composed) return composed;
@@ -304,12 +285,36 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
   return layers;
 }
 
+Result<void> check_spectrum(const Scene& scene, const Frame& background, int frame) {
+  constexpr double kGray_codes = 6;  // of 8 bits, from gray in the mean: more than what compression leaves
+  if (const std::optional<HeatColors> colors = heat_colors(scene.palette))
+    return check_palette(scene, colors->heat_of(background).off_codes, frame);
+  if (!scene.is_thermal || background.plane_count() == 1) return {};
+  const double code = codes_per_8_bit_step(background.bit_depth);
+  double off = 0;
+  for (std::size_t plane = 1; plane < 3; ++plane) {
+    const cv::Mat& codes = background.planes[plane];
+    const double differs =
+        background.layout == PixelLayout::rgb
+            ? cv::norm(codes, background.planes[0], cv::NORM_L1)
+            : cv::norm(codes, cv::Mat(codes.size(), codes.type(), cv::Scalar(128 * code)), cv::NORM_L1);
+    off = std::max(off, differs / static_cast<double>(codes.total()) / code);
+  }
+  if (off <= kGray_codes) return {};
+  return fail(
+      "footage.spectrum",
+      fmt::format("thermal, but the footage is in colours: set footage.palette to the camera's palette ({}), where "
+                  "it is one of these; else record it white-hot or black-hot",
+                  fmt::join(kHeatPaletteNames.begin() + 1, kHeatPaletteNames.end(), ", ")),
+      ErrorKind::bad_project);
+}
+
 Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background, ComposeContext& context,
                                     Stages stages) {
   ENSURE(background.size_px() == scene.footage.size_px);
   if (scene.palette != HeatPalette::gray)
     return composed_in_colors(std::move(background), scene, frame, context, stages);
-  if (const Result<void> gray = check_spectrum(scene, background); !gray) return fail(gray.error());
+  if (const Result<void> gray = check_spectrum(scene, background, frame); !gray) return fail(gray.error());
   return composed_onto(std::move(background), scene, frame, context, stages);
 }
 

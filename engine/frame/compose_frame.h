@@ -17,12 +17,16 @@ namespace sigs {
 //   frame       number of the frame, counted from 0 over the whole footage
 //   background  that frame of the footage; its size is the scene's. It is copied unless it is moved in; moved in, its
 //               samples are rewritten in place, so they must not be shared
-// Errors: `unavailable` where OpenGL is needed and the machine has none; those of the renderer; thermal footage that is
-// in colours.
+// Errors: `unavailable` where OpenGL is needed and the machine has none; those of the renderer; those
+// of check_spectrum().
 [[nodiscard]] Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background,
                                                   ComposeContext& context, Stages stages = Stages::leave_out);
 [[nodiscard]] Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background,
                                                   ComposeContext& context, Stages stages = Stages::leave_out);
+
+// Whether a frame of thermal footage shows heat as the project says; other footage always does.
+// Errors: it is in colours without a palette, or its colours are not those of the palette that is stated (bad_project).
+[[nodiscard]] Result<void> check_spectrum(const Scene& scene, const Frame& background, int frame);
 
 // The truth of a frame in which nothing is drawn, as compose_frame() has it, without the footage's frame. None where
 // something is, or may be: where only the footage tells whether a cloud hides it.

@@ -137,6 +137,11 @@ Error footage_error(const Project& project, const Error& error) {
   return error_of(project, {"footage.video", error.text(), error.kind});
 }
 
+Error composing_error(const Project& project, const Error& error) {
+  if (error.kind != ErrorKind::bad_project || !error.where.starts_with("footage.")) return error;
+  return error_of(project, {error.where, error.what, error.kind});
+}
+
 FootageKey footage_key(const Project& project) {
   const SequenceTiming timing = timing_of(project);
   const CropSettings& crop = project.footage.crop;

@@ -63,6 +63,10 @@ struct OpenedProject {
 // An error of open_footage() with the project's file and field.
 [[nodiscard]] Error footage_error(const Project& project, const Error& error);
 
+// An error of composing a frame: with the project's file where a setting of the footage contradicts what a frame shows
+// (check_spectrum() in frame/compose_frame.h), else as it is.
+[[nodiscard]] Error composing_error(const Project& project, const Error& error);
+
 // Stamp of the project's video or folder of images, under its absolute path. A pattern names no file: the stamp is that
 // of the images' folder.
 [[nodiscard]] FileStamp footage_stamp_of(const Project& project);

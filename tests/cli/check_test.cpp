@@ -28,4 +28,16 @@ TEST_CASE("check warns of a path that overshoots its waypoints by far and exits 
   CHECK(has(run.err, "of frames 0.01 and 9, where no leg is longer than 30 m"));
 }
 
+TEST_CASE("thermal footage whose colours are not those of its palette is named by check, frame and export alike") {
+  const TinyProject tiny;
+  for (const std::string& command :
+       {"check " + tiny.project(), "frame " + tiny.project() + " --frame 0 --out " + tiny.file("frames").string(),
+        "export " + tiny.project() + " --out " + tiny.file("out").string()}) {
+    CAPTURE(command);
+    const Run run = run_sigs(command + " --set footage.spectrum=thermal --set footage.palette=jet");
+    CHECK(run.status == 78);
+    CHECK(has(run.err, tiny.project() + ": footage.palette: the footage's colours are not those of jet: in frame 0"));
+  }
+}
+
 }  // namespace sigs::test
