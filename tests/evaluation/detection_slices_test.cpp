@@ -68,6 +68,16 @@ TEST_CASE("the interval of a share is that of the binomial distribution where gr
   // Ten times the same trials in each group tell no more.
   for (GroupShare& group : groups) group = {10 * group.part, 10};
   CHECK(share_interval(groups).low == interval.low);
+  // Draws of trials that all succeed are all 1: the interval is Wilson's, n / (n + z^2) to 1.
+  CHECK(share_interval(std::vector<GroupShare>(30, {1, 1})).low ==
+        doctest::Approx(30 / (30 + 1.96 * 1.96)).epsilon(1e-4));
+  CHECK(share_interval(std::vector<GroupShare>(30, {1, 1})).high == 1);
+  CHECK(share_interval({{0, 5}, {0, 9}}).low == 0);
+  CHECK(share_interval({{0, 5}, {0, 9}}).high == doctest::Approx(1.96 * 1.96 / (2 + 1.96 * 1.96)).epsilon(1e-4));
+  // One group does not tell how groups differ, nor do others without any trial.
+  CHECK(std::isnan(share_interval({{3, 6}}).low));
+  CHECK(std::isnan(share_interval({{3, 6}, {0, 0}, {0, 0}}).high));
+  CHECK(std::isnan(difference_interval({{3, 6}}, {{1, 6}}).low));
 }
 
 TEST_CASE("two detectors on the same encounters differ by more than chance or do not") {
@@ -94,7 +104,7 @@ TEST_CASE("a report says which detectors can be distinguished") {
     report.scores[2].encounters.push_back(encounter(i < 10));
   }
   const std::string text = intervals_text(report);
-  CHECK(text.find("one: 1.000 to 1.000") != std::string::npos);
+  CHECK(text.find("one: 0.886 to 1.000") != std::string::npos);
   CHECK(text.find("two less one: ") != std::string::npos);
   CHECK(text.find("0.000, they cannot be distinguished") != std::string::npos);
   CHECK(text.find("they can be distinguished", text.find("three less one")) != std::string::npos);

@@ -17,12 +17,15 @@ namespace {
 
 constexpr int kDraws = 2000;
 
+constexpr Interval kNoInterval{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+
 // The middle 95 % of what `figure` gives for groups drawn anew.
 Interval interval_of(std::size_t groups, const std::function<double(std::span<const std::size_t>)>& figure) {
+  if (groups < 2) return kNoInterval;
   std::vector<double> figures;
   std::vector<std::size_t> drawn(groups);
   std::uint64_t state = 1;
-  for (int i = 0; groups > 0 && i < kDraws; ++i) {
+  for (int i = 0; i < kDraws; ++i) {
     for (std::size_t& group : drawn) group = splitmix64(state += kSplitMixStep) % groups;
     if (const double value = figure(drawn); std::isfinite(value)) figures.push_back(value);
   }
@@ -81,7 +84,14 @@ std::vector<SliceRule> slice_rules() {
 }
 
 Interval share_interval(const std::vector<GroupShare>& groups) {
-  return interval_of(groups.size(), [&](std::span<const std::size_t> drawn) { return share_of(groups, drawn); });
+  const auto told = std::count_if(groups.begin(), groups.end(), [](const GroupShare& one) { return one.whole > 0; });
+  if (told < 2) return kNoInterval;
+  const Interval drawn =
+      interval_of(groups.size(), [&](std::span<const std::size_t> of) { return share_of(groups, of); });
+  if (drawn.low < drawn.high || (drawn.low > 0 && drawn.high < 1)) return drawn;
+  constexpr double kZ = 1.959964;  // Wilson's interval of as many trials as groups
+  const double beyond = kZ * kZ / (static_cast<double>(told) + kZ * kZ);
+  return drawn.low > 0 ? Interval{1 - beyond, 1} : Interval{0, beyond};
 }
 
 Interval difference_interval(const std::vector<GroupShare>& first, const std::vector<GroupShare>& second) {

@@ -13,7 +13,8 @@ namespace sigs {
 
 // An interval that holds 95 % of what the figure is when encounters, or flights, are drawn anew, as many as there are
 // (bootstrap of whole groups: Efron and Tibshirani 1993, section 13; percentiles of 2000 draws of a fixed sequence).
-// NaN where there is nothing to draw from.
+// NaN where there are less than two groups to draw from. Groups that all have 0, or all 1, do not tell by draws how
+// far that may be by chance: then it is Wilson's interval (1927) of as many trials as there are groups.
 struct Interval {
   double low = 0;
   double high = 0;

@@ -106,6 +106,7 @@ std::vector<TableColumn> slice_columns(const std::string& title, const std::stri
 }
 
 std::string interval_text(const Interval& interval) {
+  if (!std::isfinite(interval.low)) return "no interval";
   return fixed_text(interval.low, 3) + " to " + fixed_text(interval.high, 3);
 }
 
@@ -117,9 +118,8 @@ std::string interval_lines(const std::string& title, const std::vector<std::stri
   for (std::size_t i = 1; i < names.size(); ++i) {
     const Interval interval = difference_interval(shares[i], shares.front());
     const bool is_apart = interval.low > 0 || interval.high < 0;
-    text +=
-        fmt::format("  {} less {}: {}, {}\n", line_text(names[i]), line_text(names.front()), interval_text(interval),
-                    is_apart ? "they can be distinguished" : "they cannot be distinguished");
+    text += fmt::format("  {} less {}: {}, they can{} be distinguished\n", line_text(names[i]),
+                        line_text(names.front()), interval_text(interval), is_apart ? "" : "not");
   }
   return text;
 }
