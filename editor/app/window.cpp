@@ -23,6 +23,7 @@ struct WindowInput {
   std::vector<std::filesystem::path> dropped;
   KeyQueue keys;
   ButtonQueue buttons;
+  std::optional<glm::dvec2> mouse;  // by the events so far: X11 itself tells where it is by now
   int released_keys = 0;
   bool needs_all = false;  // everything is to be drawn anew
 };
@@ -83,8 +84,15 @@ void hand_on_keys(GLFWwindow* window) {
 #if IMGUI_VERSION_NUM < 18700
 void note_button(GLFWwindow* window, int button, int action, int) {
   ButtonEvent event{.button = button, .down = action == GLFW_PRESS};
-  glfwGetCursorPos(window, &event.x, &event.y);
+  if (const std::optional<glm::dvec2>& at = incoming_of(window).mouse)
+    event.x = at->x, event.y = at->y;
+  else
+    glfwGetCursorPos(window, &event.x, &event.y);
   incoming_of(window).buttons.push(event);
+}
+
+void note_mouse(GLFWwindow* window, double x, double y) {
+  incoming_of(window).mouse = glm::dvec2(x, y);
 }
 
 // After the back end has put the buttons as they are at this moment.
@@ -164,6 +172,7 @@ Result<std::unique_ptr<Window>> Window::open(const Settings& settings) {
                       [](GLFWwindow* to, unsigned character) { incoming_of(to).keys.push({.character = character}); });
 #if IMGUI_VERSION_NUM < 18700
   glfwSetMouseButtonCallback(window, note_button);
+  glfwSetCursorPosCallback(window, note_mouse);
 #endif
   return std::unique_ptr<Window>(new Window(std::move(state)));
 }

@@ -75,24 +75,22 @@ std::vector<fs::path> those_there(std::vector<fs::path> paths) {
   return paths;
 }
 
-std::optional<std::vector<std::string>> assignments_between(const Project& saved, const Project& present) {
+Assignments assignments_between(const Project& saved, const Project& present) {
   Project copy = present;
   std::vector<std::string> keys;
   for (const Field& field : fields_of(copy)) keys.push_back(field.key);
   const std::vector<std::string> before = setting_texts(saved, keys);
   const std::vector<std::string> after = setting_texts(present, keys);
-  std::vector<std::string> assignments;
+  Assignments all, of_export{.texts = {}, .are_all = false};
+  Project reached = saved;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     if (before[i] == after[i]) continue;
     const nlohmann::json value = nlohmann::json::parse(after[i], nullptr, false);
-    assignments.push_back(keys[i] + "=" + (value.is_string() ? value.get<std::string>() : after[i]));
-    if (assignments.size() > kMaxAssignments) return std::nullopt;
+    all.texts.push_back(keys[i] + "=" + (value.is_string() ? value.get<std::string>() : after[i]));
+    all.are_all = all.are_all && all.texts.size() <= kMaxAssignments && set_field(reached, all.texts.back());
+    if (keys[i].starts_with("export.")) of_export.texts.push_back(all.texts.back());
   }
-  Project reached = saved;
-  for (const std::string& assignment : assignments)
-    if (!set_field(reached, assignment)) return std::nullopt;
-  if (text_of(reached) != text_of(present)) return std::nullopt;
-  return assignments;
+  return all.are_all && text_of(reached) == text_of(present) ? all : of_export;
 }
 
 std::string export_command(const ExportRequest& request, const std::vector<std::string>& assignments) {

@@ -25,10 +25,16 @@ namespace sigs::editor {
 // Those that are there: they would be overwritten.
 [[nodiscard]] std::vector<std::filesystem::path> those_there(std::vector<std::filesystem::path> paths);
 
-// What `--set` needs to make one project of the other: "export.video.codec=h264". None where that cannot be said in a
-// few settings: waypoints or intruders are added or taken away, or more than kMaxAssignments settings differ.
+// What `--set` needs to make one project of the other: "export.video.codec=h264".
+struct Assignments {
+  std::vector<std::string> texts;
+  bool are_all = true;  // false: more is needed, and those are the settings of the export alone
+};
+
+// Not all can be said where waypoints or intruders are added or taken away, or more than kMaxAssignments settings
+// differ.
 inline constexpr std::size_t kMaxAssignments = 12;
-[[nodiscard]] std::optional<std::vector<std::string>> assignments_between(const Project& saved, const Project& present);
+[[nodiscard]] Assignments assignments_between(const Project& saved, const Project& present);
 
 // The equal command, quoted for a shell: "sigs export 'my project.json' --frames 10-20 --out out"; of one camera of a
 // rig with `--camera`.

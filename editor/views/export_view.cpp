@@ -178,21 +178,21 @@ void ExportView::draw_choices(const ViewContext& context) {
   tooltip_for_item("Frames that are made side by side; the result does not depend on it");
 }
 
-const std::optional<std::vector<std::string>>& ExportView::assignments(const Document& document) {
+const Assignments& ExportView::assignments(const Document& document) {
   const std::uint64_t revision = document.has_unsaved_changes() ? document.state().number : 0;
-  if (std::exchange(assignments_of_, revision) == revision && assignments_) return assignments_;
-  assignments_ = std::vector<std::string>();
-  if (revision == 0 && document.has_file()) return assignments_;
+  if (std::exchange(assignments_of_, revision) == revision && assignments_) return *assignments_;
+  assignments_ = Assignments();
+  if (revision == 0 && document.has_file()) return *assignments_;
   const Result<ReadProject> saved = read_project(document.whole().file);
-  assignments_ = saved ? assignments_between(saved->project, document.whole()) : std::nullopt;
-  return assignments_;
+  assignments_ =
+      saved ? assignments_between(saved->project, document.whole()) : Assignments{.texts = {}, .are_all = false};
+  return *assignments_;
 }
 
 void ExportView::draw_command(const ViewContext& context) {
   ExportRequest request = request_of(context);
   request.overwrite = !there_.empty();
-  const std::string command =
-      export_command(request, assignments(context.document).value_or(std::vector<std::string>()));
+  const std::string command = export_command(request, assignments(context.document).texts);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("The same from the command line:");
   ImGui::SameLine(ImGui::GetContentRegionMax().x - icon_button_width());
@@ -212,10 +212,12 @@ void ExportView::draw_notes(const ViewContext& context) {
     for (const fs::path& path : there_) names += (names.empty() ? "" : ", ") + path.filename().string();
     note_line(Icon::warning, color::kPartly, fmt::format("Already there: {}. Replace?", names));
   }
-  if (!assignments(context.document))
-    note_line(Icon::info, color::kAccent,
-              "There are unsaved changes. They are exported; the command below takes the project as it was last saved. "
-              "Save it first (Ctrl+S) for the same from the command line.");
+  if (!assignments(context.document).are_all)
+    note_line(
+        Icon::info, color::kAccent,
+        "There are unsaved changes. They are exported; the command below has the settings of the export alone and "
+        "else takes the project as it was last saved. Save it first (Ctrl+S) for the same from the command "
+        "line.");
   if (const std::string problem = problem_of(context, only_active_); !problem.empty())
     note_line(Icon::warning, color::kBad, problem);
   if (const std::string names = labels_without_images(context.document.project().output); !names.empty())

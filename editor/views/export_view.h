@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "editor/preview/background_job.h"
+#include "editor/preview/export_plan.h"
 #include "editor/views/context.h"
 
 namespace sigs::editor {
@@ -60,8 +61,8 @@ class ExportView {
   void draw_running(const ViewContext& context, ExportJob& job, const ExportState& state);
   void draw_done(const ViewContext& context, ExportJob& job, const ExportState& state);
 
-  // What the command needs besides the file; none: the file does not say what is exported, nor can settings.
-  const std::optional<std::vector<std::string>>& assignments(const Document& document);
+  // What the command needs besides the file.
+  const Assignments& assignments(const Document& document);
 
   bool open_ = false;
   bool closed_ = false;       // the person has closed it in this update
@@ -72,7 +73,7 @@ class ExportView {
   // The question whether the files in there_ may be replaced is shown.
   bool overwrite_asked_ = false;
   // For the revision with this number.
-  std::optional<std::vector<std::string>> assignments_;
+  std::optional<Assignments> assignments_;
   std::uint64_t assignments_of_ = 0;
   std::vector<std::filesystem::path> there_;  // what would be overwritten
 };

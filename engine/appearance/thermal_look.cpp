@@ -180,7 +180,8 @@ void ThermalLevels::add(const Frame& frame, const cv::Mat& own_body) {
   if (found.sky)
     if (const std::optional<double> noise = sky_noise(frame, sky, codes.reduced.scale, own_body))
       noises_.push_back(std::sqrt(*noise));
-  const SkyProfile profile = sky_profile(codes.reduced.luma, codes.hidden);
+  SkyProfile profile = sky_profile(codes.reduced.luma, codes.hidden);
+  if (profile.codes.empty()) profile = sky_profile(255 - codes.reduced.luma, codes.hidden);  // what is warm is dark
   const std::optional<Halo> halo = fitted_halo(profile.codes, codes.reduced.luma.cols);
   if (!halo) return;
   halos_px_.push_back(halo->sigma_px * codes.reduced.scale);

@@ -82,12 +82,15 @@ Result<OpenedBackground> opened_background(const Background& background, const s
     if (const auto read = read_attitude_file(attitude); !read)
       return fail_at(key + "camera.attitude_file", read.error());
   if (const TrackSettings& track = background.camera.track; !track.file.empty()) {
+    const Result<Track> read = read_track(track.file);
+    if (!read) return fail_at(key + "camera.track.file", read.error());
     // Flights are planned about a camera that flies straight on (flight_plan.h).
-    if (track.position != TrackPositionChoice::none)
+    const bool has_position = !read->position.empty() || !read->local_position_ned_m.empty();
+    if (track.position != TrackPositionChoice::none && has_position)
       return fail(key + "camera.track.position",
-                  "is not \"none\": a recipe plans flights about a camera that flies straight on; use the log's "
+                  "is not \"none\", and the log has positions: a recipe plans flights about a camera that flies "
+                  "straight on; use the log's "
                   "attitude alone, or write the encounter as a project");
-    if (const auto read = read_track(track.file); !read) return fail_at(key + "camera.track.file", read.error());
   }
   const int last = static_cast<int>(shape.times_s.size()) - 1;
   const FrameRange frames{settings.first_frame, settings.last_frame.value_or(last)};

@@ -86,7 +86,8 @@ Result<void> check_palette(const Scene& scene, double off_codes, int frame) {
               ErrorKind::bad_project);
 }
 
-// Fills `contrail`: through haze, blurred by the lens. How warm ice looks is not modelled.
+// Fills `contrail`: through haze, blurred by the lens. What it hides of its aircraft is no longer covered. How warm ice
+// looks is not modelled.
 void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* background, LensTable& lens,
                   IntruderLayers& layers) {
   const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(layers.placed.id)];
@@ -115,6 +116,9 @@ void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* ba
   if (!layers.contrail.empty() && cv::countNonZero(is_behind) > 0)
     layers.contrail.color += shown(is_behind, occluder_m + 1).color;
   layers.contrail_is_nearer = is_before_aircraft(scene, moment, layers.placed);
+  if (!layers.contrail_is_nearer || layers.contrail.empty() || layers.occluded.empty()) return;
+  layers.occluded.coverage = layers.occluded.coverage.clone();
+  occlude_coverage(layers.occluded.coverage, layers.occluded.rect, layers.contrail);
 }
 
 // Fills `lamps`. A thermal camera sees none of them.

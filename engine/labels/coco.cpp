@@ -45,13 +45,8 @@ Json json_of(const Attitude& attitude) {
 }
 
 Json appearance_of(const IntruderTruth& intruder) {
-  const ImageFormation& formation = intruder.image_formation;
-  Json appearance{{"weber_contrast", rounded(intruder.detectability->weber_contrast)},
-                  {"rms_contrast", rounded(intruder.detectability->rms_contrast)},
-                  {"signal_to_noise", rounded(intruder.detectability->signal_to_noise)},
-                  {"blur_px", rounded(formation.blur_px)},
-                  {"motion_blur_px", rounded(formation.motion_blur_px)}};
-  if (formation.visibility_m) appearance["visibility_m"] = rounded(*formation.visibility_m);
+  Json appearance = Json::object();
+  for (const LabelNumber& number : appearance_numbers(intruder)) appearance[number.name] = rounded(number.value);
   return appearance;
 }
 
@@ -190,7 +185,7 @@ class CocoLabels : public OneFileLabels {
     annotation["position_m"] = json_of(intruder.position_m);
     annotation["attitude_deg"] = json_of(attitude_of(intruder.world_from_body));
     if (intruder.amodal_box) annotation["amodal_bbox"] = json_of(*intruder.amodal_box);
-    if (intruder.detectability) annotation.update(appearance_of(intruder));
+    annotation.update(appearance_of(intruder));
     return annotation;
   }
 

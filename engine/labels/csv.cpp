@@ -2,8 +2,11 @@
 #include "labels/formats.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/ensure.h"
@@ -23,13 +26,17 @@ constexpr std::string_view kCsvHeader =
     "silhouette_x_px,silhouette_y_px,silhouette_width_px,silhouette_height_px,"
     "sequence,video,picture_width_px,picture_height_px,frame_rate,substituted,"
     "camera_position_source,camera_attitude_source,camera_sd_x_deg,camera_sd_y_deg,camera_sd_z_deg,"
-    "camera_latitude_deg,camera_longitude_deg,camera_height_m,latitude_deg,longitude_deg,height_m,"
-    "weber_contrast,rms_contrast,signal_to_noise,blur_px,motion_blur_px,visibility_m";
+    "camera_latitude_deg,camera_longitude_deg,camera_height_m,latitude_deg,longitude_deg,height_m";
+
+// Of the numbers of appearance, in this order, before the columns of encounters.
+constexpr std::array kAppearanceColumns{"weber_contrast", "rms_contrast",   "signal_to_noise",
+                                        "blur_px",        "motion_blur_px", "visibility_m"};
 
 // With the columns of encounters where there are some; "dwc-en-route" becomes "dwc_en_route_lost" and so on, as names
 // of columns have no hyphens.
 std::string csv_header(const LabelSequence& sequence) {
   std::string header(kCsvHeader);
+  for (const char* const column : kAppearanceColumns) header += std::string(",") + column;
   if (!sequence.volumes.empty())
     header +=
         ",range_rate_mps,closing_speed_mps,bearing_deg,elevation_deg,hmd_m,vmd_m,"
@@ -57,6 +64,13 @@ class CsvRow {
     for (const LabelNumber& number : numbers)
       std::isfinite(number.value) ? add(number.value, number.decimals) : add_empty(1);
     add_empty(fields - static_cast<int>(numbers.size()));
+  }
+  // Those of the columns, by their names. One that there is not is empty.
+  void add(const LabelNumbers& numbers, std::span<const char* const> columns) {
+    for (const std::string_view column : columns) {
+      const auto number = std::ranges::find(numbers, column, &LabelNumber::name);
+      number == numbers.end() ? add_empty(1) : add(number->value, number->decimals);
+    }
   }
   // Fields that are separated by commas and quoted where they need to be.
   void add_fields(const std::string& fields) { text_ += "," + fields; }
@@ -114,7 +128,7 @@ class CsvLabels : public OneFileLabels {
     row.add(frame.substituted ? "true" : "false");
     row.add_fields(camera_source_fields(frame.camera));
     row.add_fields(place_fields(truth.place));
-    row.add(appearance_numbers(truth), 6);
+    row.add(appearance_numbers(truth), kAppearanceColumns);
     add_encounter_fields(row, truth, sequence_.volumes.size());
     return row.line();
   }

@@ -78,8 +78,8 @@ using LabelNumbers = std::vector<LabelNumber>;
 [[nodiscard]] LabelNumbers box_numbers(const IntruderTruth& truth);        // visible, with pixels; empty: there is none
 [[nodiscard]] LabelNumbers other_box_numbers(const IntruderTruth& truth);  // likewise of IntruderTruth::other_box
 [[nodiscard]] LabelNumbers silhouette_numbers(const IntruderTruth& truth);  // amodal box; empty: there is none
-[[nodiscard]] LabelNumbers appearance_numbers(
-    const IntruderTruth& truth);  // visibility_m comes last, where it is known
+// Also of COCO and Python's truth; CSV has those of its columns. Empty: no pixel shows it.
+[[nodiscard]] LabelNumbers appearance_numbers(const IntruderTruth& truth);
 [[nodiscard]] LabelNumbers light_numbers(const LampTruth& lamp);
 [[nodiscard]] LabelNumbers cloud_numbers(const IntruderTruth& truth);     // empty: the project's clouds hide nothing
 [[nodiscard]] LabelNumbers encounter_numbers(const EncounterTruth& now);  // the last may be infinite

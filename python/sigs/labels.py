@@ -7,9 +7,9 @@ import json
 import os
 import pathlib
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Optional, Union, overload
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import MISSING, dataclass, fields
+from typing import Any, Optional, TypeVar, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +20,11 @@ from .truth import (
     Attitude,
     Box,
     CameraTruth,
+    Clouds,
     Encounter,
     FrameTruth,
     IntruderTruth,
+    Light,
     Place,
     Silhouette,
     WellClear,
@@ -30,6 +32,7 @@ from .truth import (
 
 _Path = Union[str, "os.PathLike[str]"]
 _NAN = float("nan")
+_Kind = TypeVar("_Kind")
 
 
 @dataclass(frozen=True)
@@ -150,11 +153,25 @@ def _child(node: ElementTree.Element, name: str) -> ElementTree.Element:
     return child
 
 
-def _place(node: ElementTree.Element) -> Optional[Place]:
-    place = node.find("place")
-    if place is None:
-        return None
-    return Place(_number(place, "latitude_deg"), _number(place, "longitude_deg"), _number(place, "height_m"))
+def _of(values: Mapping[str, Any], kind: Callable[..., _Kind], **others: Any) -> _Kind:
+    """A class of the truth from numbers by the names of its fields. Fields with a default may be missing."""
+    named: Any = kind
+    numbers = {
+        one.name: float(values[one.name])
+        for one in fields(named)
+        if one.name not in others and (one.name in values or one.default is MISSING)
+    }
+    return kind(**numbers, **others)
+
+
+def _of_child(node: ElementTree.Element, name: str, kind: Callable[..., _Kind]) -> Optional[_Kind]:
+    child = node.find(name)
+    return None if child is None else _of(child.attrib, kind)
+
+
+def _box(node: ElementTree.Element, name: str) -> Optional[Box]:
+    box = node.find(name)
+    return None if box is None else Box(*(int(box.attrib[side]) for side in ("x", "y", "width", "height")))
 
 
 def _camera(node: ElementTree.Element) -> CameraTruth:
@@ -167,21 +184,7 @@ def _camera(node: ElementTree.Element) -> CameraTruth:
         attitude_sd_deg=(_number(node, "sd_x_deg"), _number(node, "sd_y_deg"), _number(node, "sd_z_deg"))
         if has_sd
         else None,
-        place=_place(node),
-    )
-
-
-def _appearance(node: ElementTree.Element) -> Optional[Appearance]:
-    found = node.find("appearance")
-    if found is None:
-        return None
-    return Appearance(
-        weber_contrast=_number(found, "weber_contrast"),
-        rms_contrast=_number(found, "rms_contrast"),
-        signal_to_noise=_number(found, "signal_to_noise"),
-        blur_px=_number(found, "blur_px"),
-        motion_blur_px=_number(found, "motion_blur_px"),
-        visibility_m=_maybe(found, "visibility_m"),
+        place=_of_child(node, "place", Place),
     )
 
 
@@ -189,14 +192,9 @@ def _encounter(node: ElementTree.Element) -> Optional[Encounter]:
     found = node.find("encounter")
     if found is None:
         return None
-    return Encounter(
-        range_rate_mps=_number(found, "range_rate_mps"),
-        closing_speed_mps=_number(found, "closing_speed_mps"),
-        bearing_deg=_number(found, "bearing_deg"),
-        elevation_deg=_number(found, "elevation_deg"),
-        hmd_m=_number(found, "hmd_m"),
-        vmd_m=_number(found, "vmd_m"),
-        time_to_closest_approach_s=_number(found, "time_to_closest_approach_s"),
+    return _of(
+        found.attrib,
+        Encounter,
         time_to_coaltitude_s=_maybe(found, "time_to_coaltitude_s"),
         well_clear=tuple(
             WellClear(one.attrib["volume"], one.attrib["lost"] == "true", _maybe(one, "tau_mod_s"), _number(one, "severity"))
@@ -207,7 +205,6 @@ def _encounter(node: ElementTree.Element) -> Optional[Encounter]:
 
 def _intruder(node: ElementTree.Element) -> IntruderTruth:
     box = node.find("box")
-    other = node.find("other_box")
     silhouette = node.find("silhouette")
     return IntruderTruth(
         id=int(node.attrib["id"]),
@@ -219,15 +216,20 @@ def _intruder(node: ElementTree.Element) -> IntruderTruth:
         position_m=_vector(_child(node, "position")),
         distance_m=_number(_child(node, "distance"), "m"),
         attitude_deg=_attitude(_child(node, "attitude")),
-        place=_place(node),
-        box=None if box is None else Box(*(int(box.attrib[name]) for name in ("x", "y", "width", "height"))),
+        place=_of_child(node, "place", Place),
+        box=_box(node, "box"),
         pixels=0 if box is None else int(box.attrib["pixels"]),
-        other_box=None if other is None else Box(*(int(other.attrib[name]) for name in ("x", "y", "width", "height"))),
+        other_box=_box(node, "other_box"),
         silhouette=None
         if silhouette is None
         else Silhouette(*(_number(silhouette, name) for name in ("x", "y", "width", "height"))),
-        appearance=_appearance(node),
+        appearance=_of_child(node, "appearance", Appearance),
         encounter=_encounter(node),
+        lights=tuple(_of(one.attrib, Light, name=one.attrib["name"]) for one in node.iter("light")),
+        lights_alone=node.get("lights_alone") == "true",
+        clouds=_of_child(node, "clouds", Clouds),
+        contrail=node.get("contrail") == "true",
+        shadow=node.get("shadow") == "true",
     )
 
 
@@ -292,16 +294,9 @@ def _coco_intruder(one: dict[str, Any], names: dict[int, str]) -> IntruderTruth:
         box=Box(*(int(side) for side in one["bbox"])),
         pixels=int(one["area"]),
         silhouette=None if amodal is None else Silhouette(amodal[0] - 0.5, amodal[1] - 0.5, amodal[2], amodal[3]),
-        appearance=None
-        if "weber_contrast" not in one
-        else Appearance(
-            weber_contrast=float(one["weber_contrast"]),
-            rms_contrast=float(one["rms_contrast"]),
-            signal_to_noise=float(one["signal_to_noise"]),
-            blur_px=float(one["blur_px"]),
-            motion_blur_px=float(one["motion_blur_px"]),
-            visibility_m=one.get("visibility_m"),
-        ),
+        appearance=_of(one, Appearance) if "weber_contrast" in one else None,
+        lights_alone=bool(one.get("lights_alone")),
+        contrail=bool(one.get("contrail")),
     )
 
 

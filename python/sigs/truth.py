@@ -95,6 +95,30 @@ class Encounter:
 
 
 @dataclass(frozen=True)
+class Light:
+    """One of an intruder's lights that adds to the image.
+
+    x, y       where it is seen, px
+    share      of the exposure during which it is on
+    brightest  linear light that it adds to the pixel it adds most to; 1 is white
+    """
+
+    name: str
+    x: float
+    y: float
+    share: float
+    brightest: float
+
+
+@dataclass(frozen=True)
+class Clouds:
+    """What the footage's clouds hide of an intruder, 0 to 1, and how far away they are taken to be."""
+
+    hidden: float
+    assumed_distance_m: float
+
+
+@dataclass(frozen=True)
 class IntruderTruth:
     """One intruder in one frame.
 
@@ -103,6 +127,9 @@ class IntruderTruth:
     box, pixels   visible pixels; None and 0 where no pixel shows it
     other_box     of the smaller part of one across the sides of 360 degree footage; None where it is in one part
     silhouette    of the whole body through the lens; None where no part of it has an image
+    lights        those that add to the image; lights_alone: its body changes nothing, what is visible is its lights
+    clouds        None where the project's clouds hide nothing
+    contrail, shadow  some of it is in the image; no box has it
     """
 
     id: int
@@ -121,6 +148,11 @@ class IntruderTruth:
     appearance: Optional[Appearance] = None
     encounter: Optional[Encounter] = None
     other_box: Optional[Box] = None
+    lights: tuple[Light, ...] = ()
+    lights_alone: bool = False
+    clouds: Optional[Clouds] = None
+    contrail: bool = False
+    shadow: bool = False
 
 
 @dataclass(frozen=True)

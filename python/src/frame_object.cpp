@@ -85,33 +85,33 @@ py::object finite(double number) {
   return py::none();
 }
 
-template <class T>
-py::object or_none(const std::optional<T>& value) {
-  if (value) return py::cast(*value);
-  return py::none();
+// By the names of the label file, which are those of the classes' fields.
+py::dict fields_of(const LabelNumbers& numbers) {
+  py::dict fields;
+  for (const LabelNumber& number : numbers) fields[number.name] = finite(number.value);
+  return fields;
 }
 
-py::object appearance_of(const IntruderTruth& truth) {
-  if (!truth.detectability) return py::none();
-  return class_of("Appearance")(
-      "weber_contrast"_a = truth.detectability->weber_contrast, "rms_contrast"_a = truth.detectability->rms_contrast,
-      "signal_to_noise"_a = truth.detectability->signal_to_noise, "blur_px"_a = truth.image_formation.blur_px,
-      "motion_blur_px"_a = truth.image_formation.motion_blur_px,
-      "visibility_m"_a = or_none(truth.image_formation.visibility_m));
+// None without numbers.
+py::object object_of(const char* name, const LabelNumbers& numbers) {
+  if (numbers.empty()) return py::none();
+  return class_of(name)(**fields_of(numbers));
+}
+
+py::tuple lights_of(const IntruderTruth& truth) {
+  py::list lights;
+  for (const LampTruth& lamp : truth.lights)
+    lights.append(class_of("Light")("name"_a = lamp.name, **fields_of(light_numbers(lamp))));
+  return py::tuple(lights);
 }
 
 py::object encounter_of(const IntruderTruth& truth) {
   if (!truth.encounter) return py::none();
-  const EncounterTruth& now = *truth.encounter;
   py::list volumes;
-  for (const WellClearTruth& volume : now.of_volumes)
+  for (const WellClearTruth& volume : truth.encounter->of_volumes)
     volumes.append(class_of("WellClear")("volume"_a = volume.volume, "lost"_a = volume.is_lost,
                                          "tau_mod_s"_a = finite(volume.tau_mod_s), "severity"_a = volume.severity));
-  return class_of("Encounter")(
-      "range_rate_mps"_a = now.range_rate_mps, "closing_speed_mps"_a = now.closing_speed_mps,
-      "bearing_deg"_a = deg_of_rad(now.bearing_rad), "elevation_deg"_a = deg_of_rad(now.elevation_rad),
-      "hmd_m"_a = now.hmd_m, "vmd_m"_a = now.vmd_m, "time_to_closest_approach_s"_a = now.time_to_closest_approach_s,
-      "time_to_coaltitude_s"_a = finite(now.time_to_coaltitude_s), "well_clear"_a = py::tuple(volumes));
+  return class_of("Encounter")("well_clear"_a = py::tuple(volumes), **fields_of(encounter_numbers(*truth.encounter)));
 }
 
 py::object box_of(const std::optional<cv::Rect>& box) {
@@ -131,8 +131,11 @@ py::object object_of(const IntruderTruth& truth) {
       "horizon"_a = std::string(name_of(truth.horizon)), "position_m"_a = tuple_of(truth.position_m),
       "distance_m"_a = glm::length(truth.position_m), "attitude_deg"_a = object_of(attitude_of(truth.world_from_body)),
       "place"_a = object_of(truth.place), "box"_a = box_of(truth.visible_box), "pixels"_a = truth.visible_pixels,
-      "silhouette"_a = silhouette_of(truth.amodal_box), "appearance"_a = appearance_of(truth),
-      "encounter"_a = encounter_of(truth));
+      "other_box"_a = box_of(truth.other_box), "silhouette"_a = silhouette_of(truth.amodal_box),
+      "appearance"_a = object_of("Appearance", appearance_numbers(truth)), "encounter"_a = encounter_of(truth),
+      "lights"_a = lights_of(truth), "lights_alone"_a = truth.lights_alone,
+      "clouds"_a = object_of("Clouds", cloud_numbers(truth)), "contrail"_a = truth.has_contrail,
+      "shadow"_a = truth.has_shadow);
 }
 
 py::object camera_object(const FrameTruth& truth) {

@@ -226,4 +226,28 @@ TEST_CASE("haze and occluders come before each place of a trail by its own dista
   }
 }
 
+TEST_CASE("what a trail before its own aircraft hides counts as hidden") {
+  Scenario scenario(kJetImage, kJetFrames);
+  prepare_jet(scenario);
+  IntruderSettings& jet = scenario.project.intruders.front();
+  // It flies away below the camera: the trail is before it.
+  jet.trajectory.waypoints = {{.frame = 0, .position_m = {100, 0, -148}}, {.frame = 5, .position_m = {140, 0, -148}}};
+  FrameRenderer renderer;
+  const auto fraction_with = [&](int strands, double opacity) {
+    jet.contrail.strands = strands;
+    jet.contrail.opacity = opacity;
+    jet.contrail.width_m = 12;
+    const Result<ComposedFrame> composed = renderer.render(scenario.project, 5);
+    REQUIRE(composed);
+    return composed->truth.intruders.front().visible_fraction;
+  };
+  const double clear = fraction_with(0, 0.5);
+  CHECK(clear == doctest::Approx(1).epsilon(0.01));
+  CHECK(fraction_with(3, 0.2) < 0.95 * clear);
+  CHECK(fraction_with(3, 0.999) < 0.1);
+  // Towards the camera the trail is behind.
+  std::swap(jet.trajectory.waypoints[0].position_m, jet.trajectory.waypoints[1].position_m);
+  CHECK(fraction_with(3, 0.999) == doctest::Approx(1).epsilon(0.01));
+}
+
 }  // namespace sigs::test

@@ -50,6 +50,28 @@ class FramesAndExport(support.InFolder):
             self.assertEqual(frame.truth.index, frame.index)
             self.assertEqual(frame.truth.time_s, frame.time_s)
 
+    def test_lights_clouds_and_contrails_are_those_of_the_label_file(self):
+        self.project["name"] = "seen"
+        for key, value in {
+            "intruders[0].contrail.strands": 2,
+            "intruders[0].lights.landing_cd": 400000,
+            "intruders[0].lights.position_cd": 40000,
+            "footage.cloud_distance_m": 100,
+            "appearance.haze.visibility_m": 9000,
+        }.items():
+            self.project[key] = value
+        sigs.export(self.project, self.folder / "seen", frames=FRAMES)
+        labels = sigs.read_labels(self.folder / "seen/seen.xml")
+        kinds = set()
+        for frame in self.project.frames(FRAMES):
+            self.assertEqual(rounded(frame.truth), rounded(labels.frame(frame.index)))
+            for one in frame.truth.visible:
+                kinds |= {"light"} if one.lights else set()
+                kinds |= {"clouds"} if one.clouds else set()
+                kinds |= {"contrail"} if one.contrail else set()
+                kinds |= {"haze"} if one.appearance.visibility_m == 9000 else set()
+        self.assertEqual(kinds, {"light", "clouds", "contrail", "haze"})
+
     def test_the_export_of_the_module_writes_the_files_of_the_program(self):
         done = []
         report = sigs.export(self.project, self.folder / "mine", frames=FRAMES, progress=lambda n, of: done.append((n, of)))

@@ -95,7 +95,8 @@ TEST_CASE("settings that are not saved are in the command: what it sets makes th
   saved.file = "/a/b/p.json";
   saved.intruders.resize(1);
   saved.intruders[0].trajectory.waypoints = {{.frame = 0, .position_m = {1, 2, 3}}};
-  CHECK(assignments_between(saved, saved)->empty());
+  CHECK(assignments_between(saved, saved).texts.empty());
+  CHECK(assignments_between(saved, saved).are_all);
   Project present = saved;
   present.name = "it's mine";
   present.output.codec = VideoCodec::h264;
@@ -104,16 +105,22 @@ TEST_CASE("settings that are not saved are in the command: what it sets makes th
   present.footage.last_frame = 30;
   present.camera.speed_mps = 31.25;
   present.intruders[0].trajectory.waypoints[0].position_m.y = -7.125;
-  const auto assignments = assignments_between(saved, present);
-  REQUIRE(assignments);
+  const Assignments assignments = assignments_between(saved, present);
+  REQUIRE(assignments.are_all);
   Project reached = saved;
-  for (const std::string& assignment : *assignments) CHECK_MESSAGE(set_field(reached, assignment), assignment);
+  for (const std::string& assignment : assignments.texts) CHECK_MESSAGE(set_field(reached, assignment), assignment);
   CHECK(reached == present);
-  const std::string command = export_command({.project = present, .folder = "out"}, *assignments);
+  const std::string command = export_command({.project = present, .folder = "out"}, assignments.texts);
   CHECK(command.find(R"( --set 'name=it'\''s mine')") != std::string::npos);
   CHECK(command.find(" --set export.video.codec=h264 ") != std::string::npos);
-  // What no setting says.
+  // What no setting says. Those of the export are in the command all the same.
   present.intruders[0].trajectory.waypoints.push_back({.frame = 9, .position_m = {4, 5, 6}});
-  CHECK_FALSE(assignments_between(saved, present));
-  CHECK_FALSE(assignments_between(Project(), saved));
+  const Assignments left = assignments_between(saved, present);
+  CHECK_FALSE(left.are_all);
+  reached = saved;
+  for (const std::string& assignment : left.texts) CHECK_MESSAGE(set_field(reached, assignment), assignment);
+  CHECK(reached.output == present.output);
+  CHECK(reached.intruders == saved.intruders);
+  CHECK_FALSE(assignments_between(Project(), saved).are_all);
+  CHECK(assignments_between(Project(), saved).texts.empty());
 }

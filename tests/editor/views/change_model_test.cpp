@@ -82,9 +82,10 @@ TEST_CASE("of a user's model axes and unit are guessed, and said; what is no mod
 }
 
 TEST_CASE("the image of a model fills its tile: it reaches to within a tenth of one pair of edges") {
+  ComposeContext compose;
   for (const char* const name : {"light-aircraft", "balloon", "quadcopter"}) {
     CAPTURE(name);
-    const Result<cv::Mat> image = model_thumbnail(sample(name), {220, 132});
+    const Result<cv::Mat> image = model_thumbnail(sample(name), {220, 132}, compose);
     REQUIRE_MESSAGE(image, image.error().text());
     REQUIRE(image->size() == cv::Size(220, 132));
     std::vector<cv::Point> seen;
