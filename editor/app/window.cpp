@@ -300,9 +300,14 @@ Buttons ButtonQueue::take_for_update() {
     const ButtonEvent& event = events_.front();
     const auto button = static_cast<std::size_t>(event.button);
     if (changed[button]) break;
+    const Buttons::Place at{event.x, event.y};
+    if (!event.down && at_ && at != *at_) {
+      if (!buttons.at) buttons.at = at_ = at;
+      break;
+    }
     changed[button] = true;
     down_[button] = event.down;
-    buttons.at = {event.x, event.y};
+    buttons.at = at_ = at;
   }
   buttons.down = down_;
   return buttons;

@@ -70,23 +70,27 @@ struct Buttons {
   struct Place {
     double x = 0;
     double y = 0;
+    [[nodiscard]] bool operator==(const Place&) const = default;
   };
   std::optional<Place> at;  // none: no event; the present position of the mouse counts
 };
 
 // Spreads mouse events over updates. ImGui up to 1.86 reads the buttons once per update: of two clicks during a slow
-// update it would find one. The queue lets each button change once per update, in order.
+// update it would find one. The queue lets each button change once per update, in order. A button that goes up
+// elsewhere than where the last event was is down there for an update before: what it drags gets there.
 class ButtonQueue {
  public:
   // Buttons that ImGui does not have (above the fifth) are ignored.
   void push(const ButtonEvent& event);
   [[nodiscard]] bool empty() const { return events_.empty(); }
-  // Removes the events for this update: up to the second change of a button. Without events, the buttons as they were.
+  // Removes the events for this update: up to the second change of a button, or a release elsewhere. Without events,
+  // the buttons as they were.
   [[nodiscard]] Buttons take_for_update();
 
  private:
   std::deque<ButtonEvent> events_;
   std::array<bool, 5> down_{};  // as the last update was told
+  std::optional<Buttons::Place> at_;
 };
 
 // A window of the desktop with an OpenGL context and ImGui in it. One per program; all calls but wake() come from the

@@ -181,8 +181,11 @@ void ThermalLevels::add(const Frame& frame, const cv::Mat& own_body) {
     if (const std::optional<double> noise = sky_noise(frame, sky, codes.reduced.scale, own_body))
       noises_.push_back(std::sqrt(*noise));
   SkyProfile profile = sky_profile(codes.reduced.luma, codes.hidden);
-  if (profile.codes.empty()) profile = sky_profile(255 - codes.reduced.luma, codes.hidden);  // what is warm is dark
-  const std::optional<Halo> halo = fitted_halo(profile.codes, codes.reduced.luma.cols);
+  std::optional<Halo> halo = fitted_halo(profile.codes, codes.reduced.luma.cols);
+  if (!halo) {  // what is warm may be dark
+    profile = sky_profile(255 - codes.reduced.luma, codes.hidden);
+    halo = fitted_halo(profile.codes, codes.reduced.luma.cols);
+  }
   if (!halo) return;
   halos_px_.push_back(halo->sigma_px * codes.reduced.scale);
   const double step = profile.ground - (halo->sky - halo->dip / 2);

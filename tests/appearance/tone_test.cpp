@@ -198,7 +198,7 @@ TEST_CASE("the halo of a thermal camera is found by how the sky darkens above wa
   for (const Camera& camera : {Camera{0.9, 30, 1}, Camera{0.6, 22, 1}, Camera{1, 40, 1}, Camera{0.8, 64, 2}}) {
     CAPTURE(camera.halo);
     CAPTURE(camera.halo_px);
-    ThermalLevels levels;
+    ThermalLevels levels, inverted;  // the latter of a camera that shows dark what is warm
     for (int i = 0; i < 6; ++i) {
       const cv::Size size(320 * camera.scale, 256 * camera.scale);
       cv::Mat heat(size, CV_32F, cv::Scalar(0)), mean;
@@ -213,13 +213,15 @@ TEST_CASE("the halo of a thermal camera is found by how the sky darkens above wa
       shown += noise;
       shown.convertTo(codes, CV_8U);
       levels.add(gray_frame(codes));
+      inverted.add(gray_frame(255 - codes));
     }
-    const LevelsEstimate found = levels.finish();
-    REQUIRE(found.halo_px.is_known);
-    CHECK(found.halo_px.value == doctest::Approx(camera.halo_px).epsilon(0.15));
-    REQUIRE(found.halo.is_known);
-    CHECK(found.halo.value == doctest::Approx(camera.halo).epsilon(0.1));
-    CHECK(found.halo.sd >= 0.1 * found.halo.value);
+    for (const LevelsEstimate& found : {levels.finish(), inverted.finish()}) {
+      REQUIRE(found.halo_px.is_known);
+      CHECK(found.halo_px.value == doctest::Approx(camera.halo_px).epsilon(0.15));
+      REQUIRE(found.halo.is_known);
+      CHECK(found.halo.value == doctest::Approx(camera.halo).epsilon(0.1));
+      CHECK(found.halo.sd >= 0.1 * found.halo.value);
+    }
   }
   // A camera without one: its sky is even.
   ThermalLevels none;

@@ -105,6 +105,21 @@ TEST_CASE("a key pressed while a waypoint is dragged changes neither it nor its 
   }
 }
 
+TEST_CASE("a drag that is over before the window is drawn moves the waypoint by all of it, not the image") {
+  if (!can_drive_windows()) return;
+  UiTest ui_test("drag-at-once");
+  EditorDriver& editor = ui_test.editor();
+  open_at_waypoint(ui_test);
+  const ScreenPlace before = editor.place("viewport/waypoint/0/1");
+  const ScreenPlace other = editor.place("viewport/image");
+  editor.drag_at_once(before.center_x(), before.center_y(), before.center_x() + 60, before.center_y() + 40);
+  editor.settle();
+  const ScreenPlace after = editor.place("viewport/waypoint/0/1");
+  CHECK(after.center_x() - before.center_x() == doctest::Approx(60).epsilon(0.03));
+  CHECK(after.center_y() - before.center_y() == doctest::Approx(40).epsilon(0.03));
+  CHECK(editor.place("viewport/image").x == other.x);
+}
+
 TEST_CASE("escape in a drag puts everything back, and what was undone before it can still be redone") {
   if (!can_drive_windows()) return;
   UiTest ui_test("escape-in-drag");

@@ -323,6 +323,16 @@ void EditorDriver::drag(const std::string& name, double by_x, double by_y, int b
   drag(there.center_x(), there.center_y(), there.center_x() + by_x, there.center_y() + by_y, button, held_key);
 }
 
+void EditorDriver::drag_at_once(double x, double y, double to_x, double to_y) {
+  const auto text = [](double number) { return std::to_string(std::lround(number)); };
+  move(x, y);
+  ::kill(editor_, SIGSTOP);
+  xdotool({"mousedown", "1", "mousemove", text(x + (to_x - x) / 2), text(y + (to_y - y) / 2), "mousemove", text(to_x),
+           text(to_y), "mouseup", "1"});
+  ::kill(editor_, SIGCONT);
+  wait_until_at_rest();
+}
+
 void EditorDriver::hold(double x, double y, int button) {
   move(x, y);
   press(button);

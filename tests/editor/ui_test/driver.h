@@ -71,6 +71,8 @@ class EditorDriver {
   // In steps, with the button held; keys ("ctrl") are held meanwhile.
   void drag(double x, double y, double to_x, double to_y, int button = 1, const std::string& held_key = {});
   void drag(const std::string& place, double by_x, double by_y, int button = 1, const std::string& held_key = {});
+  // The same within one update, as on a machine that was busy meanwhile.
+  void drag_at_once(double x, double y, double to_x, double to_y);
   // The parts of a drag, for what happens in its middle.
   void hold(double x, double y, int button = 1);
   void release(int button = 1);
