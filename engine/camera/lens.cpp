@@ -280,8 +280,15 @@ double Lens::pixels_per_radian(const glm::dvec3& direction_in_camera) const {
 }
 
 double Lens::valid_angle_rad() const {
-  if (parameters_.model == LensModel::equirectangular) return std::numbers::pi;
-  return parameters_.model == LensModel::brown_conrady ? std::atan(field_.radius) : field_.radius;
+  switch (parameters_.model) {
+    case LensModel::brown_conrady:
+      return std::atan(field_.radius);
+    case LensModel::kannala_brandt:
+      return field_.radius;
+    case LensModel::equirectangular:
+      return std::numbers::pi;
+  }
+  return 0;
 }
 
 bool Lens::is_pinhole() const {
