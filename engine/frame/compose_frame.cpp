@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
@@ -109,8 +108,8 @@ void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* ba
     seen.color.copyTo(part.color, at_these);
     return without_hidden(scene, moment, blurred_through(model, part, layers.sigma_px, window), distance_m, lens);
   };
-  const double occluder_m =
-      scene.occluder.mask.empty() ? std::numeric_limits<double>::max() : scene.occluder.distance_m;
+  constexpr double kBeyondAll_m = 1e30;
+  const double occluder_m = scene.occluder.mask.empty() ? kBeyondAll_m : scene.occluder.distance_m;
   const cv::Mat is_behind = trail.distance_m > occluder_m;
   layers.contrail = shown(~is_behind, 0);
   if (!layers.contrail.empty() && cv::countNonZero(is_behind) > 0)
