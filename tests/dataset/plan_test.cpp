@@ -250,3 +250,21 @@ TEST_CASE("unusable footage and calibrations are reported with the background's 
   json["backgrounds"][0]["footage"]["last_frame"] = 200;
   CHECK(RecipeFolder().error(json) == "backgrounds[0].footage.last_frame: the footage has frames 0 to 199");
 }
+
+TEST_CASE("a log is taken where it has the attitude alone, or its positions are left out") {
+  const RecipeFolder folder;
+  const TemporaryFolder logs;
+  const auto error_with = [&](const std::string& columns, const std::string& values, const char* position) {
+    std::string text = "time_s,camera_roll_deg,camera_pitch_deg,camera_yaw_deg" + columns + "\n";
+    for (int i = 0; i < 20; ++i) text += std::to_string(i) + ",0," + std::to_string(i % 3) + ",0" + values + "\n";
+    write_file(logs / "log.csv", text);
+    nlohmann::ordered_json recipe = RecipeFolder::recipe();
+    recipe["backgrounds"][0]["camera"]["track"] = {{"file", (logs / "log.csv").string()}};
+    if (position != nullptr) recipe["backgrounds"][0]["camera"]["track"]["position"] = position;
+    return folder.error(recipe);
+  };
+  CHECK(error_with("", "", nullptr) == "");
+  CHECK(error_with(",north_m,east_m,down_m", ",1,2,3", nullptr).find("camera.track.position: is not \"none\"") !=
+        std::string::npos);
+  CHECK(error_with(",north_m,east_m,down_m", ",1,2,3", "none") == "");
+}
