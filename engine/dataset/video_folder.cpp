@@ -63,7 +63,8 @@ Result<VideoEntry> export_into(const fs::path& staged, const VideoFolder& folder
   const ExportControl control{.progress = request.progress,
                               .warn =
                                   [&](const Warning& warning) {
-                                    if (request.warn) request.warn({folder.video->name + ": " + warning.where, warning.what});
+                                    if (request.warn)
+                                      request.warn({folder.video->name + ": " + warning.where, warning.what});
                                   },
                               .cancel = request.cancel};
   const Result<ExportReport> report =

@@ -17,8 +17,8 @@ namespace sigs {
 //   frame       number of the frame, counted from 0 over the whole footage
 //   background  that frame of the footage; its size is the scene's. It is copied unless it is moved in; moved in, its
 //               samples are rewritten in place, so they must not be shared
-// Errors: `unavailable` where OpenGL is needed and the machine has none; those of the renderer; those
-// of check_spectrum().
+// Errors: `unavailable` where OpenGL is needed and the machine has none; those of the renderer;
+// those of check_spectrum().
 [[nodiscard]] Result<ComposedFrame> compose_frame(const Scene& scene, int frame, const Frame& background,
                                                   ComposeContext& context, Stages stages = Stages::leave_out);
 [[nodiscard]] Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& background,
