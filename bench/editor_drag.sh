@@ -2,7 +2,9 @@
 # A waypoint dragged steadily over 4K footage in the editor's window: composites shown a second, the editor's processor
 # milliseconds for each, milliseconds from one to the next (half of them, 90 and 99 of 100 come sooner), and from letting
 # go to the image of the last place; with the whole frame in sight, and at 1:1. Then images a second while the clip is
-# played (25 Hz, H.264), and the time from the program's start to the first image. Medians of interleaved runs of all builds. Needs Xvfb, xdotool and ffmpeg, no display.
+# played (25 Hz, H.264), and the time from the program's start to the first image; images a second while the playhead is
+# pulled over 400 frames of an all-intra clip, once from end to end at 100 moves a second, beside those that FFmpeg decodes
+# of it. Medians of interleaved runs of all builds. Needs Xvfb, xdotool and ffmpeg, no display.
 #   bench/editor_drag.sh [--rounds N] [--size WIDTHxHEIGHT] [--seconds S] [BUILD...]   default: 3, 3840x2160, 4, build/release
 # --images FOLDER leaves screenshots of both views, in the drag and after it, there. --first: all that runs here goes
 # before other work of the machine (root), each thread by as much as the others; the rates are then those of a machine
@@ -39,6 +41,9 @@ cat >"$work/project.json" <<JSON
   "forward": "+x", "up": "+z"}, "trajectory": {"waypoints": [{"frame": 0, "position_m": [90, -10, -155]},
   {"frame": 100, "position_m": [200, 0, -165]}, {"frame": 199, "position_m": [330, 20, -160]}]}}]}
 JSON
+
+ffmpeg -v error -stream_loop 1 -i "$work/clip.mp4" -an -c:v libx264 -preset ultrafast -crf 20 -g 1 -frames:v 400 "$work/intra.mp4"
+sed 's/clip\.mp4/intra.mp4/' "$work/project.json" >"$work/intra.json"
 
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 processor_ms() { awk -v hz="$(getconf CLK_TCK)" '{ printf "%d", ($14 + $15) * 1000 / hz }' "/proc/$editor/stat"; }
@@ -100,6 +105,31 @@ drag() {
   screenshot "$2-settled"
 }
 
+# scrub BUILD: appends the images shown a second, from the first move to the last one's image.
+scrub() {
+  local x y width images_before start
+  rm -f "$probe"
+  "$1/sigs-editor" --probe "$probe" "$work/intra.json" >"$work/log" 2>&1 &
+  editor=$!
+  wait_for '"current":true'
+  go_first
+  sleep 3
+  read -r x y width _ < <(box timeline/ruler | awk '{ print int($1) + 2, int($2 + $4 / 2), int($3) - 4 }')
+  xdotool mousemove "$x" "$y"
+  sleep 0.3
+  xdotool mousedown 1
+  sleep 0.5
+  start=$(now_ms) images_before=$(value composites)
+  xdotool $(awk -v x="$x" -v y="$y" -v width="$width" 'BEGIN { for (i = 1; i <= 400; ++i)
+    printf "mousemove %d %d sleep 0.01 ", x + width * i / 400, y }')
+  xdotool mouseup 1
+  wait_for '"current":true'
+  awk -v images="$(($(value composites) - images_before))" -v ms="$(($(now_ms) - start))" 'BEGIN { printf "%.1f\n", 1000 * images / ms }' |
+    tee -a "$work/$(tr / _ <<<"$1").scrubbed" | sed "s|^|$1 scrubbed, images/s: |" >&2
+  kill "$editor"
+  wait "$editor" 2>/dev/null || true
+}
+
 run() { # BUILD
   local x y line= begun images_before
   rm -f "$probe"
@@ -134,6 +164,7 @@ run() { # BUILD
     tee -a "$work/$(tr / _ <<<"$1").played" | sed "s|^|$1 played, images/s: |" >&2
   kill "$editor"
   wait "$editor" 2>/dev/null || true
+  scrub "$1"
 }
 
 for _ in $(seq "$rounds"); do
@@ -151,4 +182,7 @@ for build in "${builds[@]}"; do
   done
   file=$work/$(tr / _ <<<"$build")
   echo "| $build | played | $(median 1 "$file.played") | | | | | first image after $(median 1 "$file.first") ms |"
+  echo "| $build | scrubbed | $(median 1 "$file.scrubbed") | | | | | |"
 done
+decoded=$({ TIMEFORMAT=%R; time ffmpeg -v error -i "$work/intra.mp4" -f null - ; } 2>&1)
+echo "FFmpeg decodes $(awk -v s="$decoded" 'BEGIN { printf "%.1f", 400 / s }') images of the all-intra clip a second"

@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "calibration/board.h"
 #include "calibration/board_calibration.h"
+#include "camera/calibration_text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/output_files.h"

@@ -50,16 +50,8 @@ Result<void> add_project(PerformanceClip& clip, const ClipFiles& files) {
   for (std::size_t i = 0; i < project.intruders.size(); ++i)
     clip.kinds[static_cast<int>(i)] = project.intruders[i].category;
   if (clip.ray_of_pixel) return {};
-  if (project.footage.calibration.empty()) {
-    if (project.footage.lens_model == LensModelChoice::equirectangular)
-      clip.ray_of_pixel = [lens = equirectangular_camera(clip.detected.truth.footage.size_px).lens](double x_px,
-                                                                                                    double y_px) {
-        return lens.ray({x_px, y_px});
-      };
-    return {};
-  }
   Result<RayOfPixel> rays = rays_of(resolved(project, project.footage.calibration), clip.detected.truth.footage.size_px,
-                                    lens_model_of(project.footage.lens_model));
+                                    project.footage.lens_model);
   if (rays) clip.ray_of_pixel = std::move(*rays);
   return {};  // a calibration that is not where it was costs the errors of angles, no more
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <opencv2/calib3d.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "accuracy/angle.h"
@@ -14,6 +14,7 @@
 #include "accuracy/lenses.h"
 #include "base/pose.h"
 #include "base/statistics.h"
+#include "reference/opencv_lens.h"
 
 namespace {
 
@@ -52,21 +53,11 @@ Inverse ours(const Lens& lens) {
 }
 
 // epsilon 0: exactly that many iterations.
-Inverse opencvs(const LensParameters& lens, int iterations, double epsilon) {
-  const cv::Matx33d matrix(lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1);
+Inverse opencvs(const truth::OpencvLens& lens, int iterations, double epsilon) {
   const int type = cv::TermCriteria::COUNT | (epsilon > 0 ? cv::TermCriteria::EPS : 0);
-  const cv::TermCriteria criteria(type, iterations, epsilon);
-  const bool is_fisheye = lens.model == LensModel::kannala_brandt;
   const std::string name = "OpenCV " + std::to_string(iterations) + (epsilon > 0 ? " or 1e-12" : "");
-  return {name, [=](const std::vector<glm::dvec2>& pixels) {
-            std::vector<cv::Point2d> tangents;
-            if (is_fisheye)
-              cv::fisheye::undistortPoints(points_of(pixels), tangents, matrix, lens.coefficients, cv::noArray(),
-                                           cv::noArray(), criteria);
-            else
-              cv::undistortPoints(points_of(pixels), tangents, matrix, lens.coefficients, cv::noArray(), cv::noArray(),
-                                  criteria);
-            return rays_of(tangents);
+  return {name, [&lens, criteria = cv::TermCriteria(type, iterations, epsilon)](const auto& pixels) {
+            return rays_of(lens.tangents(points_of(pixels), criteria));
           }};
 }
 
@@ -96,9 +87,12 @@ int main(int argc, char** argv) {
     const std::vector<Known> known = known_rays(named, call.quick ? 16 : 64);
     std::vector<glm::dvec2> pixels;
     for (const Known& one : known) pixels.push_back(one.pixel);
-    const LensParameters& parameters = named.lens.parameters();
-    for (const Inverse& inverse : {ours(named.lens), opencvs(parameters, 5, 0), opencvs(parameters, 20, 0),
-                                   opencvs(parameters, 100, 0), opencvs(parameters, 100, 1e-12)}) {
+    const truth::OpencvLens opencv(named.lens.parameters());
+    std::vector<Inverse> inverses{ours(named.lens)};
+    if (opencv.is_opencvs())
+      for (const auto& [iterations, epsilon] : {std::pair(5, 0.0), {20, 0.0}, {100, 0.0}, {100, 1e-12}})
+        inverses.push_back(opencvs(opencv, iterations, epsilon));
+    for (const Inverse& inverse : inverses) {
       const GaussianWeights spread = errors_of(inverse.rays(pixels), known);
       const double s =
           min_s(call.quick ? 1 : 9, static_cast<double>(pixels.size()), [&] { (void)inverse.rays(pixels); });

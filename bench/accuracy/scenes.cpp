@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "accuracy/csv.h"
+#include "camera/calibration_text.h"
 #include "camera/camera.h"
 #include "project/project.h"
 #include "scene/opened_project.h"
@@ -29,19 +30,12 @@ Recipe sample_view(const std::string& name, const std::string& title, double siz
   return {.name = name, .title = title, .size_px = size_px, .lens = sample_lens()};
 }
 
-void write_calibration(const fs::path& path, const LensParameters& lens) {
-  cv::FileStorage file(path.string(), cv::FileStorage::WRITE);
-  file << "image_width" << kImageSize_px.width << "image_height" << kImageSize_px.height;
-  if (lens.model == LensModel::kannala_brandt) file << "fisheye_model" << 1;
-  file << "camera_matrix" << cv::Mat(cv::Matx33d(lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1));
-  file << "distortion_coefficients" << cv::Mat(lens.coefficients, true);
-}
-
 // Everything but where the intruder is.
 Project bare_project(const Recipe& recipe, const fs::path& folder) {
   Project project{.file = folder / (recipe.name + ".json"), .name = recipe.name};
   std::ofstream(folder / "footage.mkv") << "stands in for footage";
-  write_calibration(folder / (recipe.name + ".xml"), recipe.lens);
+  std::ofstream(folder / (recipe.name + ".xml"))
+      << calibration_xml({.lens = recipe.lens, .size_px = kImageSize_px, .comment = "", .numbers = {}});
   project.footage.video = "footage.mkv";
   project.footage.calibration = recipe.name + ".xml";
   if (recipe.has_own_body) project.footage.own_body_mask = (kAssets / "footage/sample_own_body.png").string();

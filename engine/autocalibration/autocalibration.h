@@ -9,7 +9,7 @@
 #include "autocalibration/division_lens.h"
 #include "autocalibration/lens_by_motion.h"
 #include "base/result.h"
-#include "calibration/board_calibration.h"
+#include "camera/calibration_text.h"
 #include "telemetry/track.h"
 #include "video/frame_source.h"
 

@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "calibration/board.h"
 #include "calibration/lens_fit.h"
+#include "camera/calibration_text.h"
 #include "camera/lens.h"
 
 namespace sigs {
@@ -68,19 +69,6 @@ struct BoardCalibration {
                                                        ModelWanted wanted = ModelWanted::automatic);
 
 // A calibration with a board for people, for programs, and as a file.
-
-// What a calibration file says.
-struct CalibrationText {
-  LensParameters lens;
-  cv::Size size_px;
-  std::string comment;  // one line for people, at the file's head: how the lens was found; may be empty
-  std::vector<std::pair<std::string, double>> numbers;  // further values by their keys; those not finite are left out
-};
-
-// The calibration as OpenCV FileStorage XML, as OpenCV and read_calibration() read it: image_width, image_height,
-// camera_matrix, distortion_coefficients, fisheye_model (0 or 1), then the further numbers. It contains neither date
-// nor path: the same calibration gives the same bytes. Every number reads back as the same number.
-[[nodiscard]] std::string calibration_xml(const CalibrationText& calibration);
 
 // A table of the models with errors and standard deviations, the one chosen marked.
 [[nodiscard]] std::string board_report_text(const BoardCalibration& calibration);

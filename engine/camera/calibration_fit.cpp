@@ -51,7 +51,7 @@ std::string state_the_size() {
 
 // The angle that a side of the image sees without distortion, as far as the model's middle tells.
 double field_rad(const LensParameters& lens, double focal_px, int side_px) {
-  return lens.model == LensModel::brown_conrady ? 2 * std::atan(side_px / (2 * focal_px)) : side_px / focal_px;
+  return 2 * plain_angle_rad(lens, side_px / (2 * focal_px));
 }
 
 // For one side of the image; empty where the focal length is plausible.

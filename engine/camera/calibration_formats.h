@@ -57,9 +57,15 @@ struct Fields::Group {
 // (base/input_file.h) and aliases in YAML are errors.
 [[nodiscard]] Result<Fields> fields_in(const std::string& text, const std::string& file_name);
 
+// Kalibr's keys of one camera as those of a file of one camera: camera_model, intrinsics, resolution.
+//   prefix  of the fields' names in messages: "cam1."
+// Errors (bad_data) name file and field: a camera model that is not known, intrinsics of another number, a distortion
+// that the camera model does not come with here.
+[[nodiscard]] Result<Fields> from_kalibr(Fields fields, const std::string& prefix, const std::string& file_name);
+
 // The cameras of a file by name, each in the keys of a file of one camera, with what ties it to the others (T_cn_cnm1,
 // T_cam_imu) left among its fields. Which files: rig_calibration.h. A file of one camera alone gives it without a name.
-// Errors (bad_data) name file and field: a camera model other than a pinhole, intrinsics that are not 4 numbers.
+// Errors (bad_data) name file and field: those of from_kalibr().
 [[nodiscard]] Result<std::vector<Fields::Group>> cameras_in(const Fields& fields, const std::string& file_name);
 
 // The camera that the fields of one describe. Parameters and errors as those of read_calibration().

@@ -40,15 +40,10 @@ constexpr std::array<std::string_view, 4> kWidthNames{"image_width", "image_Widt
 constexpr std::array<std::string_view, 4> kHeightNames{"image_height", "image_Height", "imageHeight", "height"};
 constexpr std::array<std::string_view, 3> kFisheyeNames{"fisheye_model", "fisheye", "fisheyeModel"};
 constexpr std::array<std::string_view, 1> kModelNames{"distortion_model"};
-constexpr std::array<std::string_view, 2> kEquirectangular{"equirectangular", "spherical"};
+constexpr std::array<std::string_view, 2> kMirrorNames{"xi", "Xi"};  // of OpenCV's omnidirectional calibrations
 
 std::string joined(Names names) {
   return fmt::format("{}", fmt::join(names, ", "));
-}
-
-// The model in warnings, by the words of calibration files and of footage.lens_model.
-const char* word_for(LensModel model) {
-  return is_fisheye(model) ? "fisheye" : name_of(model);
 }
 
 // Reads the fields by the keys that docs/calibration-files.md lists. Its messages name the file and, where one is at
@@ -58,28 +53,21 @@ struct Reader {
   const std::string& file;
 
   [[nodiscard]] std::string where(const Field& field) const { return file + ": " + field.name; }
-  [[nodiscard]] bool states_equirectangular() const;
   [[nodiscard]] Result<std::optional<LensModel>> stated_model() const;
-  [[nodiscard]] Result<void> read_matrix(LensParameters& lens) const;
-  [[nodiscard]] Result<void> read_coefficients(LensParameters& lens) const;
+  [[nodiscard]] Result<void> read_matrix(LensParameters& lens, bool may_be_skew) const;
+  [[nodiscard]] Result<void> read_coefficients(LensParameters& lens, std::optional<LensModel> model) const;
   [[nodiscard]] Result<void> choose_model(LensParameters& lens, std::optional<LensModel> wanted,
+                                          const Result<std::optional<LensModel>>& stated,
                                           std::vector<Warning>& warnings) const;
   [[nodiscard]] Result<int> whole_pixels(const Field& field, double number) const;
   [[nodiscard]] Result<std::optional<cv::Size>> size() const;
 };
 
-bool Reader::states_equirectangular() const {
-  const Field* model = found(fields, kModelNames);
-  return model != nullptr && std::ranges::find(kEquirectangular, model->text) != kEquirectangular.end();
-}
-
-// The model that the file states: by OpenCV's flag, or by a name as ROS and Kalibr write it. Where they disagree the
-// flag is taken, except that a flag of 0 yields to a name. Nothing where the file states neither.
+// The model that the file states: by a mirror's parameter, by OpenCV's flag, or by a name as ROS and Kalibr write it.
+// Where they disagree the flag is taken, except that a flag of 0 yields to a name. Nothing where the file states
+// neither.
 Result<std::optional<LensModel>> Reader::stated_model() const {
-  constexpr std::array<std::string_view, 7> kBrown{"plumb_bob",         "rational_polynomial", "thin_prism", "radtan",
-                                                   "radial-tangential", "brown_conrady",       "none"};
-  constexpr std::array<std::string_view, 6> kFisheye{"equidistant",     "equi",          "fisheye", "kannala_brandt",
-                                                     "kannala_brandt4", "opencv_fisheye"};
+  if (found(fields, kMirrorNames) != nullptr) return LensModel::omnidirectional;
   const Field* flag = found(fields, kFisheyeNames);
   if (flag != nullptr) {
     if (flag->text == "true" || flag->text == "True") return LensModel::kannala_brandt;
@@ -90,17 +78,15 @@ Result<std::optional<LensModel>> Reader::stated_model() const {
   const Field* model = found(fields, kModelNames);
   if (model == nullptr || model->text.empty())
     return flag == nullptr ? std::nullopt : std::optional(LensModel::brown_conrady);
-  if (std::ranges::find(kFisheye, model->text) != kFisheye.end()) return LensModel::kannala_brandt;
-  if (std::ranges::find(kBrown, model->text) != kBrown.end()) return LensModel::brown_conrady;
-  if (states_equirectangular()) return LensModel::equirectangular;
-  return fail(
-      where(*model),
-      fmt::format("distortion model '{}' is not supported; plumb_bob, rational_polynomial, equidistant, fisheye and "
-                  "equirectangular are",
-                  model->text));
+  if (const std::optional<LensModel> named = lens_model_named(model->text)) return named;
+  std::vector<std::string_view> known;
+  for (const LensModelTraits& traits : lens_models()) known.push_back(traits.names_in_files.front());
+  return fail(where(*model),
+              fmt::format("distortion model '{}' is not supported; known are {}", model->text, fmt::join(known, ", ")));
 }
 
-Result<void> Reader::read_matrix(LensParameters& lens) const {
+// skew: of the omnidirectional model a coefficient, of no other one.
+Result<void> Reader::read_matrix(LensParameters& lens, bool may_be_skew) const {
   const Field* field = found(fields, kMatrixNames);
   if (field == nullptr) return fail(file, "no camera matrix; looked for " + joined(kMatrixNames));
   if (const auto good = check_numbers(*field, file); !good) return fail(good.error());
@@ -111,7 +97,8 @@ Result<void> Reader::read_matrix(LensParameters& lens) const {
     return fail(where(*field),
                 fmt::format("focal lengths must be positive, are {} and {}", text_of(lens.fx), text_of(lens.fy)));
   constexpr double kRounding = 1e-6;  // of the focal length: a solver's residual where the value was fixed at zero
-  if (std::abs(m[1]) > kRounding * lens.fx || std::abs(m[3]) > kRounding * lens.fx)
+  const bool is_skew = std::abs(m[1]) > kRounding * lens.fx && !may_be_skew;
+  if (is_skew || std::abs(m[3]) > kRounding * lens.fx)
     return fail(where(*field), fmt::format("skew is not supported; the 2nd and 4th numbers must be 0, are {} and {}",
                                            text_of(m[1]), text_of(m[3])));
   constexpr double kLastRowRounding = 1e-9;
@@ -121,24 +108,37 @@ Result<void> Reader::read_matrix(LensParameters& lens) const {
   return {};
 }
 
-Result<void> Reader::read_coefficients(LensParameters& lens) const {
+// A model without coefficients needs no list of them.
+Result<void> Reader::read_coefficients(LensParameters& lens, std::optional<LensModel> model) const {
   const Field* field = found(fields, kCoefficientNames);
+  if (field == nullptr && model && std::ranges::max(traits_of(*model).coefficient_counts) == 0) return {};
   if (field == nullptr) return fail(file, "no distortion coefficients; looked for " + joined(kCoefficientNames));
   if (const auto good = check_numbers(*field, file); !good) return fail(good.error());
   lens.coefficients = field->numbers;
+  const Field* mirror = model == LensModel::omnidirectional ? found(fields, kMirrorNames) : nullptr;
+  if (mirror == nullptr) return {};
+  if (const auto good = check_numbers(*mirror, file); !good) return fail(good.error());
+  if (mirror->numbers.size() != 1) return fail(where(*mirror), "expected one number");
+  if (lens.coefficients.size() != 4 && !lens.coefficients.empty())
+    return fail(where(*field), fmt::format("expected 4 coefficients k1 k2 p1 p2 beside {}, found {}", mirror->name,
+                                           lens.coefficients.size()));
+  lens.coefficients.resize(4);
+  lens.coefficients.insert(lens.coefficients.begin(), mirror->numbers.front());
+  const double skew = found(fields, kMatrixNames)->numbers[1];
+  if (skew != 0) lens.coefficients.push_back(skew / lens.fx);
   return {};
 }
 
 // The model that is wanted, else the one that the file states, else the one that its coefficients suggest.
 Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel> wanted,
+                                  const Result<std::optional<LensModel>>& stated,
                                   std::vector<Warning>& warnings) const {
-  const Result<std::optional<LensModel>> stated = stated_model();
   if (!stated) return fail(stated.error());
   if (wanted || *stated) {
     lens.model = wanted ? *wanted : **stated;
     if (wanted && *stated && *wanted != **stated)
       warnings.push_back({file, fmt::format("says that it is of the {} model; it is read as {}, as asked for",
-                                            word_for(**stated), word_for(*wanted))});
+                                            traits_of(**stated).word, traits_of(*wanted).word)});
     return {};
   }
   const AssumedModel assumed = assumed_model(lens.coefficients);
@@ -149,7 +149,7 @@ Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel>
          fmt::format("four coefficients can be Brown-Conrady (k1 k2 p1 p2) or fisheye (k1 k2 k3 k4), and the file does "
                      "not say which; read as {}, since {}: set footage.lens_model to brown_conrady or fisheye, or "
                      "fisheye_model to 0 or 1 in the file",
-                     word_for(assumed.model), assumed.why)});
+                     traits_of(assumed.model).word, assumed.why)});
   return {};
 }
 
@@ -285,17 +285,15 @@ Result<Fields> fields_of_file(const std::filesystem::path& path) {
 
 Result<Camera> camera_of(const Fields& fields, const std::string& file_name, std::optional<cv::Size> footage_size_px,
                          std::optional<LensModel> wanted_model, const std::optional<ImagePart>& part) {
-  constexpr std::array<std::string_view, 2> kMirrorNames{"xi", "Xi"};
   const Reader reader{fields, file_name};
-  if (const Field* mirror = found(fields, kMirrorNames))
-    return fail(reader.where(*mirror), "the omnidirectional model (xi) is not supported; calibrate as fisheye");
-  if (wanted_model ? *wanted_model == LensModel::equirectangular : reader.states_equirectangular())
-    return equirectangular_camera_from(reader, footage_size_px);
+  const Result<std::optional<LensModel>> stated = reader.stated_model();
+  const std::optional<LensModel> model = wanted_model || !stated ? wanted_model : *stated;
+  if (!needs_calibration(model)) return equirectangular_camera_from(reader, footage_size_px);
   LensParameters lens;
-  if (const auto good = reader.read_matrix(lens); !good) return fail(good.error());
-  if (const auto good = reader.read_coefficients(lens); !good) return fail(good.error());
+  if (const auto good = reader.read_matrix(lens, model == LensModel::omnidirectional); !good) return fail(good.error());
+  if (const auto good = reader.read_coefficients(lens, model); !good) return fail(good.error());
   std::vector<Warning> warnings = fields.warnings;
-  if (const auto good = reader.choose_model(lens, wanted_model, warnings); !good) return fail(good.error());
+  if (const auto good = reader.choose_model(lens, wanted_model, stated, warnings); !good) return fail(good.error());
   const Result<std::optional<cv::Size>> own_size_px = reader.size();
   if (!own_size_px) return fail(own_size_px.error());
   if (!*own_size_px && !footage_size_px)
@@ -362,6 +360,7 @@ Camera equirectangular_camera(cv::Size size_px) {
 
 Result<Camera> read_calibration(const std::filesystem::path& path, std::optional<cv::Size> footage_size_px,
                                 std::optional<LensModel> model, const std::optional<ImagePart>& part) {
+  if (path.empty() && footage_size_px && !needs_calibration(model)) return equirectangular_camera(*footage_size_px);
   const CalibrationName name = calibration_name(path);
   const std::string file_name = name.file.filename().string();
   const Result<calibration::Fields> fields = calibration::fields_of_file(name.file);

@@ -41,7 +41,8 @@ struct CalibrationName {
 // lens profile JSON, one camera of a rig (rig_calibration.h). The format is recognised by the content, not by the name.
 // docs/calibration-files.md lists the keys.
 //   path             a file, or FILE#CAMERA (CalibrationName). Without a camera's name the first of several is read,
-//                    with a warning but for the left one of a pair
+//                    with a warning but for the left one of a pair. Empty: of a model that the footage's size alone
+//                    determines (needs_calibration()), else an error
 //   footage_size_px  size of the images that the camera is wanted for. The calibration is scaled to it where both have
 //                    the same shape; a different shape is an error that names both sizes. A file without a size is
 //                    taken to be made for the footage. If omitted, the file's own size is kept, and a file without one

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <numeric>
+#include <string>
+#include <utility>
 
 namespace sigs::distortion {
 namespace {
@@ -74,6 +77,15 @@ glm::dmat3 tilt_matrix(double tau_x, double tau_y) {
   return along_axis * turn;
 }
 
+template <std::size_t... index>
+Model model_at(std::size_t wanted, std::span<const double> coefficients, std::index_sequence<index...> /*all*/) {
+  static_assert(((static_cast<std::size_t>(std::variant_alternative_t<index, Model>::kModel) == index) && ...),
+                "the models are in the order of LensModel");
+  Model model;
+  ((index == wanted ? void(model = std::variant_alternative_t<index, Model>::of(coefficients)) : void()), ...);
+  return model;
+}
+
 // sin(t) / t, 1 at zero. Below the limit the next term of the series, t^4 / 120, is under the last bit.
 double sine_over(double t) {
   constexpr double kSeriesBelow = 1e-4;
@@ -112,6 +124,18 @@ Polynomial sum(const Polynomial& a, const Polynomial& b, double b_factor) {
 double first_fall(const Polynomial& polynomial, double limit) {
   const std::vector<double> changes = sign_changes(polynomial, limit);
   return changes.empty() ? std::numeric_limits<double>::infinity() : changes.front();
+}
+
+Model model_of(LensModel model, std::span<const double> coefficients) {
+  return model_at(static_cast<std::size_t>(model), coefficients,
+                  std::make_index_sequence<std::variant_size_v<Model>>());
+}
+
+std::string BrownConrady::fault(std::span<const double> coefficients) {
+  const auto too_tilted = [](double tau_rad) { return std::abs(tau_rad) >= std::numbers::pi / 2; };
+  if (coefficients.size() == 14 && (too_tilted(coefficients[12]) || too_tilted(coefficients[13])))
+    return "the sensor's tilt (coefficients 13 and 14, radians) must be less than pi / 2";
+  return {};
 }
 
 BrownConrady BrownConrady::of(std::span<const double> coefficients) {

@@ -3,27 +3,13 @@
 
 #include <glm/glm.hpp>
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "base/result.h"
 #include "camera/distortion_models.h"
+#include "camera/lens_model.h"
 
 namespace sigs {
-
-enum class LensModel {
-  brown_conrady,    // OpenCV calib3d: 0, 4, 5, 8, 12 or 14 coefficients k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tx ty
-  kannala_brandt,   // OpenCV fisheye: 4 coefficients k1 k2 k3 k4
-  equirectangular,  // 360 degree footage: columns are azimuths, rows elevations; no coefficients
-};
-
-// The model's name for people, by its authors: "Brown-Conrady", "Kannala-Brandt"; "equirectangular".
-[[nodiscard]] const char* name_of(LensModel model);
-
-// Whether it is a fisheye's: its images reach 90 degrees from the axis and beyond, round about the axis.
-[[nodiscard]] inline bool is_fisheye(LensModel model) {
-  return model == LensModel::kannala_brandt;
-}
 
 // The intrinsics of a camera. Pixels as in base/image.h: the centre of the first pixel is (0, 0).
 struct LensParameters {
@@ -33,6 +19,10 @@ struct LensParameters {
 
   [[nodiscard]] bool operator==(const LensParameters&) const = default;
 };
+
+// Angle from the axis that a lens of this model without distortion shows at a distance from its principal point.
+//   distance  in focal lengths
+[[nodiscard]] double plain_angle_rad(const LensParameters& lens, double distance);
 
 // Maps directions to pixels and back, as OpenCV's projectPoints and fisheye::projectPoints do, but only within the
 // field in which the map is one to one. A direction or pixel beyond it has no image: nothing is extrapolated.
@@ -76,12 +66,13 @@ class Lens {
   // True where the lens is a pinhole without distortion: images need no warp.
   [[nodiscard]] bool is_pinhole() const;
 
+  // A lens without distortion that shows what is round the axis as this one does.
+  [[nodiscard]] Lens pinhole() const;
+
   [[nodiscard]] const LensParameters& parameters() const { return parameters_; }
 
  private:
-  using Model = std::variant<distortion::BrownConrady, distortion::KannalaBrandt, distortion::Equirectangular>;
-  [[nodiscard]] static Model model_of(const LensParameters& parameters);
-  Lens(LensParameters parameters, Model model);
+  Lens(LensParameters parameters, distortion::Model model);
 
   [[nodiscard]] glm::dvec2 focal() const { return {parameters_.fx, parameters_.fy}; }
   [[nodiscard]] glm::dvec2 center() const { return {parameters_.cx, parameters_.cy}; }
@@ -89,7 +80,7 @@ class Lens {
   [[nodiscard]] bool comes_back(const glm::dvec3& ray, const glm::dvec2& pixel_px) const;
 
   LensParameters parameters_;
-  Model model_;
+  distortion::Model model_;
   distortion::Field field_;
   double middle_px_ = 0;  // the column around which pixel() gives columns, of a lens with a period
 };

@@ -42,36 +42,6 @@ Fields one_of_pair(Fields fields, Names matrix, Names coefficients) {
   return fields;
 }
 
-std::string why_not_supported(const std::string& model) {
-  if (model == "omni") return "the omnidirectional model (omni) is neither pinhole nor fisheye";
-  if (model == "ds") return "the double sphere model (ds) has another formula";
-  if (model == "eucm") return "the extended unified model (eucm) has another formula";
-  return fmt::format("camera model '{}' is not known", model);
-}
-
-// Kalibr's keys of one camera as those of a file of one camera.
-//   prefix  of the fields' names in messages: "cam1."
-Result<Fields> from_kalibr(Fields fields, const std::string& prefix, const std::string& file_name) {
-  if (!prefix.empty())
-    for (auto& [key, field] : fields) field.name = prefix + field.name;
-  if (const auto model = fields.find("camera_model"); model != fields.end() && model->second.text != "pinhole")
-    return fail(file_name + ": " + model->second.name,
-                why_not_supported(model->second.text) + "; calibrate as pinhole-radtan or pinhole-equi");
-  if (const auto given = fields.find("intrinsics"); given != fields.end() && !fields.contains("camera_matrix")) {
-    Field matrix = given->second;
-    if (const auto good = check_numbers(matrix, file_name); !good) return fail(good.error());
-    const std::vector<double> n = matrix.numbers;
-    if (n.size() != 4)
-      return fail(file_name + ": " + matrix.name, fmt::format("expected 4 numbers, fu fv pu pv, found {}", n.size()));
-    matrix.numbers = {n[0], 0, n[2], 0, n[1], n[3], 0, 0, 1};
-    matrix.stated_count.reset();
-    fields.insert_or_assign("camera_matrix", std::move(matrix));
-  }
-  if (const auto size = fields.find("resolution"); size != fields.end() && !fields.contains("image_size"))
-    fields.insert_or_assign("image_size", Field(size->second));
-  return fields;
-}
-
 // Maps that are cameras, in the file's order, the outermost ones.
 void collect(const Fields& fields, std::vector<Fields::Group>& cameras) {
   for (const Fields::Group& group : fields.groups)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -178,6 +179,25 @@ Field valid_field(const BrownConrady& m) {
   if (!m.radial_only) radius = positive_up_to([&m](double r) { return smallest_determinant(m, r); }, radius);
   if (m.tilted) radius = positive_up_to([&m](double r) { return smallest_tilt_depth(m, r); }, radius);
   return {.radius = radius, .edge = m.radial_only ? std::vector<glm::dvec2>{} : distorted_rim(m, radius)};
+}
+
+// At the rim of the sphere the distance from the axis stops increasing, so that directions just within may round to it.
+constexpr double kRounding = 1 + 8 * std::numeric_limits<double>::epsilon();
+
+Field valid_field(const Omnidirectional& m) {
+  Field field = valid_field(static_cast<const BrownConrady&>(m));
+  if (m.xi > 1) field.radius = std::min(field.radius, kRounding / std::sqrt(m.xi * m.xi - 1));
+  return field;
+}
+
+Field valid_field(const DoubleSphere& m) {
+  if (m.alpha <= 0.5) return {};
+  return {.radius = kRounding / std::sqrt(2 * m.alpha - 1), .edge = {}};
+}
+
+Field valid_field(const ExtendedUnified& m) {
+  if (m.alpha <= 0.5) return {};
+  return {.radius = kRounding / std::sqrt(m.beta * (2 * m.alpha - 1)), .edge = {}};
 }
 
 Field valid_field(const KannalaBrandt& m) {

@@ -44,25 +44,28 @@ cv::Matx33d matrix_of(const LensParameters& lens) {
 // Stage A, equations (3) and (4), with the camera matrix kept.
 FixedMap undistorting_map(const Camera& camera) {
   const LensParameters& lens = camera.lens.parameters();
+  const LensParameters pinhole = camera.lens.pinhole().parameters();
   const cv::Matx33d matrix = matrix_of(lens);
   FixedMap map;
-  switch (lens.model) {
-    case LensModel::brown_conrady:
-      cv::initUndistortRectifyMap(matrix, lens.coefficients, cv::noArray(), matrix, camera.size_px, CV_16SC2,
-                                  map.pixels, map.shares);
-      break;
-    case LensModel::kannala_brandt:
-      cv::fisheye::initUndistortRectifyMap(matrix, lens.coefficients, cv::Matx33d::eye(), matrix, camera.size_px,
-                                           CV_16SC2, map.pixels, map.shares);
-      break;
-    case LensModel::equirectangular:
-      ENSURE(false && "scenes of 360 degree footage refuse the classic method");
+  if (lens.model == LensModel::brown_conrady) {
+    cv::initUndistortRectifyMap(matrix, lens.coefficients, cv::noArray(), matrix, camera.size_px, CV_16SC2, map.pixels,
+                                map.shares);
+  } else if (lens.model == LensModel::kannala_brandt) {
+    cv::fisheye::initUndistortRectifyMap(matrix, lens.coefficients, cv::Matx33d::eye(), matrix, camera.size_px,
+                                         CV_16SC2, map.pixels, map.shares);
+  } else {  // OpenCV has no function for it
+    cv::Mat_<cv::Vec2f> sources(camera.size_px, cv::Vec2f::all(-2));
+    for (int v = 0; v < sources.rows; ++v)
+      for (int u = 0; u < sources.cols; ++u)
+        if (const auto source = camera.lens.pixel({1, (u - lens.cx) / pinhole.fx, (v - lens.cy) / pinhole.fy}))
+          sources(v, u) = cv::Vec2f(glm::vec2(*source).x, glm::vec2(*source).y);
+    cv::convertMaps(sources, cv::noArray(), map.pixels, map.shares, CV_16SC2);
   }
   return map;
 }
 
 void find_origins(const Camera& camera, int v, DistortMaps& maps) {
-  const LensParameters& lens = camera.lens.parameters();
+  const LensParameters lens = camera.lens.pinhole().parameters();
   for (int u = 0; u < camera.size_px.width; ++u) {
     const std::optional<glm::dvec3> ray = camera.lens.ray({u, v});
     if (!ray || ray->x <= 1e-6) continue;  // a pinhole has no image at 90 degrees and beyond

@@ -62,10 +62,7 @@ Result<OpenedBackground> opened_background(const Background& background, const s
                                            const FootageShape& shape) {
   const FootageSettings& settings = background.footage;
   const std::string where = key + "footage.";
-  Result<Camera> lens =
-      settings.calibration.empty() && settings.lens_model == LensModelChoice::equirectangular
-          ? equirectangular_camera(shape.size_px)
-          : read_calibration(settings.calibration, shape.size_px, lens_model_of(settings.lens_model), shape.part);
+  Result<Camera> lens = read_calibration(settings.calibration, shape.size_px, settings.lens_model, shape.part);
   if (!lens) return fail_at(where + "calibration", lens.error());
   for (const auto& [name, mask] :
        {std::pair("own_body_mask", settings.own_body_mask), std::pair("occluder_mask", settings.occluder_mask)})

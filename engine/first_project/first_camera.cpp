@@ -10,6 +10,7 @@
 
 #include "base/pose.h"
 #include "base/text.h"
+#include "camera/calibration_text.h"
 #include "scene/camera_track.h"
 #include "scene/scene_at.h"
 #include "telemetry/gpmf.h"
@@ -104,26 +105,9 @@ GuessedLens guessed_lens(const FirstProjectOptions& options, const VideoInfo& vi
   return finish(std::move(guessed), "a guess: nothing in the file tells it");
 }
 
-std::string calibration_xml(const LensParameters& lens, cv::Size size_px, const std::string& note) {
-  std::string coefficients;
-  for (const double coefficient : lens.coefficients)
-    coefficients += (coefficients.empty() ? "" : " ") + exact_text(coefficient);
-  // A comment may not hold two hyphens.
-  std::string comment = note;
-  for (std::size_t at = comment.find("--"); at != std::string::npos; at = comment.find("--")) comment.erase(at, 1);
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n<!-- Not measured: {}. -->\n<opencv_storage>\n<image_width>{}</image_width>\n"
-      "<image_height>{}</image_height>\n<fisheye_model>{}</fisheye_model>\n"
-      "<camera_matrix type_id=\"opencv-matrix\">\n  <rows>3</rows>\n  <cols>3</cols>\n  <dt>d</dt>\n  <data>\n"
-      "    {} 0. {}\n    0. {} {}\n    0. 0. 1.</data></camera_matrix>\n"
-      "<distortion_coefficients type_id=\"opencv-matrix\">\n  <rows>{}</rows>\n  <cols>1</cols>\n  <dt>d</dt>\n"
-      "  <data>\n    {}</data></distortion_coefficients>\n</opencv_storage>\n",
-      comment, size_px.width, size_px.height, lens.model == LensModel::kannala_brandt ? 1 : 0, exact_text(lens.fx),
-      exact_text(lens.cx), exact_text(lens.fy), exact_text(lens.cy), lens.coefficients.size(), coefficients);
-}
-
 FirstCamera camera_of(const VideoInfo& video, const GuessedLens& guessed, Lens lens, FirstProjectNote note) {
-  std::string text = calibration_xml(guessed.lens, video.size_px, note.text);
+  std::string text = calibration_xml(
+      {.lens = guessed.lens, .size_px = video.size_px, .comment = "Not measured: " + note.text + ".", .numbers = {}});
   return {.camera = {.lens = std::move(lens), .size_px = video.size_px},
           .calibration_text = std::move(text),
           .note = std::move(note),

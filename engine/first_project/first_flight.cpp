@@ -277,7 +277,7 @@ class FlightSearch {
 
   [[nodiscard]] double pixels_per_radian() const {
     const double there = scene_.camera.lens.pixels_per_radian(aim(scene_, view_.middle_s));
-    return there > 0 ? there : scene_.camera.lens.parameters().fx;
+    return there > 0 ? there : scene_.camera.lens.pinhole().parameters().fx;
   }
 
   void judge(Trial& trial) const {

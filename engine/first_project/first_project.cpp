@@ -154,8 +154,9 @@ class Planning {
     camera_ = camera->camera;
     note(camera->note);
     lens_is_default_ = camera->is_default;
-    if (camera_->lens.parameters().model == LensModel::equirectangular && options_.calibration.empty()) {
-      project().footage.lens_model = LensModelChoice::equirectangular;
+    const LensModel model = camera_->lens.parameters().model;
+    if (options_.calibration.empty() && !needs_calibration(model)) {
+      project().footage.lens_model = model;
     } else if (camera->calibration_text.empty()) {
       project().footage.calibration = relative_to(options_.calibration, project().file);
     } else {

@@ -215,9 +215,7 @@ cv::Rect visible_rect_of(std::span<const RenderedView> views, const Camera& pinh
 Layer pinhole_layer(const Scene& scene, const IntruderLayers& layers) {
   const cv::Rect whole({0, 0}, scene.footage.size_px);
   if (scene.compositing.method == MethodChoice::plain) return clipped(layers.warped, whole);
-  const LensParameters& lens = scene.camera.lens.parameters();
-  const Camera pinhole{*Lens::make({.fx = lens.fx, .fy = lens.fy, .cx = lens.cx, .cy = lens.cy}),
-                       scene.footage.size_px};
+  const Camera pinhole{scene.camera.lens.pinhole(), scene.footage.size_px};
   const cv::Rect visible_rect = visible_rect_of(layers.views, pinhole);
   return visible_rect.empty() ? Layer{} : warped(layers.views, pinhole, visible_rect);
 }

@@ -169,7 +169,7 @@ Result<std::unique_ptr<LabelWriter>> open_kitti(const fs::path& path, const Labe
   if (sequence.camera) {
     if (const Result<void> created = make_inner_folder(path / "calib"); !created) return fail(created.error());
     const Result<void> calib =
-        write_text(path / "calib" / (name + ".txt"), calibration(sequence.camera->lens.parameters()), false);
+        write_text(path / "calib" / (name + ".txt"), calibration(sequence.camera->lens.pinhole().parameters()), false);
     if (!calib) return fail(calib.error());
   }
   Result<TextFile> labels = TextFile::create(path / "label_02" / (name + ".txt"));

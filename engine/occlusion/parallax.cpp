@@ -66,7 +66,7 @@ class Rays {
   }
 
   // Pixels of the reduced image a radian, about.
-  [[nodiscard]] double focal_px() const { return lens_.parameters().fx * scale_; }
+  [[nodiscard]] double focal_px() const { return lens_.pinhole().parameters().fx * scale_; }
 
  private:
   [[nodiscard]] glm::dvec2 in_footage(const glm::dvec2& pixel) const { return (pixel + 0.5) / scale_ - 0.5; }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/pose.h"
+#include "camera/lens_model.h"
 #include "project/look_settings.h"
 #include "video/heat_palette.h"
 
@@ -14,11 +15,6 @@ namespace sigs {
 
 // Part of a project (project.h): the footage, the camera that took it or several of them, and where the world lies on
 // the Earth.
-
-// The lens model that the numbers of the calibration file belong to; automatic: as the file states or, where it does
-// not, judged by its numbers (docs/calibration-files.md).
-//   equirectangular  of 360 degree footage, which needs no calibration file
-enum class LensModelChoice { automatic, brown_conrady, fisheye, equirectangular };
 
 // What the camera's sensor responds to: light, or the heat that things send out (long-wave infrared).
 enum class Spectrum { visible, thermal };
@@ -55,7 +51,9 @@ struct FootageSettings {
   std::string real_aircraft;   // file with the boxes of aircraft that the footage itself shows; empty: none
   Spectrum spectrum = Spectrum::visible;
   HeatPalette palette = HeatPalette::gray;  // of thermal footage
-  LensModelChoice lens_model = LensModelChoice::automatic;
+  // Of the calibration's numbers; none: as the file states or, where it does not, judged by its numbers
+  // (docs/calibration-files.md).
+  std::optional<LensModel> lens_model;
   double max_substituted_percent = 1;  // of the exported frames; more damaged ones are an error
 
   [[nodiscard]] bool operator==(const FootageSettings&) const = default;

@@ -5,9 +5,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/input_file.h"
 #include "base/text.h"
+#include "camera/lens_model.h"
 #include "project/field_list.h"
 #include "project/json.h"
 #include "project/places.h"
@@ -15,6 +20,16 @@
 namespace sigs {
 
 namespace {
+
+Choice lens_model_choice(std::optional<LensModel>& model) {
+  std::vector<std::string_view> names{"auto"};
+  for (const LensModelTraits& traits : lens_models()) names.push_back(traits.word);
+  return {
+      .names = std::move(names),
+      .get = [&model] { return model ? 1 + static_cast<int>(*model) : 0; },
+      .set = [&model](
+                 int index) { model = index == 0 ? std::nullopt : std::optional(static_cast<LensModel>(index - 1)); }};
+}
 
 void add_footage(FieldList list, FootageSettings& footage) {
   list.path("video", footage.video, true,
@@ -32,13 +47,13 @@ void add_footage(FieldList list, FootageSettings& footage) {
   list.number("crop.top_px", &footage.crop.top_px, "px", 0, 1e5, "and at this row, likewise");
   list.number("crop.width_px", &footage.crop.width_px, "px", 0, 1e5, "and has so many columns; 0: all to the right");
   list.number("crop.height_px", &footage.crop.height_px, "px", 0, 1e5, "and so many rows; 0: all below");
-  list.path("calibration", footage.calibration, footage.lens_model != LensModelChoice::equirectangular,
+  list.path("calibration", footage.calibration, needs_calibration(footage.lens_model),
             "the camera's calibration file; of equirectangular footage none is needed");
   list.add("spectrum", choice_of(footage.spectrum, {"visible", "thermal"}), "",
            "thermal: the camera sees heat; light has no effect, appearance.thermal and intruders[].heat have");
   list.add("palette", choice_of(footage.palette, {kHeatPaletteNames.begin(), kHeatPaletteNames.end()}), "",
            "of thermal footage: the colours in which it shows heat; gray: white-hot or black-hot");
-  list.add("lens_model", choice_of(footage.lens_model, {"auto", "brown_conrady", "fisheye", "equirectangular"}), "",
+  list.add("lens_model", lens_model_choice(footage.lens_model), "",
            "lens model of the calibration's numbers; auto: as the file says, else as they look; equirectangular: 360 "
            "degree footage");
   list.path("occluder_mask", footage.occluder_mask, false,

@@ -211,7 +211,7 @@ FootageShape placeholder_footage(const Project& project) {
   const int count = static_cast<int>(std::clamp<double>(last + 1, kMinPlaceholderFrames, kMaxPlaceholderFrames));
   // With another size than the calibration's, a second problem would be reported.
   const Result<Camera> camera =
-      read_calibration(resolved(clean, clean.footage.calibration), {}, lens_model_of(clean.footage.lens_model));
+      read_calibration(resolved(clean, clean.footage.calibration), {}, clean.footage.lens_model);
   FootageShape footage{.size_px = camera ? camera->size_px : cv::Size(kPlaceholderWidth_px, kPlaceholderHeight_px),
                        .frame_interval_s = kPlaceholderInterval_s};
   for (int frame = 0; frame < count; ++frame) footage.times_s.push_back(frame * kPlaceholderInterval_s);

@@ -42,8 +42,7 @@ double frame_at_time(const FootageShape& footage, double time_s) {
 
 Camera compositing_camera(const Scene& scene) {
   if (scene.compositing.method != MethodChoice::plain) return scene.camera;
-  const LensParameters& lens = scene.camera.lens.parameters();
-  return {*Lens::make({.fx = lens.fx, .fy = lens.fy, .cx = lens.cx, .cy = lens.cy}), scene.camera.size_px};
+  return {scene.camera.lens.pinhole(), scene.camera.size_px};
 }
 
 namespace {

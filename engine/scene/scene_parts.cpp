@@ -221,25 +221,9 @@ Result<void, Problem> set_range(Scene& scene, const Project& project, SceneFiles
   return {};
 }
 
-std::optional<LensModel> lens_model_of(LensModelChoice choice) {
-  switch (choice) {
-    case LensModelChoice::automatic:
-      return std::nullopt;
-    case LensModelChoice::brown_conrady:
-      return LensModel::brown_conrady;
-    case LensModelChoice::fisheye:
-      return LensModel::kannala_brandt;
-    case LensModelChoice::equirectangular:
-      return LensModel::equirectangular;
-  }
-  return std::nullopt;
-}
-
 Result<Camera, Problem> scene_camera(const Project& project, const FootageShape& footage, SceneFiles& files) {
-  if (project.footage.calibration.empty() && project.footage.lens_model == LensModelChoice::equirectangular)
-    return equirectangular_camera(footage.size_px);
   Result<Camera> camera =
-      files.camera(resolved(project, project.footage.calibration), footage, lens_model_of(project.footage.lens_model));
+      files.camera(resolved(project, project.footage.calibration), footage, project.footage.lens_model);
   if (!camera) return in_field("footage.calibration", camera.error());
   return *std::move(camera);
 }

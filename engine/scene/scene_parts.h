@@ -42,7 +42,7 @@ namespace sigs {
 
 // Whether the footage's lens is stated: by a calibration file or, of 360 degree footage, by the model alone.
 [[nodiscard]] inline bool states_lens(const FootageSettings& footage) {
-  return !footage.calibration.empty() || footage.lens_model == LensModelChoice::equirectangular;
+  return !footage.calibration.empty() || !needs_calibration(footage.lens_model);
 }
 
 // The calibrated camera, scaled to the footage's size.
@@ -53,9 +53,6 @@ namespace sigs {
 // also for footage of any other lens.
 //   scene  its camera and motion
 [[nodiscard]] std::optional<Problem> panorama_problem(const Scene& scene);
-
-// None for `automatic`: the lens model is then taken from the calibration file.
-[[nodiscard]] std::optional<LensModel> lens_model_of(LensModelChoice choice);
 
 // Attitudes of the platform, by rising time; empty where the project names no attitude file.
 [[nodiscard]] Result<std::vector<PlatformAttitude>, Problem> scene_platform_attitudes(const Project& project,

@@ -181,12 +181,28 @@ TEST_CASE("footage without a size is refused for a file without one") {
 }
 
 TEST_CASE("unsupported models are refused by name") {
-  CHECK(message(with("xi: 0.95")) ==
-        "gopro.any: xi: the omnidirectional model (xi) is not supported; calibrate as fisheye");
   CHECK(message(with("distortion_model: fov")) ==
-        "gopro.any: distortion_model: distortion model 'fov' is not supported; plumb_bob, rational_polynomial, "
-        "equidistant, fisheye and equirectangular are");
+        "gopro.any: distortion_model: distortion model 'fov' is not supported; known are plumb_bob, "
+        "equidistant, omnidirectional, double_sphere, extended_unified, equirectangular");
   CHECK(message(with("fisheye_model: perhaps")) == "gopro.any: fisheye_model: expected 0 or 1");
+}
+
+TEST_CASE("faulty parameters of models that look at a sphere are refused by name") {
+  CHECK(message(with("xi: 0.95")).empty());
+  CHECK(message(with("xi: [0.95, 1]")) == "gopro.any: xi: expected one number");
+  CHECK(message(with("xi: wide")) == "gopro.any: xi: 'wide' is not a number");
+  CHECK(message(with_coefficients("[1, 2, 3, 4, 5]") + "xi: 0.95") ==
+        "gopro.any: dist_coeffs: expected 4 coefficients k1 k2 p1 p2 beside xi, found 5");
+  CHECK(message(with("xi: -0.1")) == "gopro.any: dist_coeffs: xi, the first coefficient, must be at least 0");
+  const std::string two = "K: [500, 0, 320, 0, 510, 240, 0, 0, 1]\n";
+  CHECK(message(two + "distortion_model: double_sphere\nD: [1, 0.5]") ==
+        "gopro.any: D: xi, the first coefficient, must lie between -1 and 1");
+  CHECK(message(two + "distortion_model: double_sphere\nD: [0.5, 1.5]") ==
+        "gopro.any: D: alpha, the second coefficient, must be 0 to 1");
+  CHECK(message(two + "distortion_model: eucm\nD: [0.5, 0]") ==
+        "gopro.any: D: beta, the second coefficient, must be positive");
+  CHECK(message(two + "distortion_model: eucm\nD: [0.5, 1, 2]") ==
+        "gopro.any: D: expected 2 extended unified coefficients, found 3");
 }
 
 TEST_CASE("Gyroflow profiles that are not plain fisheye lenses are refused by name") {
@@ -204,14 +220,6 @@ TEST_CASE("Gyroflow profiles that are not plain fisheye lenses are refused by na
   std::string three = "{" + kGyroflow + "}";
   three.replace(three.find("[1, 2, 3, 4]"), 12, "[1, 2, \"x\"]");
   CHECK(message(three) == "gopro.any: fisheye_params.distortion_coeffs: '\"x\"' is not a number");
-}
-
-TEST_CASE("a real omnidirectional calibration is refused with the reason") {
-  if (!has_real_data()) return;
-  const auto camera = read_calibration(real_data() / "calibrations" / "scanvan_out_camera_omni.xml");
-  REQUIRE_FALSE(camera.has_value());
-  CHECK(camera.error().where == "scanvan_out_camera_omni.xml: xi");
-  CHECK(contains(camera.error().what, "not supported"));
 }
 
 }  // namespace sigs::test

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
+#include <opencv2/core/persistence.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -376,6 +379,52 @@ TEST_CASE("a real Gyroflow profile and the same lens in XML agree once scaled") 
   // The XML's principal point was scaled without the half pixel, which is 0.5 - 0.5 * 2/3 = 1/6 px.
   for (const glm::dvec3& at : {glm::dvec3{1, 0, 0}, glm::dvec3{1, 0.5, 0.3}, glm::dvec3{1, -1, 0.8}})
     CHECK(glm::distance(*a->lens.pixel(at), *b->lens.pixel(at) - 1.0 / 6) < 1e-6);  // digits of the XML
+}
+
+TEST_CASE("models that look at a sphere are stated by name, or by xi") {
+  const std::string matrix = "K: " + kMatrixYaml + "\nwidth: 640\nheight: 480\n";
+  check_reads_as(matrix + "distortion_model: omnidirectional\nD: [0.9, -0.1, 0.02, 0, 0.001]\n",
+                 LensModel::omnidirectional, {0.9, -0.1, 0.02, 0, 0.001});
+  check_reads_as(matrix + "xi: 0.9\nD: [-0.1, 0.02, 0, 0.001]\n", LensModel::omnidirectional,
+                 {0.9, -0.1, 0.02, 0, 0.001});
+  check_reads_as("K: [500, 2, 320, 0, 510, 240, 0, 0, 1]\nwidth: 640\nheight: 480\nxi: 0.9\nD: [0, 0, 0, 0]\n",
+                 LensModel::omnidirectional, {0.9, 0, 0, 0, 0, 0.004});  // skew of 2 px
+  check_reads_as(matrix + "distortion_model: double_sphere\nD: [-0.2, 0.6]\n", LensModel::double_sphere, {-0.2, 0.6});
+  check_reads_as(matrix + "distortion_model: eucm\nD: [0.6, 1.1]\n", LensModel::extended_unified, {0.6, 1.1});
+}
+
+// OpenCV's file holds the corners that it saw, the poses that it found, and the root mean square of what was left. The
+// board's squares are 17.5 mm wide: with no other width do the poses lead back to the corners.
+TEST_CASE("a real omnidirectional calibration leads from its board's poses to the corners it was made of") {
+  if (!has_real_data()) return;
+  const std::filesystem::path path = real_data() / "calibrations/scanvan_out_camera_omni.xml";
+  const Result<Camera> camera = read_calibration(path);
+  REQUIRE(camera);
+  CHECK(camera->size_px == cv::Size(3008, 3008));
+  cv::FileStorage file(path.string(), cv::FileStorage::READ);
+  cv::Mat poses, corners;
+  file["extrinsic_parameters"] >> poses;
+  file["image_points"] >> corners;
+  REQUIRE(poses.rows == 20);
+  REQUIRE(corners.cols == 54);
+  constexpr int kColumns = 9;
+  constexpr double kSquare = 17.5;
+  double sum_px2 = 0;
+  for (int view = 0; view < poses.rows; ++view) {
+    const cv::Vec3d turn(poses.at<double>(view, 0), poses.at<double>(view, 1), poses.at<double>(view, 2));
+    const cv::Vec3d shift(poses.at<double>(view, 3), poses.at<double>(view, 4), poses.at<double>(view, 5));
+    cv::Matx33d rotation;
+    cv::Rodrigues(turn, rotation);
+    for (int i = 0; i < corners.cols; ++i) {
+      const cv::Vec3d p = rotation * cv::Vec3d(kSquare * (i % kColumns), kSquare * (i / kColumns), 0) + shift;
+      const auto pixel = camera->lens.pixel({p[2], p[0], p[1]});
+      REQUIRE(pixel);
+      const auto& seen = corners.at<cv::Vec2d>(view, i);
+      sum_px2 += std::pow(pixel->x - seen[0], 2) + std::pow(pixel->y - seen[1], 2);
+    }
+  }
+  const double rms_px = std::sqrt(sum_px2 / (poses.rows * corners.cols));
+  CHECK(rms_px == doctest::Approx(static_cast<double>(file["rms"])).epsilon(1e-7));  // as many digits as the poses have
 }
 
 }  // namespace sigs::test

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <opencv2/calib3d.hpp>
 #include <utility>
 
 #include "camera/camera.h"
+#include "reference/opencv_lens.h"
 #include "support/test_data.h"
 
 namespace sigs::test {
@@ -68,6 +68,22 @@ std::vector<ExampleLens> example_lenses() {
        lens_of(kKannalaBrandt, 260, 260, {480, 480}, {-0.01, 0.002, -0.0003, 0.00001}),
        {960, 960}},
       {"fisheye without coefficients", lens_of(kKannalaBrandt, 100, 100, {320, 240}, {0, 0, 0, 0}), vga},
+      {"omnidirectional",  // of a real camera of 360 degrees, reduced
+       lens_of(LensModel::omnidirectional, 314.4, 314.6, {316.3, 318.5},
+               {0.954589, -0.0226039, 0.00166804, 0.000179964, 0.000436136, 0.000472}),
+       {640, 640}},
+      {"omnidirectional, a hyperbolic mirror",
+       lens_of(LensModel::omnidirectional, 400, 405, {320, 240}, {0.7, -0.2, 0.05, 0.002, -0.001}), vga},
+      {"omnidirectional beyond a parabola",
+       lens_of(LensModel::omnidirectional, 700, 700, {320, 240}, {1.6, 0.05, -0.02, 0.0005, 0.001}), vga},
+      {"omnidirectional without distortion", lens_of(LensModel::omnidirectional, 500, 500, {320, 240}, {1.2}), vga},
+      {"omnidirectional as flat as a pinhole", lens_of(LensModel::omnidirectional, 500, 500, {320, 240}, {0}), vga},
+      {"double sphere of 195 degrees",
+       lens_of(LensModel::double_sphere, 313.2, 313.2, {638.7, 514.3}, {-0.1828, 0.5916}),
+       {1280, 1024}},
+      {"double sphere", lens_of(LensModel::double_sphere, 350, 352, {320, 240}, {0.3, 0.45}), vga},
+      {"extended unified", lens_of(LensModel::extended_unified, 380, 381, {320, 240}, {0.62, 1.08}), vga},
+      {"extended unified, narrow", lens_of(LensModel::extended_unified, 500, 500, {320, 240}, {0.3, 0.8}), vga},
       {"fisheye that folds", lens_of(kKannalaBrandt, 300, 310, {320, 240}, {-0.1, -0.05, 0.01, 0}), vga},
   };
 }
@@ -78,7 +94,6 @@ std::vector<ExampleLens> real_lenses() {
   if (!fs::is_directory(real_data() / "calibrations")) return lenses;
   for (const auto& entry : fs::directory_iterator(real_data() / "calibrations")) {
     const fs::path& path = entry.path();
-    if (path.filename() == "scanvan_out_camera_omni.xml") continue;  // a model that is refused
     auto camera = read_calibration(path);
     if (!camera) camera = read_calibration(path, cv::Size(640, 480));
     INFO(path);
@@ -110,18 +125,11 @@ std::vector<glm::dvec3> directions_over(const Lens& lens, int rings, int spokes,
 }
 
 std::vector<glm::dvec2> opencv_pixels(const Lens& lens, const std::vector<glm::dvec3>& p_in_camera) {
-  const LensParameters& l = lens.parameters();
-  const cv::Matx33d matrix(l.fx, 0, l.cx, 0, l.fy, l.cy, 0, 0, 1);
   std::vector<cv::Point3d> points;
   for (const glm::dvec3& p : p_in_camera) points.emplace_back(p.y, p.z, p.x);
-  std::vector<cv::Point2d> projected;
-  const cv::Vec3d none(0, 0, 0);
-  if (l.model == LensModel::kannala_brandt)
-    cv::fisheye::projectPoints(points, projected, none, none, matrix, l.coefficients);
-  else
-    cv::projectPoints(points, none, none, matrix, l.coefficients, projected);
   std::vector<glm::dvec2> pixels;
-  for (const cv::Point2d& pixel : projected) pixels.emplace_back(pixel.x, pixel.y);
+  for (const cv::Point2d& pixel : truth::OpencvLens(lens.parameters()).pixels(points))
+    pixels.emplace_back(pixel.x, pixel.y);
   return pixels;
 }
 

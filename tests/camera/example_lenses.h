@@ -35,7 +35,8 @@ struct ExampleLens {
 // Directions over the whole valid field (up to share of its angle), axis first.
 [[nodiscard]] std::vector<glm::dvec3> directions_over(const Lens& lens, int rings, int spokes, double share);
 
-// The pixels that OpenCV computes for points in front of the camera, whether or not they lie in the field.
+// The pixels that OpenCV computes for points in front of the camera, whether or not they lie in the field; of models
+// that OpenCV does not have, those of truth::ExactLens.
 [[nodiscard]] std::vector<glm::dvec2> opencv_pixels(const Lens& lens, const std::vector<glm::dvec3>& p_in_camera);
 
 // Angle between two directions, good for small ones too.

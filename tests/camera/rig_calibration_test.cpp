@@ -334,11 +334,38 @@ TEST_CASE("a real stereo file of OpenCV has a right camera") {
   CHECK(right->lens.parameters().fx == doctest::Approx(m2.at<double>(0, 0)).epsilon(1e-12));
 }
 
-TEST_CASE("lens models that are neither pinhole nor fisheye are refused with the reason") {
-  for (const auto& [model, word] :
-       {std::pair("omni", "omnidirectional"), {"ds", "double sphere"}, {"eucm", "unified"}, {"x", "not known"}})
-    CHECK(
-        has(rig_message(replaced(chain_text(), "camera_model: pinhole", std::string("camera_model: ") + model)), word));
+TEST_CASE("Kalibr's models that look at a sphere are read with their own parameters") {
+  const auto camera_of = [](const std::string& model, const std::string& intrinsics, const std::string& distortion) {
+    const TemporaryFolder folder;
+    write_file(folder / "cam.yaml", "cam0:\n  camera_model: " + model + "\n  intrinsics: [" + intrinsics +
+                                        "]\n  distortion_model: " + distortion + "\n  resolution: [752, 480]\n");
+    return read_calibration(folder / "cam.yaml");
+  };
+  const auto check_is = [](const Result<Camera>& camera, LensModel model, const std::vector<double>& coefficients) {
+    REQUIRE_MESSAGE(camera, (camera ? "" : camera.error().text()));
+    CHECK(camera->lens.parameters() == LensParameters{model, 458, 457, 367, 248, coefficients});
+    CHECK(camera->size_px == cv::Size(752, 480));
+  };
+  const std::string radtan = "radtan\n  distortion_coeffs: [-0.28, 0.07, 0.0002, 1.7e-05]";
+  const std::string none = "none\n  distortion_coeffs: []";
+  check_is(camera_of("omni", "0.9, 458, 457, 367, 248", radtan), LensModel::omnidirectional,
+           {0.9, -0.28, 0.07, 0.0002, 1.7e-05});
+  check_is(camera_of("omni", "0.9, 458, 457, 367, 248", none), LensModel::omnidirectional, {0.9, 0, 0, 0, 0});
+  check_is(camera_of("ds", "-0.2, 0.6, 458, 457, 367, 248", none), LensModel::double_sphere, {-0.2, 0.6});
+  check_is(camera_of("eucm", "0.6, 1.1, 458, 457, 367, 248", none), LensModel::extended_unified, {0.6, 1.1});
+  const auto message_of = [&](const std::string& model, const std::string& intrinsics, const std::string& distortion) {
+    const Result<Camera> camera = camera_of(model, intrinsics, distortion);
+    return camera ? "" : camera.error().text();
+  };
+  CHECK(message_of("x", "458, 457, 367, 248", radtan) ==
+        "cam.yaml: cam0.camera_model: camera model 'x' is not known; pinhole, omni, ds and eucm are");
+  CHECK(message_of("omni", "458, 457, 367, 248", radtan) ==
+        "cam.yaml: cam0.intrinsics: expected 5 numbers, xi fu fv pu pv, found 4");
+  CHECK(message_of("ds", "0.1, 0.5, 458, 457, 367, 248", radtan) ==
+        "cam.yaml: cam0.distortion_model: 'radtan' is not supported with ds; none is");
+  CHECK(has(message_of("omni", "0.9, 458, 457, 367, 248", "equidistant\n  distortion_coeffs: [1, 2, 3, 4]"),
+            "'equidistant' is not supported with omni; radtan, or none, is"));
+  CHECK(has(message_of("eucm", "1.6, 1.1, 458, 457, 367, 248", none), "alpha, the first coefficient"));
   CHECK(has(rig_message(replaced(chain_text(), "distortion_model: radtan", "distortion_model: fov")),
             "'fov' is not supported"));
 }

@@ -156,6 +156,54 @@ TEST_CASE("a fisheye has an image up to its fold or all around") {
   CHECK(fisheye({-4 * narrow / 3, narrow / 5, 0, 0}) == doctest::Approx(std::sqrt(2 - 1e-6)).epsilon(1e-9));
 }
 
+TEST_CASE("models that look at a sphere have an image within the cone that shows it one to one") {
+  const auto valid_rad = [](LensModel model, std::vector<double> coefficients) {
+    return lens_of(model, 300, 300, {0, 0}, std::move(coefficients)).valid_angle_rad();
+  };
+  // Seen from xi behind the middle: the pole of the projection at cos = -xi or, from outside, the rim at cos = -1 / xi.
+  for (const double xi : {0.0, 0.5, 0.954, 1.0})
+    CHECK(valid_rad(LensModel::omnidirectional, {xi}) == doctest::Approx(std::acos(-xi)).epsilon(1e-14));
+  for (const double xi : {1.25, 2.0, 1e3})
+    CHECK(valid_rad(LensModel::omnidirectional, {xi}) == doctest::Approx(std::acos(-1 / xi)).epsilon(1e-7));  // a fold
+  // Where alpha is below a half the denominator has a zero: alpha d = -(1 - alpha) z; above it the distance has a peak.
+  CHECK(valid_rad(LensModel::extended_unified, {0.2, 1}) == doctest::Approx(std::acos(-0.25)).epsilon(1e-14));
+  CHECK(valid_rad(LensModel::extended_unified, {0.8, 1}) == doctest::Approx(std::acos(-0.25)).epsilon(1e-7));
+  CHECK(valid_rad(LensModel::extended_unified, {0.5, 3}) == doctest::Approx(std::numbers::pi).epsilon(1e-7));
+  CHECK(valid_rad(LensModel::extended_unified, {0, 2}) == doctest::Approx(std::numbers::pi / 2).epsilon(1e-14));
+  CHECK(valid_rad(LensModel::double_sphere, {0, 0.2}) == doctest::Approx(std::acos(-0.25)).epsilon(1e-14));
+  CHECK(valid_rad(LensModel::double_sphere, {0, 0}) == doctest::Approx(std::numbers::pi / 2).epsilon(1e-14));
+  const Lens far = lens_of(LensModel::omnidirectional, 300, 300, {0, 0}, {0.5});
+  CHECK(far.pixel({-0.499, std::sqrt(1 - 0.499 * 0.499), 0}).has_value());
+  CHECK_FALSE(far.pixel({-0.501, std::sqrt(1 - 0.501 * 0.501), 0}).has_value());
+  CHECK_FALSE(far.pixel({-1, 0, 0}).has_value());
+  CHECK_FALSE(far.pixel({0, 0, 0}).has_value());
+}
+
+TEST_CASE("models that look at a sphere agree where they are the same") {
+  constexpr double kXi = 0.7;
+  constexpr double kAlpha = kXi / (1 + kXi);  // with beta = 1: the sphere seen from xi, 1 + xi times as large
+  const Lens omni =
+      lens_of(LensModel::omnidirectional, 300 * (1 + kXi), 320 * (1 + kXi), {310, 250}, {kXi, 0, 0, 0, 0});
+  const Lens unified = lens_of(LensModel::extended_unified, 300, 320, {310, 250}, {kAlpha, 1});
+  const Lens sphere = lens_of(LensModel::double_sphere, 300, 320, {310, 250}, {0, kAlpha});
+  const Lens pinhole = lens_of(LensModel::brown_conrady, 300, 320, {310, 250}, {});
+  const Lens as_flat = lens_of(LensModel::omnidirectional, 300, 320, {310, 250}, {0});
+  for (const glm::dvec3& at : directions_over(omni, 20, 12, 0.99)) {
+    const glm::dvec2 expected = omni.pixel(at).value();
+    const double rounding_px = 1e-12 * (1 + glm::length(expected));  // grows with 1 / depth
+    CHECK(glm::distance(unified.pixel(at).value(), expected) < 10 * rounding_px);
+    CHECK(glm::distance(sphere.pixel(at).value(), expected) < 10 * rounding_px);
+  }
+  for (const glm::dvec3& at : directions_over(pinhole, 10, 12, 0.9))
+    CHECK(glm::distance(as_flat.pixel(at).value(), pinhole.pixel(at).value()) < 1e-9);
+  for (const Lens* lens : {&omni, &unified, &sphere, &as_flat}) {
+    const LensParameters& middle = lens->pinhole().parameters();
+    CHECK(middle.fx == doctest::Approx(300).epsilon(1e-14));
+    CHECK(middle.fy == doctest::Approx(320).epsilon(1e-14));
+    CHECK(lens->pixels_per_radian({1, 0, 0}) == doctest::Approx(320).epsilon(1e-14));
+  }
+}
+
 TEST_CASE("the wide camera of a real UAV folds at 57.3 degrees") {
   if (!has_real_data()) return;
   const Camera camera = real_camera("uav_skyeye_out_camera_data.xml");

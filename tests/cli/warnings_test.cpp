@@ -140,8 +140,8 @@ TEST_CASE("an implausible focal length is reported with its field of view") {
 TEST_CASE("four coefficients without a model are reported, with the assumption and the remedy") {
   TinyProject tiny;
   change_lens(tiny, kFive, four("-0.1 0.01 0.001 -0.002"));
-  check_warned(tiny, "footage.calibration", {"fisheye", "read as Brown-Conrady", "footage.lens_model"});
-  CHECK(has(run_sigs("info " + tiny.file("lens.xml").string()).err, "read as Brown-Conrady"));
+  check_warned(tiny, "footage.calibration", {"fisheye", "read as brown_conrady", "footage.lens_model"});
+  CHECK(has(run_sigs("info " + tiny.file("lens.xml").string()).err, "read as brown_conrady"));
   for (const char* const model : {"brown_conrady", "fisheye"})
     CHECK(run_sigs("check " + tiny.project() + " --set footage.lens_model=" + model).err.empty());
   // No real lens is tilted so much against its sensor.
@@ -152,7 +152,7 @@ TEST_CASE("four coefficients without a model are reported, with the assumption a
   change_lens(tiny, kSize, kSize + "<fisheye_model>1</fisheye_model>");
   CHECK(run_sigs("check " + tiny.project()).err.empty());
   const Run against = run_sigs("check " + tiny.project() + " --set footage.lens_model=brown_conrady");
-  CHECK(has(against.err, "read as Brown-Conrady, as asked for"));
+  CHECK(has(against.err, "read as brown_conrady, as asked for"));
 }
 
 TEST_CASE("a model of implausible size is reported, with the unit that it may be in") {

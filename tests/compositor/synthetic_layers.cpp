@@ -56,11 +56,14 @@ std::vector<NamedCamera> distorting_cameras(cv::Size size_px) {
   const double focal_px = 0.8 * size_px.width;
   const glm::dvec2 center_px(size_px.width / 2.0 + 2.3, size_px.height / 2.0 - 3.7);
   const LensModel brown = LensModel::brown_conrady;
-  return {{"Brown-Conrady 5", {lens_of(brown, focal_px, center_px, {-0.18, 0.05, 0.001, -0.0015, -0.004}), size_px}},
-          {"Brown-Conrady 8",
-           {lens_of(brown, focal_px, center_px, {0.4, 0.12, -0.0008, 0.0006, 0.01, 0.62, 0.2, 0.02}), size_px}},
-          {"fisheye",
-           {lens_of(LensModel::kannala_brandt, 0.7 * focal_px, center_px, {0.04, 0.01, -0.01, 0.002}), size_px}}};
+  return {
+      {"Brown-Conrady 5", {lens_of(brown, focal_px, center_px, {-0.18, 0.05, 0.001, -0.0015, -0.004}), size_px}},
+      {"Brown-Conrady 8",
+       {lens_of(brown, focal_px, center_px, {0.4, 0.12, -0.0008, 0.0006, 0.01, 0.62, 0.2, 0.02}), size_px}},
+      {"fisheye", {lens_of(LensModel::kannala_brandt, 0.7 * focal_px, center_px, {0.04, 0.01, -0.01, 0.002}), size_px}},
+      {"omnidirectional",
+       {lens_of(LensModel::omnidirectional, 1.6 * focal_px, center_px, {0.9, -0.02, 0.01, 0.0005, -0.0004, 0.001}),
+        size_px}}};
 }
 
 bool is_valid(const Layer& layer) {

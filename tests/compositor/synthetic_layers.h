@@ -29,7 +29,7 @@ struct NamedCamera {
   Camera camera;
 };
 
-// Brown-Conrady with 5 and 8 coefficients and fisheye, all with a ray for every pixel.
+// Brown-Conrady with 5 and 8 coefficients, fisheye and omnidirectional, all with a ray for every pixel.
 // The whole image has to lie within the view that tests of the warp fill with one colour: 1.6 focal lengths to each
 // side, 58 degrees from the axis.
 [[nodiscard]] std::vector<NamedCamera> distorting_cameras(cv::Size size_px);

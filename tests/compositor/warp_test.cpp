@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "camera/virtual_camera.h"
 #include "compositor/area_reader.h"
 #include "compositor/synthetic_layers.h"
+#include "reference/opencv_lens.h"
 
 namespace sigs::test {
 namespace {
@@ -33,21 +33,12 @@ cv::Scalar sum_of(const Layer& layer) {
 }
 
 // The pixel of a direction by OpenCV's own model (x right, y down, z forward).
-cv::Point2d thrown(const Lens& lens, const cv::Point3d& direction) {
-  const LensParameters& p = lens.parameters();
-  const cv::Matx33d matrix(p.fx, 0, p.cx, 0, p.fy, p.cy, 0, 0, 1);
-  const std::vector<cv::Point3d> points{direction};
-  std::vector<cv::Point2d> pixels;
-  const cv::Vec3d none(0, 0, 0);
-  if (p.model == LensModel::kannala_brandt)
-    cv::fisheye::projectPoints(points, pixels, none, none, matrix, p.coefficients);
-  else
-    cv::projectPoints(points, none, none, matrix, p.coefficients, pixels);
-  return pixels.front();
+cv::Point2d thrown(const truth::OpencvLens& lens, const cv::Point3d& direction) {
+  return lens.pixels({direction}).front();
 }
 
 // Image area that one square of a view along the axis takes up at a place: determinant of a central difference.
-double area_ratio(const Lens& lens, const VirtualCamera& view, const glm::dvec2& texel) {
+double area_ratio(const truth::OpencvLens& lens, const VirtualCamera& view, const glm::dvec2& texel) {
   const auto at = [&](double x, double y) {
     return thrown(lens, {(x - view.center_px.x) / view.focal_px, (y - view.center_px.y) / view.focal_px, 1});
   };
@@ -106,8 +97,8 @@ TEST_CASE("a single texel keeps its energy wherever it lies") {
 TEST_CASE("a soft spot keeps its energy and its centre is where OpenCV projects it") {
   for (const NamedCamera& named : distorting_cameras(kSize)) {
     CAPTURE(named.name);
-    const Lens& lens = named.camera.lens;
-    const double focal_px = 1.7 * lens.parameters().fx;
+    const truth::OpencvLens lens(named.camera.lens.parameters());
+    const double focal_px = 1.7 * named.camera.lens.parameters().fx;
     for (const glm::dvec2 angle : {glm::dvec2(0.013, -0.027), glm::dvec2(0.35, 0.2), glm::dvec2(-0.4, 0.25)}) {
       CAPTURE(angle.x);
       RenderedView drawn =

@@ -156,8 +156,7 @@ TEST_CASE(
   const auto note_of = [&](const char* out, const char* field) {
     const FirstProject made = made_and_opened({.video = clip, .out = folder / out, .plain = true});
     if (made.project.footage.calibration.empty()) CHECK(made.project.camera.pitch_deg == 0);
-    CHECK(made.project.footage.calibration.empty() ==
-          (made.project.footage.lens_model == LensModelChoice::equirectangular));
+    CHECK(made.project.footage.calibration.empty() == (made.project.footage.lens_model == LensModel::equirectangular));
     return note_on(made, field);
   };
   const FirstProjectNote flat = note_of("flat/flat.json", "footage.calibration");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "reference/opencv_lens.h"
+
 namespace sigs::test {
 
 namespace {
@@ -35,15 +37,7 @@ std::vector<cv::Point3d> optical(const std::vector<cv::Vec3d>& points_in_camera)
 }
 
 std::vector<cv::Point2d> projected(const LensParameters& lens, const std::vector<cv::Point3d>& points) {
-  std::vector<cv::Point2d> pixels;
-  if (points.empty()) return pixels;
-  const cv::Matx33d matrix(lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1);
-  const cv::Vec3d none(0, 0, 0);
-  if (lens.model == LensModel::kannala_brandt)
-    cv::fisheye::projectPoints(points, pixels, none, none, matrix, lens.coefficients);
-  else
-    cv::projectPoints(points, none, none, matrix, lens.coefficients, pixels);
-  return pixels;
+  return truth::OpencvLens(lens).pixels(points);
 }
 
 cv::Rect2d around(const std::vector<cv::Point2d>& pixels) {

@@ -86,7 +86,7 @@ constexpr int kTurnFrames = 3;
 // An aircraft 60 m from a camera that yaws, in 360 degree footage: the world turns through the image.
 void prepare_turn(Scenario& scenario, const glm::dvec3& direction) {
   scenario.project.footage.calibration = "";
-  scenario.project.footage.lens_model = LensModelChoice::equirectangular;
+  scenario.project.footage.lens_model = LensModel::equirectangular;
   scenario.project.camera.position_m = {0, 0, -150};
   scenario.project.appearance.psf_sigma_px = 0.8;
   write_obj(scenario.path("aircraft.obj"), aircraft(), 2);

@@ -30,6 +30,7 @@ struct Place {
 std::vector<Place> places() {
   return {{"pinhole", pinhole_lens(), {640, 480}, {1, 0.05, -0.03}},
           {"strong tangential", tangential_lens(), {640, 480}, {1, 0.2, -0.15}},
+          {"behind an omnidirectional camera", omnidirectional_lens(), {640, 640}, {-0.17, 0.8, -0.55}},
           {"76 degrees off a fisheye's axis", fisheye_lens(), {640, 640}, {0.25, 0.8, -0.6}}};
 }
 

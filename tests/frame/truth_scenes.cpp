@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <opencv2/imgproc.hpp>
 
+#include "camera/calibration_text.h"
 #include "camera/camera.h"
 #include "frame/synthetic_scenes.h"
 #include "scene/scene_at.h"
@@ -43,12 +45,13 @@ cv::Mat right_half(const Sight& sight, const Lens& lens) {
 
 Scene scene_of(const Sight& sight, Scenario& scenario) {
   const LensParameters& lens = sight.lens;
-  write_calibration(scenario.path("lens.xml"), {lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1}, lens.coefficients,
-                    sight.size_px, lens.model == LensModel::kannala_brandt);
-  scenario.project.footage.calibration = "lens.xml";
-  if (lens.model == LensModel::equirectangular) {
+  if (needs_calibration(lens.model)) {
+    std::ofstream(scenario.path("lens.xml"))
+        << calibration_xml({.lens = lens, .size_px = sight.size_px, .comment = "", .numbers = {}});
+    scenario.project.footage.calibration = "lens.xml";
+  } else {
     scenario.project.footage.calibration = "";
-    scenario.project.footage.lens_model = LensModelChoice::equirectangular;
+    scenario.project.footage.lens_model = lens.model;
   }
   scenario.project.light = {.kind = sight.light,
                             .position_m = sight.light_m,
@@ -194,6 +197,15 @@ LensParameters tangential_lens() {
 
 LensParameters sphere_lens(cv::Size size_px) {
   return equirectangular_camera(size_px).lens.parameters();
+}
+
+LensParameters omnidirectional_lens() {
+  return {.model = LensModel::omnidirectional,
+          .fx = 220,
+          .fy = 220,
+          .cx = 319.5,
+          .cy = 319.5,
+          .coefficients = {0.954589, -0.0226, 0.00167, 0.00018, 0.00044, 0.00047}};
 }
 
 LensParameters fisheye_lens() {

@@ -55,6 +55,7 @@ struct Compared {
 [[nodiscard]] LensParameters pinhole_lens();
 [[nodiscard]] LensParameters tangential_lens();
 [[nodiscard]] LensParameters fisheye_lens();
+[[nodiscard]] LensParameters omnidirectional_lens();
 [[nodiscard]] LensParameters sphere_lens(cv::Size size_px);  // 360 degree footage
 
 }  // namespace sigs::test

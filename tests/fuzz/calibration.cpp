@@ -32,8 +32,8 @@ void try_calibration(const FuzzInput& input) {
   const std::filesystem::path path = input.file("lens");
   const std::array<std::optional<cv::Size>, 2> sizes_px{std::nullopt, cv::Size(640, 480)};
   for (const std::optional<cv::Size>& size_px : sizes_px)
-    for (const std::optional<LensModel> model :
-         {std::optional<LensModel>(), std::optional(LensModel::kannala_brandt)}) {
+    for (int i = -1; i < static_cast<int>(lens_models().size()); ++i) {
+      const std::optional<LensModel> model = i < 0 ? std::nullopt : std::optional(static_cast<LensModel>(i));
       const Result<Camera> camera = read_calibration(path, size_px, model);
       if (!camera) {
         check_message(camera.error());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 namespace sigs::truth {
 
 // A number with its slopes by two variables (forward automatic differentiation, Wengert 1964).
@@ -21,6 +23,12 @@ struct Dual {
   }
   friend Dual operator*(Real a, const Dual& b) { return {a * b.value, a * b.by_x, a * b.by_y}; }
   friend Dual operator+(Real a, const Dual& b) { return {a + b.value, b.by_x, b.by_y}; }
+
+  // Of a number above zero.
+  friend Dual sqrt(const Dual& a) {
+    const Real root = std::sqrt(a.value);
+    return {root, a.by_x / (2 * root), a.by_y / (2 * root)};
+  }
 };
 
 }  // namespace sigs::truth

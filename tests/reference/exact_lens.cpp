@@ -43,7 +43,8 @@ Matrix<Real> tilt_of(Real tau_x, Real tau_y) {
 
 template <class Real>
 ExactLens<Real>::ExactLens(const LensParameters& p)
-    : is_fisheye_(p.model == LensModel::kannala_brandt),
+    : model_(p.model),
+      is_by_angle_(p.model != LensModel::brown_conrady && p.model != LensModel::equirectangular),
       is_sphere_(p.model == LensModel::equirectangular),
       focal_px_(p.fx, p.fy),
       center_px_(p.cx, p.cy) {
@@ -56,7 +57,7 @@ ExactLens<Real>::ExactLens(const LensParameters& p)
 template <class Real>
 Real ExactLens<Real>::field_angle_rad() const {
   if (is_sphere_) return std::numbers::pi_v<Real>;
-  return is_fisheye_ ? field_radius_ : std::atan(field_radius_);
+  return is_by_angle_ ? field_radius_ : std::atan(field_radius_);
 }
 
 template <class Real>
@@ -86,13 +87,78 @@ auto ExactLens<Real>::kannala_brandt(const Vec2& point) const -> Image {
   return {x * stretch, y * stretch, true};
 }
 
+// With u the square of the angle t: x sin(t) / t, y sin(t) / t, cos(t), whose slopes by u are regular on the axis.
+template <class Real>
+auto ExactLens<Real>::ray_by_angle(const Vec2& point) -> Ray {
+  const Number x{point.x, 1, 0};
+  const Number y{point.y, 0, 1};
+  const Number u = x * x + y * y;
+  const Real t = std::sqrt(u.value);
+  const bool is_near = t < Real(1e-3);
+  const Real sinc = is_near ? 1 - u.value / 6 + u.value * u.value / 120 : std::sin(t) / t;
+  const Real sinc_slope = is_near ? Real(-1) / 6 + u.value / 60 : (t * std::cos(t) - std::sin(t)) / (2 * t * t * t);
+  const Number across{sinc, sinc_slope * u.by_x, sinc_slope * u.by_y};
+  const Number z{std::cos(t), -sinc / 2 * u.by_x, -sinc / 2 * u.by_y};
+  return {x * across, y * across, z};
+}
+
+// Mei and Rives: the sphere's points, seen from xi behind its middle, then k1 k2 p1 p2, then the skew.
+template <class Real>
+auto ExactLens<Real>::omnidirectional(const Ray& ray) const -> Image {
+  const auto& [xi, k1, k2, p1, p2, skew, a, b, c, d, e, f, g, h] = k_;
+  const Number depth = xi + ray.z;
+  const Number x = ray.x / depth;
+  const Number y = ray.y / depth;
+  const Number r2 = x * x + y * y;
+  const Number radial = Real(1) + r2 * (k1 + k2 * r2);
+  const Number xy = Real(2) * (x * y);
+  const Number distorted_x = x * radial + p1 * xy + p2 * (r2 + Real(2) * (x * x));
+  const Number distorted_y = y * radial + p1 * (r2 + Real(2) * (y * y)) + p2 * xy;
+  return {distorted_x + skew * distorted_y, distorted_y, depth.value > 0};
+}
+
+// Usenko, Demmel and Cremers, equations 40 to 43.
+template <class Real>
+auto ExactLens<Real>::double_sphere(const Ray& ray) const -> Image {
+  const Real xi = k_[0];
+  const Real alpha = k_[1];
+  const Number k = xi + ray.z;
+  const Number depth = alpha * sqrt(ray.x * ray.x + ray.y * ray.y + k * k) + (1 - alpha) * k;
+  return {ray.x / depth, ray.y / depth, depth.value > 0};
+}
+
+// Khomutenko, Garcia and Martinet, equation 9.
+template <class Real>
+auto ExactLens<Real>::extended_unified(const Ray& ray) const -> Image {
+  const Real alpha = k_[0];
+  const Real beta = k_[1];
+  const Number depth = alpha * sqrt(beta * (ray.x * ray.x + ray.y * ray.y) + ray.z * ray.z) + (1 - alpha) * ray.z;
+  return {ray.x / depth, ray.y / depth, depth.value > 0};
+}
+
+template <class Real>
+auto ExactLens<Real>::flat(const Vec2& point) const -> Image {
+  switch (model_) {
+    case LensModel::brown_conrady:
+      return brown_conrady(point);
+    case LensModel::kannala_brandt:
+      return kannala_brandt(point);
+    case LensModel::omnidirectional:
+      return omnidirectional(ray_by_angle(point));
+    case LensModel::double_sphere:
+      return double_sphere(ray_by_angle(point));
+    case LensModel::extended_unified:
+      return extended_unified(ray_by_angle(point));
+    case LensModel::equirectangular:
+      return {Number{point.x, 1, 0}, Number{point.y, 0, 1}, true};
+  }
+  return {};
+}
+
 template <class Real>
 auto ExactLens<Real>::image(const Vec2& point) const -> Image {
-  if (is_sphere_)
-    return {center_px_.x + focal_px_.x * Number{point.x, 1, 0}, center_px_.y + focal_px_.y * Number{point.y, 0, 1},
-            true};
-  const Image flat = is_fisheye_ ? kannala_brandt(point) : brown_conrady(point);
-  return {center_px_.x + focal_px_.x * flat.x, center_px_.y + focal_px_.y * flat.y, flat.is_sane};
+  const Image at = flat(point);
+  return {center_px_.x + focal_px_.x * at.x, center_px_.y + focal_px_.y * at.y, at.is_sane};
 }
 
 template <class Real>
@@ -108,10 +174,11 @@ bool ExactLens<Real>::folds_at(Real radius) const {
 
 template <class Real>
 Real ExactLens<Real>::first_fold() const {
-  const bool is_straight = std::all_of(k_.begin(), k_.end(), [](Real k) { return k == 0; });
-  if (is_straight) return is_fisheye_ ? std::numbers::pi_v<Real> : std::numeric_limits<Real>::infinity();
-  const Real widest_rad = is_fisheye_ ? std::numbers::pi_v<Real> : std::numbers::pi_v<Real> / 2;
-  const auto radius_at = [&](Real angle_rad) { return is_fisheye_ ? angle_rad : std::tan(angle_rad); };
+  const bool is_straight = (!is_by_angle_ || model_ == LensModel::kannala_brandt) &&
+                           std::all_of(k_.begin(), k_.end(), [](Real k) { return k == 0; });
+  if (is_straight) return is_by_angle_ ? std::numbers::pi_v<Real> : std::numeric_limits<Real>::infinity();
+  const Real widest_rad = is_by_angle_ ? std::numbers::pi_v<Real> : std::numbers::pi_v<Real> / 2;
+  const auto radius_at = [&](Real angle_rad) { return is_by_angle_ ? angle_rad : std::tan(angle_rad); };
   Real good = 0;
   Real bad = widest_rad;
   for (int i = 1; i < kRadii; ++i) {
@@ -120,7 +187,7 @@ Real ExactLens<Real>::first_fold() const {
     good = bad;
     bad = widest_rad;
   }
-  if (bad == widest_rad) return is_fisheye_ ? widest_rad : radius_at(good);
+  if (bad == widest_rad) return is_by_angle_ ? widest_rad : radius_at(good);
   for (int step = 0; step < 60; ++step) {
     const Real middle = (good + bad) / 2;
     (folds_at(radius_at(middle)) ? bad : good) = middle;
@@ -132,12 +199,12 @@ template <class Real>
 auto ExactLens<Real>::known_points() const -> std::vector<Known> {
   constexpr int kRings = 64;
   constexpr int kSpokes = 48;
-  const Real widest_rad = std::min(field_angle_rad(), is_fisheye_ ? std::numbers::pi_v<Real> : Real(kWidest));
+  const Real widest_rad = std::min(field_angle_rad(), is_by_angle_ ? std::numbers::pi_v<Real> : Real(kWidest));
   std::vector<Known> known;
   for (int ring = 0; ring < kRings; ++ring)
     for (int spoke = 0; spoke < (ring == 0 ? 1 : kSpokes); ++spoke) {
       const Real angle_rad = widest_rad * ring / kRings;
-      const Real radius = is_fisheye_ ? angle_rad : std::tan(angle_rad);
+      const Real radius = is_by_angle_ ? angle_rad : std::tan(angle_rad);
       const Real phi = 2 * std::numbers::pi_v<Real> * spoke / kSpokes;
       const Vec2 point(radius * std::cos(phi), radius * std::sin(phi));
       const Image at = image(point);
@@ -157,7 +224,7 @@ auto ExactLens<Real>::pixel(const Vec3& p_in_camera) const -> std::optional<Vec2
     const Real longitude = level > 0 ? std::acos(std::clamp(p_in_camera.x / level, Real(-1), Real(1))) : Real(0);
     point = {p_in_camera.y < 0 ? -longitude : longitude,
              std::acos(std::clamp(-p_in_camera.z / length, Real(-1), Real(1))) - std::numbers::pi_v<Real> / 2};
-  } else if (is_fisheye_) {
+  } else if (is_by_angle_) {
     const Real off_axis = glm::length(point);
     if (off_axis == 0 && !(z > 0)) return std::nullopt;
     if (off_axis > 0) point *= std::atan2(off_axis, z) / off_axis;
@@ -222,7 +289,7 @@ auto ExactLens<Real>::ray_of(const Vec2& plane_point) const -> Vec3 {
     return {std::sin(colatitude) * std::cos(plane_point.x), std::sin(colatitude) * std::sin(plane_point.x),
             -std::cos(colatitude)};
   }
-  if (!is_fisheye_) return Vec3(1, plane_point.x, plane_point.y) / std::sqrt(1 + radius * radius);
+  if (!is_by_angle_) return Vec3(1, plane_point.x, plane_point.y) / std::sqrt(1 + radius * radius);
   const Vec2 across = radius > 0 ? plane_point * (std::sin(radius) / radius) : plane_point;
   return {std::cos(radius), across.x, across.y};
 }

@@ -12,11 +12,13 @@
 namespace sigs::truth {
 
 // The lens models as OpenCV's documentation writes them (calib3d's "Detailed Description" and fisheye's), the
-// equirectangular one as maps have it (Snyder 1987, chapter 12), and their
-// inverse to the last digits of Real. The only thing taken from the engine is the struct of parameters.
+// equirectangular one as maps have it (Snyder 1987, chapter 12), those that look at spheres as their authors write the
+// projection (Mei and Rives 2007, Usenko et al. 2018, Khomutenko et al. 2016), and their inverse to the last digits of
+// Real. The only thing taken from the engine is the struct of parameters.
 //
-// Points lie on a plane: (x / z, y / z) for Brown-Conrady; for Kannala-Brandt away from the axis by the angle from it;
-// for the equirectangular one longitude and latitude, the latter down. Its pixels are those of longitudes -pi to pi.
+// Points lie on a plane: (x / z, y / z) for Brown-Conrady; longitude and latitude, the latter down, for the
+// equirectangular model; for all others away from the axis by the angle from it. Its pixels are those of longitudes -pi
+// to pi.
 template <class Real>
 class ExactLens {
  public:
@@ -51,6 +53,13 @@ class ExactLens {
     Number y;
     bool is_sane = true;  // no denominator has passed zero
   };
+  // A unit direction, optical (x right, y down, z forward), of a point away from the axis by the angle from it.
+  struct Ray {
+    Number x;
+    Number y;
+    Number z;
+  };
+  [[nodiscard]] static Ray ray_by_angle(const Vec2& point);
   struct Known {
     Vec2 point;
     Vec2 pixel_px;
@@ -58,12 +67,17 @@ class ExactLens {
 
   [[nodiscard]] Image brown_conrady(const Vec2& point) const;
   [[nodiscard]] Image kannala_brandt(const Vec2& point) const;
+  [[nodiscard]] Image omnidirectional(const Ray& ray) const;
+  [[nodiscard]] Image double_sphere(const Ray& ray) const;
+  [[nodiscard]] Image extended_unified(const Ray& ray) const;
+  [[nodiscard]] Image flat(const Vec2& point) const;
   [[nodiscard]] Image image(const Vec2& point) const;  // pixels, with their slopes
   [[nodiscard]] bool folds_at(Real radius) const;
   [[nodiscard]] Real first_fold() const;
   [[nodiscard]] std::vector<Known> known_points() const;
 
-  bool is_fisheye_;
+  LensModel model_;
+  bool is_by_angle_;  // the plane's points lie away from the axis by the angle from it
   bool is_sphere_;
   Vec2 focal_px_;
   Vec2 center_px_;

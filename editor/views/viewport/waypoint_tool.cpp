@@ -37,9 +37,7 @@ int put_in_gesture(const ViewContext& context, int intruder, int frame, const gl
 }
 
 Lens lens_of(const Scene& scene) {
-  if (scene.compositing.method != MethodChoice::plain) return scene.camera.lens;
-  const LensParameters& lens = scene.camera.lens.parameters();
-  return Lens::make({.fx = lens.fx, .fy = lens.fy, .cx = lens.cx, .cy = lens.cy}).value_or(scene.camera.lens);
+  return scene.compositing.method == MethodChoice::plain ? scene.camera.lens.pinhole() : scene.camera.lens;
 }
 
 bool moves_along_sight() {

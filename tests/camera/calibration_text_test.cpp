@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "calibration/board_calibration.h"
+#include "camera/calibration_text.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
-
 #include <fstream>
 #include <opencv2/core/persistence.hpp>
 
 #include "camera/camera.h"
+#include "camera/example_lenses.h"
 #include "support/test_data.h"
 
 namespace sigs {
@@ -48,6 +48,21 @@ TEST_CASE("a written calibration reads back as the same numbers, by OpenCV and b
     CHECK(static_cast<int>(file["fisheye_model"]) == (fisheye ? 1 : 0));
     CHECK(static_cast<double>(file["reprojection_error_px"]) == 0.123);
     CHECK(file["unknown"].empty());
+  }
+}
+
+TEST_CASE("a lens of any model is written so that it reads back") {
+  const test::TemporaryFolder folder;
+  for (const test::ExampleLens& example : test::example_lenses()) {
+    const LensParameters& lens = example.lens.parameters();
+    if (lens.coefficients.empty()) continue;  // the next test
+    INFO(example.name);
+    std::ofstream(folder / "lens.xml") << calibration_xml(
+        {.lens = lens, .size_px = example.size_px, .comment = "", .numbers = {}});
+    const Result<Camera> camera = read_calibration(folder / "lens.xml");
+    REQUIRE(camera);
+    CHECK(camera->lens.parameters() == lens);
+    CHECK(camera->size_px == example.size_px);
   }
 }
 
