@@ -74,7 +74,9 @@ void print_camera(const Camera& camera) {
   std::printf("size: %s\n", image_size_text(camera.size_px).c_str());
   std::printf("fx fy cx cy: %.6g %.6g %.6g %.6g px\n", lens.fx, lens.fy, lens.cx, lens.cy);
   std::printf("coefficients:");
-  for (const double coefficient : lens.coefficients) std::printf(" %.9g", coefficient);
+  const auto names = traits_of(lens.model).coefficient_names;
+  for (std::size_t i = 0; i < lens.coefficients.size(); ++i)
+    std::printf("%s %s %.9g", i > 0 ? "," : "", std::string(names[i]).c_str(), lens.coefficients[i]);
   std::printf("\nvalid field: up to %.2f degrees from the axis\n", deg_of_rad(camera.lens.valid_angle_rad()));
   const cv::Size size = camera.size_px;
   int unreachable = 0;

@@ -54,6 +54,7 @@ struct Reader {
 
   [[nodiscard]] std::string where(const Field& field) const { return file + ": " + field.name; }
   [[nodiscard]] Result<std::optional<LensModel>> stated_model() const;
+  [[nodiscard]] std::string named_beside_mirror() const;
   [[nodiscard]] Result<void> read_matrix(LensParameters& lens, bool may_be_skew) const;
   [[nodiscard]] Result<void> read_coefficients(LensParameters& lens, std::optional<LensModel> model) const;
   [[nodiscard]] Result<void> choose_model(LensParameters& lens, std::optional<LensModel> wanted,
@@ -83,6 +84,19 @@ Result<std::optional<LensModel>> Reader::stated_model() const {
   for (const LensModelTraits& traits : lens_models()) known.push_back(traits.names_in_files.front());
   return fail(where(*model),
               fmt::format("distortion model '{}' is not supported; known are {}", model->text, fmt::join(known, ", ")));
+}
+
+// What a file with a mirror's parameter says of another model; empty: nothing. The distortion of a pinhole is part of
+// the omnidirectional model.
+std::string Reader::named_beside_mirror() const {
+  if (found(fields, kMirrorNames) == nullptr) return "";
+  if (const Field* flag = found(fields, kFisheyeNames))
+    if (flag->text == "true" || flag->text == "True" || (flag->numbers.size() == 1 && flag->numbers.front() != 0))
+      return "fisheye";
+  const Field* model = found(fields, kModelNames);
+  const std::optional<LensModel> named = model != nullptr ? lens_model_named(model->text) : std::nullopt;
+  const bool agrees = !named || named == LensModel::omnidirectional || named == LensModel::brown_conrady;
+  return agrees ? "" : std::string(traits_of(*named).word);
 }
 
 // skew: of the omnidirectional model a coefficient, of no other one.
@@ -134,6 +148,9 @@ Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel>
                                   const Result<std::optional<LensModel>>& stated,
                                   std::vector<Warning>& warnings) const {
   if (!stated) return fail(stated.error());
+  if (const std::string other = named_beside_mirror(); !other.empty())
+    warnings.push_back({where(*found(fields, kMirrorNames)),
+                        fmt::format("makes the model omnidirectional, though the file names {} too", other)});
   if (wanted || *stated) {
     lens.model = wanted ? *wanted : **stated;
     if (wanted && *stated && *wanted != **stated)
@@ -233,7 +250,7 @@ Result<bool> is_made_for_whole(cv::Size made_px, cv::Size part_px, const ImagePa
   if (!has_shape_of(made_px, part_px)) return true;
   return fail(file_name,
               fmt::format("made for {}, which has the shape of the whole footage, {}, and of the part that "
-                          "is left of it, {}: state the size of the one that it was made for",
+                          "is left of it, {}: scale its matrix and its size to the one that it is meant for",
                           image_size_text(made_px), image_size_text(part.whole_px), image_size_text(part_px)));
 }
 
@@ -321,10 +338,15 @@ Result<Camera> camera_of(const Fields& fields, const std::string& file_name, std
                                                image_size_text(image_px), image_size_text(to_px), part->corner_px.x,
                                                part->corner_px.y)});
   }
+  const LensModel made_of = scaled->model;
   Result<Lens> made = Lens::make(*std::move(scaled));
   // The matrix was correct before it was scaled: the coefficients are wrong, or scaling made a number infinite.
   const Field* coefficients = found(fields, kCoefficientNames);
-  if (!made) return fail(coefficients != nullptr ? reader.where(*coefficients) : matrix, made.error().what);
+  if (!made) {
+    const bool is_other = *stated && **stated != made_of;
+    return fail(coefficients != nullptr ? reader.where(*coefficients) : matrix,
+                made.error().what + (is_other ? fmt::format("; the file says {}", traits_of(**stated).word) : ""));
+  }
   for (const std::string& warning : matrix_warnings(made->parameters(), to_px, own_size_px->has_value()))
     warnings.push_back({matrix, warning});
   return Camera{.lens = *std::move(made), .size_px = to_px, .warnings = std::move(warnings)};

@@ -92,7 +92,9 @@ template <class Function>
 //   kIsPerspective  without distortion it is a pinhole
 //   kPeriod         width of the plane after which it repeats; 0: it does not
 //   fault(k)        what is wrong with finite coefficients; empty where they are valid
-//   angle_rad(r)    angle from the axis of the directions at a distance r from the plane's origin
+//   angle_rad(r)    angle from the axis of the directions at a distance r from the plane's origin, that is from the
+//   image's
+//                   middle where there is no distortion; also for an infinite r
 
 // The distortion model of OpenCV's calib3d (Brown 1966, Conrady 1919, with the rational, thin prism and tilted sensor
 // terms). Its plane is the image plane at distance 1: p = (x / z, y / z), so that |p| is the tangent of the angle from

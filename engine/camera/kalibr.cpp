@@ -48,6 +48,10 @@ Result<Fields> with_matrix(Fields fields, const KalibrModel& model, const std::s
     return fail(file_name + ": " + distortion->second.name,
                 fmt::format("'{}' is not supported with {}; {} is", named, model.name,
                             is_sphere ? "radtan, or none," : "none"));
+  const auto unused = fields.find("distortion_coeffs");
+  const auto is_zero = [](double number) { return number == 0; };
+  if (named == "none" && unused != fields.end() && !std::ranges::all_of(unused->second.numbers, is_zero))
+    return fail(file_name + ": " + unused->second.name, "has coefficients, though distortion_model is none");
   if (is_sphere) {
     if (named == "none") fields.insert_or_assign("distortion_coefficients", Field{.name = name});
     fields.insert_or_assign("xi", std::move(before));

@@ -20,12 +20,14 @@ enum class LensModel {
 };
 
 struct LensModelTraits {
+  LensModel model;
   const char* name;       // for people, by its authors: "Brown-Conrady"
   std::string_view word;  // in footage.lens_model, and in messages about files
   std::span<const std::string_view>
       names_in_files;  // values of distortion_model in calibration files; written: the first
-  std::span<const std::size_t> coefficient_counts;  // those that it can have
-  const char* coefficients_text;                    // in messages: "4 fisheye"
+  std::span<const std::size_t> coefficient_counts;      // those that it can have
+  std::span<const std::string_view> coefficient_names;  // in their order
+  const char* coefficients_text;                        // in messages: "4 fisheye"
   bool is_fisheye;         // its images reach 90 degrees from the axis and beyond, round about the axis
   bool needs_calibration;  // the image's size alone does not determine the lens
 };

@@ -12,7 +12,8 @@ namespace sigs::distortion {
 
 namespace {
 
-// The radius alone is solved for: enough for models, and parts of models, that keep circles.
+// The radius alone is solved for: enough for models, and parts of models, that keep circles. A model with distortion
+// has a field with a limit (valid_field()).
 template <class Model>
 std::optional<glm::dvec2> radially_undistorted(const Model& model, const Field& field, const glm::dvec2& point) {
   const double distance = glm::length(point);

@@ -137,7 +137,8 @@ Result<void> of_source(const Project& project, const Result<void>& spliced) {
 }
 
 // Which frames of the range an intruder changes.
-Result<ChangedFrames> changed_frames(const Scene& scene, const FrameRange& range, const ExportControl& control) {
+Result<ChangedFrames> changed_frames(const VideoInfo& footage, const Scene& scene, const FrameRange& range,
+                                     const ExportControl& control) {
   ComposeContext context;
   const VisibilityEstimator estimator(scene);
   ChangedFrames frames{.first = range.first};
@@ -152,7 +153,8 @@ Result<ChangedFrames> changed_frames(const Scene& scene, const FrameRange& range
       frames.changed.push_back(true);
       continue;
     }
-    const Result<std::optional<FrameTruth>> truth = truth_without_image(scene, frame, context);
+    const Result<std::optional<FrameTruth>> truth =
+        truth_without_image(scene, frame, footage.color, footage.bit_depth, context);
     if (!truth) return fail(truth.error());
     frames.changed.push_back(!truth->has_value());
   }
@@ -164,7 +166,7 @@ Result<std::optional<SplicePlan>> splice_plan(const ExportRequest& request, cons
                                               const Scene& scene, const FrameRange& range,
                                               const ExportControl& control) {
   if (request.project.output.codec != VideoCodec::source) return std::optional<SplicePlan>();
-  const Result<ChangedFrames> frames = changed_frames(scene, range, control);
+  const Result<ChangedFrames> frames = changed_frames(footage, scene, range, control);
   if (!frames) return fail(frames.error());
   Result<SplicePlan> plan = plan_splice(footage, *frames, control.cancel);
   if (plan) return std::optional(*std::move(plan));
@@ -334,6 +336,8 @@ std::string labels_without_images(const ExportSettings& output) {
   for (const std::string& label : output.labels)
     if (const LabelFormat* const format = label_format(label); format != nullptr && format->names_images)
       names.append(names.empty() ? "" : ", ").append(label);
+  if (std::ranges::find(output.rig, "nuscenes") != output.rig.end())
+    names.append(names.empty() ? "" : ", ").append("nuscenes");
   return names;
 }
 

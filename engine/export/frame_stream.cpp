@@ -85,7 +85,8 @@ void FramePipeline::decode() {
 
 Result<ComposedFrame> FramePipeline::composed(DecodedFrame decoded, ComposeContext& context) const {
   if (is_needed(decoded.number)) return compose_frame(scene_, decoded.number, std::move(decoded.image), context);
-  Result<std::optional<FrameTruth>> truth = truth_without_image(scene_, decoded.number, context);
+  Result<std::optional<FrameTruth>> truth =
+      truth_without_image(scene_, decoded.number, source_.info().color, source_.info().bit_depth, context);
   if (!truth) return fail(truth.error());
   ENSURE(truth->has_value());
   ComposedFrame composed{.image = std::move(decoded.image)};

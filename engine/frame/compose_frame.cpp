@@ -211,7 +211,8 @@ Result<ComposedFrame> composed_onto(Frame&& background, const Scene& scene, int 
   const SceneMoment moment = scene_at(scene, frame);
   std::vector<IntruderLayers> far_to_near;
   for (const PlacedIntruder& placed : moment.intruders) {
-    Result<IntruderLayers> layers = intruder_layers(scene, moment, placed, context, background.color, &background);
+    Result<IntruderLayers> layers =
+        intruder_layers(scene, moment, placed, context, background.color, &background, background.bit_depth);
     if (!layers) return fail(layers.error());
     for (IntruderLayers& part : parts_in_image(std::move(*layers), scene.camera.lens, scene.footage.size_px))
       far_to_near.push_back(std::move(part));
@@ -253,7 +254,8 @@ bool is_same(const Camera& a, const Camera& b) {
 }  // namespace
 
 Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& moment, const PlacedIntruder& placed,
-                                       ComposeContext& context, const ColorInfo& footage, const Frame* background) {
+                                       ComposeContext& context, const ColorInfo& footage, const Frame* background,
+                                       int bit_depth) {
   LensTable& lens = context.lens_of(compositing_camera(scene));
   lens.turn_to(placed.camera_from_body.translation_m);
   const std::int64_t evaluations_before = lens.evaluations();
@@ -274,7 +276,7 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     const auto hazed_finely = [&](int steps) {
       return hazed(finely_warped(layers.views, lens, plan.warp_rect, steps, row_transform(layers)));
     };
-    blur(scene, lens.camera().lens, footage, background == nullptr ? 8 : background->bit_depth, hazed_finely, layers);
+    blur(scene, lens.camera().lens, footage, bit_depth, hazed_finely, layers);
     layers.occluded = without_hidden(scene, moment, layers.blurred, placed.distance_m(), lens);
     const Result<double> area = whole_area_px(layers, plan, lens, scene, **renderer);
     if (!area) return fail(area.error());
@@ -321,11 +323,12 @@ Result<ComposedFrame> compose_frame(const Scene& scene, int frame, Frame&& backg
   return composed_onto(std::move(background), scene, frame, context, stages);
 }
 
-Result<std::optional<FrameTruth>> truth_without_image(const Scene& scene, int frame, ComposeContext& context) {
+Result<std::optional<FrameTruth>> truth_without_image(const Scene& scene, int frame, const ColorInfo& footage,
+                                                      int bit_depth, ComposeContext& context) {
   const SceneMoment moment = scene_at(scene, frame);
   std::vector<IntruderLayers> far_to_near;
   for (const PlacedIntruder& placed : moment.intruders) {
-    Result<IntruderLayers> layers = intruder_layers(scene, moment, placed, context);
+    Result<IntruderLayers> layers = intruder_layers(scene, moment, placed, context, footage, nullptr, bit_depth);
     if (!layers) return fail(layers.error());
     const bool draws =
         !layers->occluded.empty() || !layers->contrail.empty() || !layers->shadow.empty() || !layers->lamps.empty();

@@ -30,7 +30,9 @@ namespace sigs {
 
 // The truth of a frame in which nothing is drawn, as compose_frame() has it, without the footage's frame. None where
 // something is, or may be: where only the footage tells whether a cloud hides it.
+//   footage, bit_depth  colours and bits of the frame's samples
 [[nodiscard]] Result<std::optional<FrameTruth>> truth_without_image(const Scene& scene, int frame,
+                                                                    const ColorInfo& footage, int bit_depth,
                                                                     ComposeContext& context);
 
 // The stages of one intruder before blending, as compose_frame goes through them; for tests and measurements of single
@@ -38,8 +40,10 @@ namespace sigs {
 //   placed      one of moment.intruders
 //   footage     colours of the frame that it would be blended onto; they decide when a blurred intruder is too faint
 //   background  that frame, for the colour of haze; null: haze has the colour that the settings give
+//   bit_depth   of its samples
 [[nodiscard]] Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& moment,
                                                      const PlacedIntruder& placed, ComposeContext& context,
-                                                     const ColorInfo& footage = {}, const Frame* background = nullptr);
+                                                     const ColorInfo& footage = {}, const Frame* background = nullptr,
+                                                     int bit_depth = 8);
 
 }  // namespace sigs

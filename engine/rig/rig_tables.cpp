@@ -161,7 +161,7 @@ class NuScenes {
                       {"sample_token", sample_token(sample)},
                       {"ego_pose_token", pose},
                       {"calibrated_sensor_token", token("calibrated", one.name)},
-                      {"filename", fmt::format("{}.{}/frame_{:06}{}", name_, one.name, frame.frame, extension_)},
+                      {"filename", fmt::format("../{}.{}/frame_{:06}{}", name_, one.name, frame.frame, extension_)},
                       {"fileformat", extension_.substr(1)},
                       {"width", one.camera.size_px.width},
                       {"height", one.camera.size_px.height},

@@ -75,6 +75,7 @@ void RigTruth::add(std::size_t camera, const FrameTruth& truth) {
   frame.intruders.resize(intruders_.size());
   for (const IntruderTruth& intruder : truth.intruders)
     frame.intruders.at(static_cast<std::size_t>(intruder.id)) = {.is_visible = intruder.visible_box.has_value(),
+                                                                 .in_image = intruder.in_image,
                                                                  .visible_fraction = intruder.visible_fraction,
                                                                  .position_m = body_from * intruder.position_m,
                                                                  .world_from_intruder = intruder.world_from_body};
@@ -137,22 +138,49 @@ std::vector<CameraView> RigTruth::views(int intruder) const {
   return views;
 }
 
+namespace {
+
+// A camera's view of an intruder, with the times in between in which something hides it within the image.
+struct HeldView : CameraView {
+  bool footage_ends = false;  // the camera has no frame after it
+};
+
+// By first_s.
+std::vector<HeldView> held_views(const std::vector<std::vector<RigFrame>>& frames, std::size_t intruder) {
+  std::vector<HeldView> views;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    bool has_left = true;
+    for (const RigFrame& frame : frames[k]) {
+      const RigSighting& sighting = frame.intruders.at(intruder);
+      if (sighting.is_visible && has_left) views.push_back({{k, frame.time_s, frame.time_s}, false});
+      if (sighting.is_visible) views.back().last_s = frame.time_s;
+      has_left = !sighting.is_visible && (has_left || !sighting.in_image);
+    }
+    if (!has_left) views.back().footage_ends = true;
+  }
+  std::ranges::stable_sort(views, {}, &HeldView::first_s);
+  return views;
+}
+
+}  // namespace
+
 std::vector<Handover> RigTruth::handovers(int intruder) const {
-  const std::vector<CameraView> views = this->views(intruder);
+  const std::vector<HeldView> views = held_views(frames_, static_cast<std::size_t>(intruder));
   std::vector<Handover> handovers;
   if (views.empty()) return handovers;
-  const CameraView* holder = &views.front();
+  const HeldView* holder = &views.front();
   while (true) {
     // Of the views that go on when the holder's ends the one that lasts longest; else the first that begins afterwards.
-    const CameraView* next = nullptr;
-    for (const CameraView& view : views)
+    const HeldView* next = nullptr;
+    for (const HeldView& view : views)
       if (view.first_s <= holder->last_s && view.last_s > holder->last_s &&
           (next == nullptr || view.last_s > next->last_s))
         next = &view;
-    for (const CameraView& view : views)
+    for (const HeldView& view : views)
       if (next == nullptr && view.first_s > holder->last_s) next = &view;
     if (next == nullptr) return handovers;
-    handovers.push_back({holder->camera, next->camera, holder->last_s, next->first_s - holder->last_s});
+    if (!holder->footage_ends)
+      handovers.push_back({holder->camera, next->camera, holder->last_s, next->first_s - holder->last_s});
     holder = next;
   }
 }

@@ -41,6 +41,7 @@ struct RigIntruder {
 // An intruder in a frame of one camera.
 struct RigSighting {
   bool is_visible = false;
+  bool in_image = false;  // some of it is, hidden or not
   double visible_fraction = 0;
   glm::dvec3 position_m{0, 0, 0};              // of the reference point, in the aircraft's axes
   glm::dquat world_from_intruder{1, 0, 0, 0};  // its attitude
@@ -61,7 +62,8 @@ struct CameraView {
   double last_s = 0;
 };
 
-// From the camera that shows an intruder to the next one, when it leaves the image of the first.
+// From the camera that shows an intruder to the next one, when it leaves the image of the first or is hidden there
+// until it leaves it. None where it is hidden for a while, nor where the first one's footage ends.
 struct Handover {
   std::size_t from = 0;
   std::size_t to = 0;
@@ -135,7 +137,7 @@ using TextFiles = std::map<std::string, std::string>;
 // camera; of the other cameras the frame nearest to it is the sample's key frame. Axes are nuScenes': the aircraft's
 // and the world's X forward, Y left, Z up; a camera's z along its axis. Times are the rig's, in microseconds.
 //   name             of the scene
-//   image_extension  images are NAME.CAMERA/frame_000123.png
+//   image_extension  images are ../NAME.CAMERA/frame_000123.png, beside the tables' folder
 [[nodiscard]] TextFiles nuscenes_tables(const RigTruth& rig, const std::string& name,
                                         const std::string& image_extension);
 

@@ -183,7 +183,8 @@ std::vector<Problem> lint(const Project& project, std::size_t intruder, const Sc
 }
 
 std::string where_out_of_view(const Scene& scene, std::size_t intruder) {
-  const ImageEdges edges(compositing_camera(scene));
+  const Camera camera = compositing_camera(scene);
+  const ImageEdges edges(camera);
   const int length = scene.last_frame - scene.first_frame;
   const int frames = std::min(kMaxLookFrames, length + 1);
   std::optional<Outside> nearest;
@@ -191,7 +192,7 @@ std::string where_out_of_view(const Scene& scene, std::size_t intruder) {
   for (int i = 0; i < frames; ++i) {
     const int frame = scene.first_frame + (frames > 1 ? static_cast<int>(1LL * length * i / (frames - 1)) : 0);
     const glm::dvec3 place = camera_from_body_at(scene, intruder, time_of_frame_s(scene.footage, frame)).translation_m;
-    if (place.x <= 0 && edges.right_rad < rad_of_deg(90)) continue;
+    if (place.x <= 0 && edges.right_rad < rad_of_deg(90) && !camera.lens.pixel(place)) continue;
     const Outside outside = outside_of(bearing_of(place), edges);
     if (nearest && nearest->angle_rad <= outside.angle_rad) continue;
     nearest = outside;

@@ -123,10 +123,9 @@ VisibilityEstimate VisibilityEstimator::of(const PlacedIntruder& placed, int fra
   VisibilityEstimate estimate{.frame = frame, .distance_m = placed.distance_m()};
   const Model* const model = scene_->intruders[static_cast<std::size_t>(placed.id)].model;
   if (model == nullptr) return estimate;
-  estimate.is_behind_camera =
-      !(camera_.lens.period_px() > 0) && placed.camera_from_body.translation_m.x < -double(model->mesh.radius_m);
   const Lens lens = camera_.lens.around(placed.camera_from_body.translation_m);
   const std::vector<glm::dvec2> images = images_of(model->outermost_m, placed.camera_from_body, lens);
+  estimate.is_behind_camera = images.empty() && placed.camera_from_body.translation_m.x < -double(model->mesh.radius_m);
   if (images.empty()) return estimate;
   estimate.silhouette = box_around(images);
   estimate.size_px = std::max(estimate.silhouette->width, estimate.silhouette->height);

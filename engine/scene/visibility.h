@@ -49,7 +49,7 @@ struct VisibilityEstimate {
   double size_px = 0;             // longer side of the silhouette's box; 0 where it has no image
   std::optional<Box> silhouette;  // box of the whole silhouette, within 1 % of the annotation's amodal box
   VisibilityState visibility_state = VisibilityState::out_of_view;
-  bool is_behind_camera = false;  // all of it; never of 360 degrees
+  bool is_behind_camera = false;  // all of it, where the lens does not reach
 };
 
 // Estimates visibility in many frames of one scene. The silhouette is measured by the model's outermost points alone

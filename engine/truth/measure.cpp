@@ -35,8 +35,9 @@ std::optional<Silhouette> silhouette_by(std::span<const glm::vec3> points_in_bod
   bool all_have_image = true;
   for (const glm::vec3& point : points_in_body) {
     const std::optional<glm::dvec2> pixel = pixel_of(glm::dvec3(point));
-    all_have_image = all_have_image && pixel;
-    if (!pixel) continue;
+    const bool has_image = pixel && std::max(std::abs(pixel->x), std::abs(pixel->y)) <= kFarthestImage_px;
+    all_have_image = all_have_image && has_image;
+    if (!has_image) continue;
     low = glm::min(low, *pixel);
     high = glm::max(high, *pixel);
   }

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import pathlib
 import warnings
@@ -22,6 +23,13 @@ from .rig import RigCamera, nearest_frame
 
 _Path = Union[str, "os.PathLike[str]"]
 _PoseTuple = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+
+
+def _number_of(frame: int) -> int:
+    try:
+        return operator.index(frame)
+    except TypeError:
+        raise UsageError("frame", f"expected a whole number, found {frame!r}", "usage") from None
 
 
 class Problem(NamedTuple):
@@ -160,7 +168,11 @@ class Project:
 
     def __setitem__(self, key: str, value: Any) -> None:
         """Sets a field. Arrays become lists. Raises UsageError: no such field, a value of the wrong type."""
-        self._inside.assign(key, json.dumps(_plain(value)))
+        try:
+            text = json.dumps(_plain(value), allow_nan=False)
+        except ValueError:
+            raise UsageError(key, f"expected finite numbers, found {value}", "usage") from None
+        self._inside.assign(key, text)
 
     def fields(self) -> dict[str, Field]:
         """All fields, by key, with unit, range and help."""
@@ -253,7 +265,7 @@ class Project:
         if not names:
             raise UsageError(str(self.path), "has one camera; take render()", "usage")
         given = self._given(poses)
-        first = self._inside.render_camera(0, frame, given)
+        first = self._inside.render_camera(0, _number_of(frame), given)
         frames = {names[0]: first}
         for index, name in enumerate(names[1:], 1):
             nearest = nearest_frame(self._inside.opened_camera(index)["times_s"], first.time_s)
@@ -317,7 +329,7 @@ class Project:
         Truth of encounters is that of whole flights and is None here.
         """
         self._choose_camera()
-        return self._inside.render(frame, None if camera is None else _pose_tuple(camera, "camera"), self._given(poses))
+        return self._inside.render(_number_of(frame), None if camera is None else _pose_tuple(camera, "camera"), self._given(poses))
 
     def _given(self, poses: Optional[Mapping[int | str, Any]]) -> list[tuple[int, _PoseTuple]]:
         return [

@@ -193,6 +193,24 @@ TEST_CASE("faulty parameters of models that look at a sphere are refused by name
   CHECK(message(with("xi: wide")) == "gopro.any: xi: 'wide' is not a number");
   CHECK(message(with_coefficients("[1, 2, 3, 4, 5]") + "xi: 0.95") ==
         "gopro.any: dist_coeffs: expected 4 coefficients k1 k2 p1 p2 beside xi, found 5");
+  const TemporaryFolder folder;
+  const auto warnings_of = [&](const std::string& text) {
+    std::ofstream(folder / "both.yaml") << text;
+    const auto camera = read_calibration(folder / "both.yaml", cv::Size(640, 480));
+    REQUIRE(camera);
+    return camera->warnings;
+  };
+  CHECK(warnings_of(with("xi: 0.95\ndistortion_model: plumb_bob")).empty());  // what xi's plane is distorted by
+  for (const char* const other : {"xi: 0.95\nfisheye_model: 1", "xi: 0.95\ndistortion_model: equidistant"}) {
+    const std::vector<Warning> warnings = warnings_of(with(other));
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].text() == "both.yaml: xi: makes the model omnidirectional, though the file names fisheye too");
+  }
+  std::ofstream(folder / "sphere.yaml") << "K: [500, 0, 320, 0, 510, 240, 0, 0, 1]\ndistortion_model: ds\nD: [0, 0.5]";
+  const auto as_fisheye = read_calibration(folder / "sphere.yaml", cv::Size(640, 480), LensModel::kannala_brandt);
+  REQUIRE_FALSE(as_fisheye);
+  CHECK(as_fisheye.error().text() ==
+        "sphere.yaml: D: expected 4 fisheye coefficients, found 2; the file says double_sphere");
   CHECK(message(with("xi: -0.1")) == "gopro.any: dist_coeffs: xi, the first coefficient, must be at least 0");
   const std::string two = "K: [500, 0, 320, 0, 510, 240, 0, 0, 1]\n";
   CHECK(message(two + "distortion_model: double_sphere\nD: [1, 0.5]") ==

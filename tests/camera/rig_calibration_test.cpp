@@ -365,6 +365,8 @@ TEST_CASE("Kalibr's models that look at a sphere are read with their own paramet
         "cam.yaml: cam0.distortion_model: 'radtan' is not supported with ds; none is");
   CHECK(has(message_of("omni", "0.9, 458, 457, 367, 248", "equidistant\n  distortion_coeffs: [1, 2, 3, 4]"),
             "'equidistant' is not supported with omni; radtan, or none, is"));
+  CHECK(message_of("ds", "0.1, 0.5, 458, 457, 367, 248", "none\n  distortion_coeffs: [0.1, 0]") ==
+        "cam.yaml: cam0.distortion_coeffs: has coefficients, though distortion_model is none");
   CHECK(has(message_of("eucm", "1.6, 1.1, 458, 457, 367, 248", none), "alpha, the first coefficient"));
   CHECK(has(rig_message(replaced(chain_text(), "distortion_model: radtan", "distortion_model: fov")),
             "'fov' is not supported"));

@@ -247,8 +247,9 @@ TEST_CASE("the files of a rig are read: cameras, their labels, handovers, and pl
   CHECK(near(place_at(rig->targets[0], 0.28), {0, 100, 0}));
   CHECK(near(place_at(rig->targets[0], 0.30), {0, 50, -100}));
   CHECK(near(place_at(rig->targets[0], 0.32), {0, 0, -200}));
-  CHECK(near(place_at(rig->targets[0], -5), {0, 100, 0}));
-  CHECK(near(place_at(rig->targets[0], 5), {0, 0, -200}));
+  CHECK(near(place_at(rig->targets[0], 0.27), {0, 125, 50}));  // the line goes on, for as long as the rows are apart
+  CHECK(near(place_at(rig->targets[0], -5), {0, 200, 200}));
+  CHECK(near(place_at(rig->targets[0], 5), {0, -100, -400}));
 }
 
 TEST_CASE("files that are no rig's are errors that name file and field or line") {

@@ -378,6 +378,8 @@ TEST_CASE("nuScenes' tables put the annotated box where each camera has it") {
       p = turned_back(pose["rotation"], p - vector_of(pose["translation"]));
       p = turned_back(sensor["rotation"], p - vector_of(sensor["translation"]));
       const std::string file = image["filename"];
+      CHECK((scenario.path("out/lot.nuscenes") / file).lexically_normal().parent_path() ==
+            scenario.path("out/lot." + camera));
       const int index = std::stoi(file.substr(file.find("frame_") + 6, 6));
       const json line = lines_of(scenario.path("out/lot.front.jsonl")).at(static_cast<std::size_t>(index));
       const json& at = line["intruders"][0]["position"];

@@ -88,6 +88,36 @@ TEST_CASE("of lossless footage the codec source gives the very frames, masks and
   CHECK(std::count(untouched.begin(), untouched.end(), true) == report.copied_frames);
 }
 
+TEST_CASE("the codec source sees what footage of 10 bits still shows of a faint intruder") {
+  Scenario scenario(kSmall, kLength);
+  const auto ffmpeg = [](const std::string& arguments) {
+    return std::system(("ffmpeg -nostdin -v error -y " + arguments).c_str()) == 0;
+  };
+  const auto checksums = [&](const fs::path& video) {
+    const std::string list = video.string() + ".md5";
+    REQUIRE(ffmpeg("-i \"" + video.string() + "\" -f framemd5 \"" + list + "\""));
+    return text_of(list);
+  };
+  if (!ffmpeg("-f lavfi -i testsrc2=size=160x120:rate=25,gblur=sigma=6 -frames:v 40 -pix_fmt yuv420p10le -c:v ffv1 "
+              "-level 3 -g 1 -color_range tv -colorspace bt709 \"" +
+              scenario.path("footage.mkv").string() + "\""))
+    return say_skipped("no ffmpeg with ffv1 of 10 bits");
+  // Blurred so widely that the program judges by its light whether it can change a sample.
+  write_obj(scenario.path("aircraft.obj"), aircraft(), 1);
+  scenario.project.appearance.psf_sigma_px = 18;
+  scenario.project.output.labels = {"jsonl"};
+  scenario.add("aircraft.obj", {}).trajectory.waypoints = {{.frame = 0, .position_m = {60, 0, -150}},
+                                                           {.frame = 39, .position_m = {3000, 0, -150}}};
+  exported_as(scenario, VideoCodec::ffv1, "whole");
+  const ExportReport report = exported_as(scenario, VideoCodec::source, "spliced");
+  CHECK(report.copied_frames > 3);
+  CHECK(report.copied_frames < kLength - 3);
+  const std::string name = scenario.project.name;
+  for (const char* const end : {".mkv", ".masks.mkv"})
+    CHECK(checksums(scenario.path("whole") / (name + end)) == checksums(scenario.path("spliced") / (name + end)));
+  CHECK(text_of(scenario.path("whole") / (name + ".jsonl")) == text_of(scenario.path("spliced") / (name + ".jsonl")));
+}
+
 TEST_CASE("of H.264 footage the codec source keeps groups without an intruder, and jobs change nothing") {
   Scenario scenario(kSmall, kLength);
   prepare_crossing(scenario);

@@ -114,7 +114,7 @@ struct Placed {
   cv::Vec3d heading_in_world;
 };
 
-// The intruder's truth by OpenCV.
+// The intruder's truth by projected().
 struct Expected {
   cv::Vec3d position_in_camera;
   cv::Point2d center_px;
@@ -131,7 +131,7 @@ Expected expected_of(const TestModel& model, const Placed& placed, const cv::Mat
   for (const cv::Vec3d& p : model.points_in_body) {
     const cv::Vec3d in_camera = camera_from_world * (world_from_body * p + placed.position_in_world - camera_in_world);
     const double angle = std::atan2(std::hypot(in_camera[1], in_camera[2]), in_camera[0]);
-    if (angle < lens.valid_angle_rad() && angle < CV_PI / 2)
+    if (angle < std::min(lens.valid_angle_rad(), projects_up_to_rad(lens.parameters())))
       seen.push_back(in_camera);
     else
       expected.whole = false;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
+#include <optional>
+#include <utility>
 
 #include "reference/opencv_lens.h"
 
@@ -15,6 +17,13 @@ cv::Matx33d about(const cv::Vec3d& axis, double angle_deg) {
   cv::Matx33d rotation;
   cv::Rodrigues(axis * (angle_deg * CV_PI / 180.0), rotation);
   return rotation;
+}
+
+// The last one is kept: an exact lens takes some 30 ms to make.
+const truth::OpencvLens& reference_of(const LensParameters& lens) {
+  static std::optional<std::pair<LensParameters, truth::OpencvLens>> last;
+  if (!last || last->first != lens) last.emplace(lens, truth::OpencvLens(lens));
+  return last->second;
 }
 
 }  // namespace
@@ -36,8 +45,12 @@ std::vector<cv::Point3d> optical(const std::vector<cv::Vec3d>& points_in_camera)
   return points;
 }
 
+double projects_up_to_rad(const LensParameters& lens) {
+  return reference_of(lens).is_opencvs() ? CV_PI / 2 : CV_PI;
+}
+
 std::vector<cv::Point2d> projected(const LensParameters& lens, const std::vector<cv::Point3d>& points) {
-  return truth::OpencvLens(lens).pixels(points);
+  return reference_of(lens).pixels(points);
 }
 
 cv::Rect2d around(const std::vector<cv::Point2d>& pixels) {

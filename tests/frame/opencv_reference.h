@@ -22,7 +22,9 @@ namespace sigs::test {
 // Points in camera axes as OpenCV's optical frame has them: x right, y down, z forward.
 [[nodiscard]] std::vector<cv::Point3d> optical(const std::vector<cv::Vec3d>& points_in_camera);
 
-// Pixels of points in the optical frame, whatever the valid field.
+// Pixels of points in the optical frame by truth::OpencvLens, and up to which angle from the axis it has them: OpenCV's
+// functions end at 90 degrees.
+[[nodiscard]] double projects_up_to_rad(const LensParameters& lens);
 [[nodiscard]] std::vector<cv::Point2d> projected(const LensParameters& lens, const std::vector<cv::Point3d>& points);
 
 // The box around pixels: edges, as base/image.h has it.

@@ -2,6 +2,7 @@
 """Projects: fields, waypoints, files, errors."""
 
 import json
+import math
 import pickle
 import unittest
 import warnings
@@ -54,6 +55,9 @@ class Fields(support.InFolder):
             self.project["camera.sped_mps"]
         with self.assertRaisesRegex(sigs.Error, "expected a number"):
             self.project["camera.speed_mps"] = "fast"
+        for wrong in (math.nan, math.inf):
+            with self.assertRaisesRegex(sigs.UsageError, "camera.speed_mps: expected finite numbers, found"):
+                self.project["camera.speed_mps"] = wrong
         self.assertEqual(self.project["camera.speed_mps"], 22)
 
     def test_a_wrong_value_is_a_problem_and_an_error_when_frames_are_asked_for(self):
@@ -76,6 +80,9 @@ class Fields(support.InFolder):
     def test_frames_that_there_are_not_are_refused(self):
         for wrong in (-1, 200):
             with self.assertRaisesRegex(sigs.UsageError, "0 to 199"):
+                self.project.render(wrong)
+        for wrong in ("a", 2.5, None):
+            with self.assertRaisesRegex(sigs.UsageError, "frame: expected a whole number, found"):
                 self.project.render(wrong)
         for wrong in (range(0), range(0, 10, 2), range(150, 250), [1, 2]):
             with self.assertRaises(sigs.UsageError):

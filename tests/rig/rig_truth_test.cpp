@@ -25,9 +25,11 @@ RigCameraGeometry camera_at(const std::string& name, const MountSettings& mount)
 }
 
 // A frame in which the intruder is seen or not, at a place in the camera's axes.
-FrameTruth truth_at(int frame, double time_s, bool is_visible, const glm::dvec3& p_in_camera = {100, 0, 0}) {
+FrameTruth truth_at(int frame, double time_s, bool is_visible, const glm::dvec3& p_in_camera = {100, 0, 0},
+                    bool is_hidden = false) {
   FrameTruth truth{.index = frame, .time_s = time_s};
-  IntruderTruth intruder{.position_m = p_in_camera, .visible_fraction = is_visible ? 0.5 : 0.0};
+  IntruderTruth intruder{
+      .position_m = p_in_camera, .in_image = is_visible || is_hidden, .visible_fraction = is_visible ? 0.5 : 0.0};
   if (is_visible) intruder.visible_box = cv::Rect(1, 2, 3, 4);
   truth.intruders.push_back(intruder);
   return truth;
@@ -70,6 +72,43 @@ TEST_CASE("a view within another one is no handover; one that comes back is") {
   CHECK(handovers[0].from == 0);
   CHECK(handovers[0].to == 0);
   CHECK(handovers[0].gap_s == doctest::Approx(0.5));
+}
+
+TEST_CASE("what is hidden for a while, and footage that ends, is no handover") {
+  const auto frames_of = [](RigTruth& rig, std::size_t camera, int count, const std::string& seen) {
+    for (int n = 0; n < count; ++n) {
+      const char state = seen.at(static_cast<std::size_t>(n));  // v: visible, h: hidden in the image, other: not there
+      rig.add(camera, truth_at(n, 0.1 * n, state == 'v', {100, 0, 0}, state == 'h'));
+    }
+  };
+  RigTruth passing({camera_at("a", {}), camera_at("b", {})}, {{.name = "airliner"}});
+  frames_of(passing, 0, 12, "vvvvhhvvvv..");  // something passes in front of it, then it leaves
+  frames_of(passing, 1, 12, "..vvvvvvvvvv");
+  REQUIRE(passing.handovers(0).size() == 1);
+  CHECK(passing.handovers(0)[0].time_s == doctest::Approx(0.9));
+  CHECK(passing.handovers(0)[0].gap_s == doctest::Approx(-0.7));
+  CHECK(passing.views(0).size() == 3);  // times in which it is visible, without a break
+
+  RigTruth hidden({camera_at("a", {}), camera_at("b", {})}, {{.name = "airliner"}});
+  frames_of(hidden, 0, 12, "vvvvvhhhh...");  // it leaves behind the wing
+  frames_of(hidden, 1, 12, "......vvvvvv");
+  REQUIRE(hidden.handovers(0).size() == 1);
+  CHECK(hidden.handovers(0)[0].time_s == doctest::Approx(0.4));
+  CHECK(hidden.handovers(0)[0].gap_s == doctest::Approx(0.2));
+
+  RigTruth ending({camera_at("a", {}), camera_at("b", {}), camera_at("c", {})}, {{.name = "airliner"}});
+  frames_of(ending, 0, 6, "vvvvvv");  // its footage ends
+  frames_of(ending, 1, 12, "..vvvvvv....");
+  frames_of(ending, 2, 13, ".......vvvvvv");
+  REQUIRE(ending.handovers(0).size() == 1);
+  CHECK(ending.handovers(0)[0].from == 1);
+  CHECK(ending.handovers(0)[0].to == 2);
+  CHECK(ending.handovers(0)[0].time_s == doctest::Approx(0.7));
+
+  RigTruth hidden_to_the_end({camera_at("a", {}), camera_at("b", {})}, {{.name = "airliner"}});
+  frames_of(hidden_to_the_end, 0, 8, "vvvvvhhh");
+  frames_of(hidden_to_the_end, 1, 9, "vvvvvvvvv");
+  CHECK(hidden_to_the_end.handovers(0).empty());
 }
 
 TEST_CASE("nothing is seen: no views, no handovers; no frames: no rows") {

@@ -170,6 +170,28 @@ TEST_CASE("footage without a log has no mistakes, and a file that is no video ne
   CHECK(footage_mistakes(real_data() / "video/air_karma_gopro_coast.mp4").empty());
 }
 
+TEST_CASE("an intruder that a lens sees behind the camera is beside the image, not behind the camera") {
+  Result<Scene> scene = open_scene(head_on(), sample_footage());
+  REQUIRE(scene);
+  scene->last_frame = scene->first_frame + 10;  // it is still ahead of the aircraft
+  scene->motion.world_from_camera_at_start.rotation = glm::angleAxis(rad_of_deg(115), glm::dvec3(0, 0, 1));
+  scene->camera = {*Lens::make({.fx = 900, .fy = 900, .cx = 639.5, .cy = 479.5}), {1280, 960}};
+  const Visibility pinhole = estimated_visibilities(*scene, 20).at(0);
+  CHECK(pinhole.behind_camera == pinhole.frames_checked);
+  CHECK(where_out_of_view(*scene, 0) == "it is behind the camera all the time");
+  scene->camera = {*Lens::make({.model = LensModel::double_sphere,  // up to 126 degrees, of which the image has 80
+                                .fx = 400,
+                                .fy = 400,
+                                .cx = 639.5,
+                                .cy = 479.5,
+                                .coefficients = {-0.1828, 0.5916}}),
+                   {1280, 960}};
+  const Visibility sphere = estimated_visibilities(*scene, 20).at(0);
+  CHECK(sphere.visible == 0);
+  CHECK(sphere.behind_camera == 0);
+  CHECK(where_out_of_view(*scene, 0).find("degrees left of it") != std::string::npos);
+}
+
 TEST_CASE("in 360 degrees an intruder behind the own body is neither behind the camera nor beside the image") {
   Result<Scene> scene = open_scene(head_on(), sample_footage());
   REQUIRE(scene);

@@ -65,6 +65,15 @@ TEST_CASE("the silhouette of a cuboid before a pinhole is that of its nearest an
               1e-9);
 }
 
+TEST_CASE("what passes beside a pinhole ends the silhouette where its pixels tell nothing any more") {
+  const std::vector<glm::vec3> wing{{1, 5, 0}, {1e-3F, 5, 0}, {1e-9F, 5, 0}};  // up to 90 degrees from the axis
+  const auto silhouette = silhouette_of(wing, {{1, 0, 0, 0}, {0, 0, 0}}, pinhole());
+  REQUIRE(silhouette.has_value());
+  CHECK_FALSE(silhouette->all_have_image);
+  CHECK(silhouette->box.x == doctest::Approx(kFx * 5 + kCx).epsilon(1e-6));
+  CHECK(silhouette->box.width == 0);
+}
+
 TEST_CASE("turning the body by a right angle swaps its length and its span") {
   const CameraFromBody pose{rotation_of({.yaw_rad = std::numbers::pi / 2}), {100, 0, 0}};
   const auto silhouette = silhouette_of(cuboid({4, 3, 2}), pose, pinhole());

@@ -145,12 +145,11 @@ Result<RigClip> read_rig(const fs::path& path) {
 }
 
 glm::dvec3 place_at(const RigTarget& target, double time_s) {
-  const auto after = std::lower_bound(target.places.begin(), target.places.end(), time_s,
+  if (target.places.size() < 2) return target.places.front().p_in_body;
+  const auto after = std::lower_bound(target.places.begin() + 1, target.places.end() - 1, time_s,
                                       [](const RigPlace& one, double wanted_s) { return one.time_s < wanted_s; });
-  if (after == target.places.end()) return target.places.back().p_in_body;
-  if (after == target.places.begin()) return after->p_in_body;
   const RigPlace& before = *std::prev(after);
-  const double share = (time_s - before.time_s) / (after->time_s - before.time_s);
+  const double share = std::clamp((time_s - before.time_s) / (after->time_s - before.time_s), -1.0, 2.0);
   return before.p_in_body + (after->p_in_body - before.p_in_body) * share;
 }
 

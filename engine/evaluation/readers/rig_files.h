@@ -44,7 +44,8 @@ struct RigClip {
 // Reads NAME.rig.json and, beside it, NAME.rig.csv. Errors: cannot_read; bad_data with the file and its field or line.
 [[nodiscard]] Result<RigClip> read_rig(const std::filesystem::path& path);
 
-// The place at a time, by a straight line between those before and after it; the first or the last one outside of them.
+// The place at a time, by a straight line through those before and after it. Before the first and after the last one,
+// where other cameras may have frames, the line of the nearest two goes on for as long as these are apart.
 [[nodiscard]] glm::dvec3 place_at(const RigTarget& target, double time_s);
 
 }  // namespace sigs
