@@ -154,4 +154,23 @@ Result<LensParameters> scaled_calibration(LensParameters lens, cv::Size from_px,
   return lens;
 }
 
+void crop(LensParameters& lens, cv::Size size_px, double kept_share) {
+  lens.fx /= kept_share;
+  lens.fy /= kept_share;
+  lens.cx = (lens.cx + 0.5 - size_px.width / 2.0) / kept_share + size_px.width / 2.0 - 0.5;
+  lens.cy = (lens.cy + 0.5 - size_px.height / 2.0) / kept_share + size_px.height / 2.0 - 0.5;
+}
+
+Result<bool> is_made_for_whole(cv::Size made_px, cv::Size part_px, const ImagePart& part,
+                               const std::string& file_name) {
+  if (made_px == part_px) return false;
+  if (made_px == part.whole_px) return true;
+  if (!has_shape_of(made_px, part.whole_px)) return false;
+  if (!has_shape_of(made_px, part_px)) return true;
+  return fail(file_name,
+              fmt::format("made for {}, which has the shape of the whole footage, {}, and of the part that "
+                          "is left of it, {}: scale its matrix and its size to the one that it is meant for",
+                          image_size_text(made_px), image_size_text(part.whole_px), image_size_text(part_px)));
+}
+
 }  // namespace sigs::calibration

@@ -110,6 +110,15 @@ struct AssumedModel {
 // Whether a calibration made for made_px can be scaled to images of this size: they have the same shape.
 [[nodiscard]] bool has_shape_of(cv::Size made_px, cv::Size size_px);
 
+// The intrinsics after the camera has cropped the image to this share of each side, around the middle, and enlarged it
+// to the old size.
+void crop(LensParameters& lens, cv::Size size_px, double kept_share);
+
+// Whether a calibration that was made for images of this size was made for the larger ones that the footage is a part
+// of. Error: it may be either.
+[[nodiscard]] Result<bool> is_made_for_whole(cv::Size made_px, cv::Size part_px, const ImagePart& part,
+                                             const std::string& file_name);
+
 // The lens of a calibration for images of from_px after they are resized to to_px, each side by its own scale.
 // Shapes count as the same where they differ by at most 1 %, as with encoders that require sides of whole blocks
 // (848x480 for 853.3x480); otherwise the error names both. Where they differ by more than the rounding of half a pixel,

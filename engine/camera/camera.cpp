@@ -204,15 +204,6 @@ cv::Size divided(cv::Size size_px, const cv::Point2d& by) {
   return {cvRound(size_px.width / by.x), cvRound(size_px.height / by.y)};
 }
 
-// The intrinsics after the camera has cropped the image to this share of each side, around the middle, and enlarged it
-// to the old size.
-void crop(LensParameters& lens, cv::Size size_px, double kept_share) {
-  lens.fx /= kept_share;
-  lens.fy /= kept_share;
-  lens.cx = (lens.cx + 0.5 - size_px.width / 2.0) / kept_share + size_px.width / 2.0 - 0.5;
-  lens.cy = (lens.cy + 0.5 - size_px.height / 2.0) / kept_share + size_px.height / 2.0 - 0.5;
-}
-
 std::string size_names() {
   return fmt::format("{}; {} with {}", fmt::join(kSizeNames, ", "), fmt::join(kWidthNames, ", "),
                      fmt::join(kHeightNames, ", "));
@@ -238,20 +229,6 @@ Result<std::size_t> chosen(const std::vector<Fields::Group>& cameras, const Cali
               fmt::format("has no camera '{}'; {}", name.camera,
                           names.empty() ? "it describes one alone: leave out what follows the #"
                                         : fmt::format("it has {}", fmt::join(names, ", "))));
-}
-
-// Whether a calibration that was made for images of this size was made for the larger ones that the footage is a part
-// of. Error: it may be either.
-Result<bool> is_made_for_whole(cv::Size made_px, cv::Size part_px, const ImagePart& part,
-                               const std::string& file_name) {
-  if (made_px == part_px) return false;
-  if (made_px == part.whole_px) return true;
-  if (!has_shape_of(made_px, part.whole_px)) return false;
-  if (!has_shape_of(made_px, part_px)) return true;
-  return fail(file_name,
-              fmt::format("made for {}, which has the shape of the whole footage, {}, and of the part that "
-                          "is left of it, {}: scale its matrix and its size to the one that it is meant for",
-                          image_size_text(made_px), image_size_text(part.whole_px), image_size_text(part_px)));
 }
 
 // Of 360 degree footage the size says everything.
