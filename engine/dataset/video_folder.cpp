@@ -60,13 +60,15 @@ Project with_absolute_paths(const VideoFolder& folder) {
 Result<VideoEntry> export_into(const fs::path& staged, const VideoFolder& folder, const VideoExport& request) {
   const ExportRequest wanted{
       .project = with_absolute_paths(folder), .folder = staged, .jobs = request.jobs, .footage = request.footage};
-  const ExportControl control{.progress = request.progress,
-                              .warn =
-                                  [&](const Warning& warning) {
-                                    if (request.warn)
-                                      request.warn({folder.video->name + ": " + warning.where, warning.what});
-                                  },
-                              .cancel = request.cancel};
+  const ExportControl control{
+      .progress = request.progress,
+      .warn =
+          [&](const Warning& warning) {
+            const std::string& video = folder.video->name;
+            if (request.warn)
+              request.warn({warning.where.empty() ? video : video + ": " + warning.where, warning.what});
+          },
+      .cancel = request.cancel};
   const Result<ExportReport> report =
       request.renderer != nullptr ? export_frame(wanted, *request.renderer, control) : export_project(wanted, control);
   if (!report) return fail(report.error());

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -153,7 +154,7 @@ class RigExport {
     };
     control.warn = [&](const Warning& warning) {
       const std::lock_guard lock(mutex_);
-      if (control_.warn) control_.warn(warning);
+      if (control_.warn && warned_.insert(warning.text()).second) control_.warn(warning);
     };
     StagedOutputs outputs(existing_outputs(request_));
     request.outputs = &outputs;
@@ -173,6 +174,7 @@ class RigExport {
   int total_ = 0;
   std::mutex mutex_;  // of what follows
   std::vector<int> done_;
+  std::set<std::string> warned_;  // what cameras have in common is said once
   std::vector<ExportReport> reports_;
   std::optional<Error> error_;
 };

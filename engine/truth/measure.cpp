@@ -28,21 +28,37 @@ std::pair<double, double> shortest_around(std::vector<double> columns_px, double
   return {first, period_px - gap};
 }
 
+struct Bounds {
+  glm::dvec2 low{std::numeric_limits<double>::infinity()};
+  glm::dvec2 high{-std::numeric_limits<double>::infinity()};
+
+  void take(const glm::dvec2& pixel) {
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+  }
+  [[nodiscard]] std::optional<Box> box() const {
+    if (low.x > high.x) return std::nullopt;
+    return Box{low.x, low.y, high.x - low.x, high.y - low.y};
+  }
+};
+
 template <class PixelOf>
 std::optional<Silhouette> silhouette_by(std::span<const glm::vec3> points_in_body, const PixelOf& pixel_of) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  glm::dvec2 low(kInfinity), high(-kInfinity);
+  Bounds all;
+  Bounds near;
   bool all_have_image = true;
+  bool is_cut = false;
   for (const glm::vec3& point : points_in_body) {
     const std::optional<glm::dvec2> pixel = pixel_of(glm::dvec3(point));
-    const bool has_image = pixel && std::max(std::abs(pixel->x), std::abs(pixel->y)) <= kFarthestImage_px;
-    all_have_image = all_have_image && has_image;
-    if (!has_image) continue;
-    low = glm::min(low, *pixel);
-    high = glm::max(high, *pixel);
+    all_have_image = all_have_image && pixel;
+    if (!pixel) continue;
+    all.take(*pixel);
+    const bool is_far = std::max(std::abs(pixel->x), std::abs(pixel->y)) > kFarthestTold_px;
+    is_cut = is_cut || is_far;
+    if (!is_far) near.take(*pixel);
   }
-  if (low.x > high.x) return std::nullopt;
-  return Silhouette{.box = {low.x, low.y, high.x - low.x, high.y - low.y}, .all_have_image = all_have_image};
+  if (!all.box()) return std::nullopt;
+  return Silhouette{.box = *all.box(), .all_have_image = all_have_image, .is_cut = is_cut, .near_box = near.box()};
 }
 
 }  // namespace
@@ -178,7 +194,8 @@ IntruderTruth measured(const MeasuredLayers& layers, std::span<const MeasuredLay
                       .name = layers.name,
                       .position_m = layers.camera_from_body.translation_m,
                       .world_from_body = layers.world_from_body};
-  if (layers.silhouette) truth.amodal_box = layers.silhouette->box;
+  if (layers.silhouette)
+    truth.amodal_box = layers.silhouette->is_cut ? layers.silhouette->near_box : layers.silhouette->box;
   if (up_in_camera) truth.horizon = horizon_side_of(layers.outermost_m, layers.camera_from_body, *up_in_camera);
   const double inside_px = area_px(layers.inside.coverage);
   // Relative to its own maximum: a distant one may cover no pixel by more than a hundredth.

@@ -16,14 +16,16 @@
 
 namespace sigs {
 
-// Points whose pixel lies farther from the first one, along either axis, count as beyond the lens' field: a pinhole
-// shows what passes beside it at a distance without limit, which tells nothing of the body.
-inline constexpr double kFarthestImage_px = 1e5;
+// Points whose pixel lies farther from the first one, along either axis, are not told of: a pinhole shows what passes
+// beside it at a distance without limit, which says nothing of the body.
+inline constexpr double kFarthestTold_px = 1e5;
 
 // The whole silhouette through the lens.
 struct Silhouette {
-  Box box;                     // of all points that have an image
-  bool all_have_image = true;  // false: some lie behind the camera, beyond the lens' valid field or too far
+  Box box;                           // of all points that have an image
+  bool all_have_image = true;        // false: some lie behind the camera or beyond the lens' valid field
+  bool is_cut = false;               // some lie farther than kFarthestTold_px
+  std::optional<Box> near_box = {};  // where some do: of the others; none: all do
 };
 
 // The smallest box around the images of the points. Nothing where no point has an image. Where the lens' columns repeat
