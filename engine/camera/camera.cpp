@@ -53,8 +53,8 @@ struct Reader {
   const std::string& file;
 
   [[nodiscard]] std::string where(const Field& field) const { return file + ": " + field.name; }
+  [[nodiscard]] Result<std::optional<LensModel>> named_model() const;
   [[nodiscard]] Result<std::optional<LensModel>> stated_model() const;
-  [[nodiscard]] std::string named_beside_mirror() const;
   [[nodiscard]] Result<void> read_matrix(LensParameters& lens, bool may_be_skew) const;
   [[nodiscard]] Result<void> read_coefficients(LensParameters& lens, std::optional<LensModel> model) const;
   [[nodiscard]] Result<void> choose_model(LensParameters& lens, std::optional<LensModel> wanted,
@@ -64,11 +64,9 @@ struct Reader {
   [[nodiscard]] Result<std::optional<cv::Size>> size() const;
 };
 
-// The model that the file states: by a mirror's parameter, by OpenCV's flag, or by a name as ROS and Kalibr write it.
-// Where they disagree the flag is taken, except that a flag of 0 yields to a name. Nothing where the file states
-// neither.
-Result<std::optional<LensModel>> Reader::stated_model() const {
-  if (found(fields, kMirrorNames) != nullptr) return LensModel::omnidirectional;
+// The model that the file states by OpenCV's flag, or by a name as ROS and Kalibr write it. Where they disagree the
+// flag is taken, except that a flag of 0 yields to a name. Nothing where the file states neither.
+Result<std::optional<LensModel>> Reader::named_model() const {
   const Field* flag = found(fields, kFisheyeNames);
   if (flag != nullptr) {
     if (flag->text == "true" || flag->text == "True") return LensModel::kannala_brandt;
@@ -86,17 +84,10 @@ Result<std::optional<LensModel>> Reader::stated_model() const {
               fmt::format("distortion model '{}' is not supported; known are {}", model->text, fmt::join(known, ", ")));
 }
 
-// What a file with a mirror's parameter says of another model; empty: nothing. The distortion of a pinhole is part of
-// the omnidirectional model.
-std::string Reader::named_beside_mirror() const {
-  if (found(fields, kMirrorNames) == nullptr) return "";
-  if (const Field* flag = found(fields, kFisheyeNames))
-    if (flag->text == "true" || flag->text == "True" || (flag->numbers.size() == 1 && flag->numbers.front() != 0))
-      return "fisheye";
-  const Field* model = found(fields, kModelNames);
-  const std::optional<LensModel> named = model != nullptr ? lens_model_named(model->text) : std::nullopt;
-  const bool agrees = !named || named == LensModel::omnidirectional || named == LensModel::brown_conrady;
-  return agrees ? "" : std::string(traits_of(*named).word);
+// By a mirror's parameter, which goes before all else.
+Result<std::optional<LensModel>> Reader::stated_model() const {
+  if (found(fields, kMirrorNames) != nullptr) return LensModel::omnidirectional;
+  return named_model();
 }
 
 // skew: of the omnidirectional model a coefficient, of no other one.
@@ -148,9 +139,13 @@ Result<void> Reader::choose_model(LensParameters& lens, std::optional<LensModel>
                                   const Result<std::optional<LensModel>>& stated,
                                   std::vector<Warning>& warnings) const {
   if (!stated) return fail(stated.error());
-  if (const std::string other = named_beside_mirror(); !other.empty())
-    warnings.push_back({where(*found(fields, kMirrorNames)),
-                        fmt::format("makes the model omnidirectional, though the file names {} too", other)});
+  // The distortion of a pinhole is part of the omnidirectional model.
+  const auto other = named_model().value_or(std::nullopt).value_or(LensModel::brown_conrady);
+  if (!wanted && *stated == LensModel::omnidirectional && other != LensModel::omnidirectional &&
+      other != LensModel::brown_conrady)
+    warnings.push_back(
+        {where(*found(fields, kMirrorNames)),
+         fmt::format("makes the model omnidirectional, though the file names {} too", traits_of(other).word)});
   if (wanted || *stated) {
     lens.model = wanted ? *wanted : **stated;
     if (wanted && *stated && *wanted != **stated)

@@ -162,13 +162,9 @@ std::string ExtendedUnified::fault(std::span<const double> coefficients) {
 }
 
 std::optional<glm::dvec2> ExtendedUnified::plane_of(const glm::dvec3& p_optical) const {
-  const auto depth = [&](const glm::dvec3& p) {
-    return alpha * std::hypot(std::sqrt(beta) * p.x, std::sqrt(beta) * p.y, p.z) + (1 - alpha) * p.z;
-  };
-  const double w = share_of(alpha);
   const double d = std::hypot(std::sqrt(beta) * p_optical.x, std::sqrt(beta) * p_optical.y, p_optical.z);
-  if (!(p_optical.z > -w * d)) return std::nullopt;
-  return glm::dvec2{p_optical} / depth(p_optical);
+  if (!(p_optical.z > -share_of(alpha) * d)) return std::nullopt;
+  return glm::dvec2{p_optical} / (alpha * d + (1 - alpha) * p_optical.z);
 }
 
 glm::dvec3 ExtendedUnified::ray_of(const glm::dvec2& p) const {

@@ -43,7 +43,10 @@ Reduced reduced(const Frame& frame, double scale) {
 class Rays {
  public:
   Rays(const Camera& camera, cv::Size size_px)
-      : lens_(camera.lens), scale_(static_cast<double>(size_px.width) / camera.size_px.width), size_px_(size_px) {
+      : lens_(camera.lens),
+        scale_(static_cast<double>(size_px.width) / camera.size_px.width),
+        focal_px_(camera.lens.pinhole().parameters().fx * scale_),
+        size_px_(size_px) {
     for (int y = 0; y < size_px.height; ++y)
       for (int x = 0; x < size_px.width; ++x) rays_.push_back(lens_.ray(in_footage({x, y})).value_or(glm::dvec3(0)));
   }
@@ -66,7 +69,7 @@ class Rays {
   }
 
   // Pixels of the reduced image a radian, about.
-  [[nodiscard]] double focal_px() const { return lens_.pinhole().parameters().fx * scale_; }
+  [[nodiscard]] double focal_px() const { return focal_px_; }
 
  private:
   [[nodiscard]] glm::dvec2 in_footage(const glm::dvec2& pixel) const { return (pixel + 0.5) / scale_ - 0.5; }
@@ -77,6 +80,7 @@ class Rays {
 
   const Lens& lens_;
   double scale_;
+  double focal_px_;
   cv::Size size_px_;
   std::vector<glm::dvec3> rays_;
 };

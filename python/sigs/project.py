@@ -329,7 +329,8 @@ class Project:
         Truth of encounters is that of whole flights and is None here.
         """
         self._choose_camera()
-        return self._inside.render(_number_of(frame), None if camera is None else _pose_tuple(camera, "camera"), self._given(poses))
+        place = None if camera is None else _pose_tuple(camera, "camera")
+        return self._inside.render(_number_of(frame), place, self._given(poses))
 
     def _given(self, poses: Optional[Mapping[int | str, Any]]) -> list[tuple[int, _PoseTuple]]:
         return [
