@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "base/pose.h"
-#include "compositor/haze.h"
+#include "frame/look.h"
 #include "frame/render_plan.h"
 #include "render/renderer.h"
 
@@ -209,7 +209,6 @@ std::vector<LampImage> lamp_images(const Scene& scene, const SceneMoment& moment
   const SceneIntruder& intruder = scene.intruders[static_cast<std::size_t>(placed.id)];
   const double exposure_s = moment.exposure_s > 0 ? moment.exposure_s : Shutter::kAssumedExposure_s;
   const double white = white_cdpm2(scene.light);
-  const std::optional<double>& visibility_m = scene.appearance.haze.visibility_m;
   std::vector<LampImage> images;
   for (const Lamp& lamp : lamps_of(intruder.lights, intruder.model->lamps)) {
     const std::optional<SeenPoint> point = seen(scene, moment, placed, lens, lamp.place_m);
@@ -219,8 +218,7 @@ std::vector<LampImage> lamp_images(const Scene& scene, const SceneMoment& moment
     const std::optional<double> solid_angle_sr = pixel_sr(lens, point->p_in_camera);
     if (share <= 0 || candela <= 0 || !solid_angle_sr) continue;
     const double distance_m = glm::length(point->p_in_camera);
-    const double clear = visibility_m ? haze_transmission(distance_m, *visibility_m) : 1;
-    const double illuminance_lx = share * candela * clear / (distance_m * distance_m);
+    const double illuminance_lx = share * candela * light_through_haze(scene, distance_m) / (distance_m * distance_m);
     const glm::dvec3 light = illuminance_lx / (white * *solid_angle_sr) * lamp.color;
     images.push_back({name_of(lamp.kind), point->pixel, {light.x, light.y, light.z}, share});
   }

@@ -15,13 +15,13 @@
 #include "base/stopwatch.h"
 #include "compositor/blend.h"
 #include "compositor/blur.h"
-#include "compositor/haze.h"
 #include "compositor/warp.h"
 #include "frame/cloud_cover.h"
 #include "frame/composite.h"
 #include "frame/contrail.h"
 #include "frame/frame_truth.h"
 #include "frame/ground_shadow.h"
+#include "frame/look.h"
 #include "frame/panorama.h"
 #include "scene/scene_at.h"
 #include "truth/measure.h"
@@ -43,28 +43,6 @@ cv::Rect box_in_image(const IntruderLayers& layers, const Lens& lens, cv::Size i
   if (layers.silhouette && layers.silhouette->all_have_image)
     box = pixels_touched(layers.silhouette->box, 0, layers.window);
   return larger_part(box, lens, image_size_px);
-}
-
-// Linear light of the haze in front of what is in a box of the image. Where the footage around it is asked for, but the
-// box is far beyond the image or wholly over the own body, the colour of the settings.
-cv::Vec3d airlight_of(const Scene& scene, const cv::Rect& box, const Frame* background) {
-  const HazeSettings& haze = scene.appearance.haze;
-  const glm::dvec3& color = haze.airlight_color;
-  std::optional<cv::Vec3d> behind;
-  if (haze.airlight == AirlightChoice::behind && background != nullptr)
-    behind = airlight_around(*background, box, scene.own_body);
-  return behind.value_or(cv::Vec3d(color.x, color.y, color.z));
-}
-
-// The layer in the footage's tones and behind its haze. The saturation and the black are the camera's, which the
-// airlight has already as the footage shows it: so they come before haze.
-Layer hazed_layer(const Scene& scene, const Layer& layer, double distance_m, const cv::Rect& box,
-                  const Frame* background) {
-  const AppearanceSettings& look = scene.appearance;
-  if (scene.compositing.method != MethodChoice::direct) return layer;
-  const Layer in_tone = toned(layer, look.saturation, look.black);
-  if (!look.haze.visibility_m) return in_tone;
-  return hazed(in_tone, haze_transmission(distance_m, *look.haze.visibility_m), airlight_of(scene, box, background));
 }
 
 // A layer without what own body and, at this distance, the occluder hide.
@@ -95,18 +73,16 @@ void add_contrail(const Scene& scene, const SceneMoment& moment, const Frame* ba
   const Lens& model = lens.camera().lens;
   const std::vector<TrailStrand> strands = contrail_strands(scene, moment, layers.placed, model);
   const Trail trail = trail_of(strands, contrail_color(scene, moment, intruder.contrail),
-                               grown(window, blur_margin_px(std::min(layers.sigma_px, 100.0))));
+                               grown(window, blur_margin_px(std::min(layers.formation.blur_px, 100.0))));
   if (trail.layer.empty()) return;
-  Layer seen = toned(trail.layer, scene.appearance.saturation, scene.appearance.black);
-  if (const std::optional<double>& visibility_m = scene.appearance.haze.visibility_m) {
-    const cv::Rect box = larger_part(trail.layer.rect & window, model, scene.footage.size_px);
-    seen = hazed(seen, trail.distance_m, *visibility_m, airlight_of(scene, box, background));
-  }
+  const cv::Rect box = larger_part(trail.layer.rect & window, model, scene.footage.size_px);
+  const Layer seen = in_footage_look(scene, trail.layer, trail.distance_m, box, background);
   // The part of the trail at some distances, which is before the occluder or behind it as a whole.
   const auto shown = [&](const cv::Mat& at_these, double distance_m) {
     Layer part{seen.rect, {}, seen.coverage};
     seen.color.copyTo(part.color, at_these);
-    return without_hidden(scene, moment, blurred_through(model, part, layers.sigma_px, window), distance_m, lens);
+    return without_hidden(scene, moment, blurred_through(model, part, layers.formation.blur_px, window), distance_m,
+                          lens);
   };
   constexpr double kBeyondAll_m = 1e30;
   const double occluder_m = scene.occluder.mask.empty() ? kBeyondAll_m : scene.occluder.distance_m;
@@ -127,7 +103,7 @@ void add_lamps(const Scene& scene, const SceneMoment& moment, LensTable& lens, I
   const AppearanceSettings& look = scene.appearance;
   const Lens& model = lens.camera().lens;
   for (const LampImage& lamp : lamp_images(scene, moment, layers.placed, model)) {
-    const LampSpread spread{.sigma_px = layers.sigma_px,
+    const LampSpread spread{.sigma_px = layers.formation.blur_px,
                             .glare = look.glare,
                             .glare_px = look.glare_px,
                             .widening = widening_at(model, lamp.pixel.y)};
@@ -157,11 +133,13 @@ int steps_before_pixels(const Scene& scene, const IntruderLayers& layers) {
   constexpr double kLongest = 64;   // blur in samples: a wider one hides where in a pixel light falls
   if (scene.compositing.method != MethodChoice::direct || !layers.silhouette || !layers.silhouette->all_have_image)
     return 1;
-  if (layers.sigma_px < kMinMotion_px && layers.motion.shifts.empty()) return 1;
+  if (layers.formation.blur_px < kMinMotion_px && layers.motion.shifts.empty()) return 1;
   const Box& box = layers.silhouette->box;
   const double size_px = std::max(box.width, box.height);
   int steps = size_px <= kTiny_px ? 8 : size_px <= kSmall_px ? 4 : 1;
-  while (steps > 1 && (steps * layers.sigma_px > kWideSigma_px || steps * layers.motion_px > kLongest)) steps /= 2;
+  while (steps > 1 &&
+         (steps * layers.formation.blur_px > kWideSigma_px || steps * layers.formation.motion_blur_px > kLongest))
+    steps /= 2;
   return steps;
 }
 
@@ -172,7 +150,8 @@ Layer blurred_finely(const IntruderLayers& layers, const Lens& lens, const Layer
   const cv::Rect window(layers.window.tl() * steps, layers.window.size() * steps);
   const Layer moved = motion_blurred(fine, motion, kUnboundedRect);
   const Lens fine_lens = lens.period_px() > 0 ? with_pixels_of(lens, 1.0 / steps) : lens;  // no other is asked
-  Layer out = averaged(blurred_through(fine_lens, moved, steps * layers.sigma_px, window, motion.spread_px2), steps);
+  Layer out =
+      averaged(blurred_through(fine_lens, moved, steps * layers.formation.blur_px, window, motion.spread_px2), steps);
   if (!out.empty()) out.coverage = coverage_over(out.rect, layers.warped);
   return out;
 }
@@ -184,7 +163,7 @@ void blur(const Scene& scene, const Lens& lens, const ColorInfo& footage, int bi
   layers.motion_blurred = motion_blurred(layers.hazed, layers.motion, kUnboundedRect);
   layers.op_counts.pixels_motion_blurred +=
       static_cast<std::int64_t>(layers.motion.shifts.size()) * std::int64_t{layers.hazed.rect.area()};
-  if (!is_visible_after_blur(layers.motion_blurred, layers.sigma_px, footage, bit_depth)) return;
+  if (!is_visible_after_blur(layers.motion_blurred, layers.formation.blur_px, footage, bit_depth)) return;
   if (!needs_blurred_layers(scene)) {
     layers.blurred = clipped(layers.motion_blurred, layers.window);
     return;
@@ -193,8 +172,8 @@ void blur(const Scene& scene, const Lens& lens, const ColorInfo& footage, int bi
     layers.blurred = blurred_finely(layers, lens, hazed_finely(steps), steps);
   else
     layers.blurred =
-        blurred_through(lens, layers.motion_blurred, layers.sigma_px, layers.window, layers.motion.spread_px2);
-  if (layers.sigma_px > 0) layers.op_counts.pixels_blurred += layers.blurred.rect.area();
+        blurred_through(lens, layers.motion_blurred, layers.formation.blur_px, layers.window, layers.motion.spread_px2);
+  if (layers.formation.blur_px > 0) layers.op_counts.pixels_blurred += layers.blurred.rect.area();
 }
 
 // What they hide, over the whole image.
@@ -270,7 +249,7 @@ Result<IntruderLayers> intruder_layers(const Scene& scene, const SceneMoment& mo
     layers.warped = warped(layers.views, lens, plan.warp_rect, row_transform(layers));
     const cv::Rect box = box_in_image(layers, lens.camera().lens, scene.footage.size_px);
     const auto hazed = [&](const Layer& seen) {
-      return hazed_layer(scene, seen, placed.distance_m(), box, background);
+      return in_footage_look(scene, seen, placed.distance_m(), box, background);
     };
     layers.hazed = hazed(layers.warped);
     const auto hazed_finely = [&](int steps) {

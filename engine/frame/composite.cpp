@@ -14,6 +14,7 @@
 
 #include "compositor/blend.h"
 #include "compositor/classic.h"
+#include "frame/look.h"
 #include "video/color_space.h"
 
 namespace sigs {
@@ -246,9 +247,9 @@ ClassicStages composite_classic(ComposedFrame& composed, const Scene& scene, con
   const cv::Mat input2 = on_green_screen(pinhole, composed.image.color, scene.footage.size_px, buffers.input2);
   const DistortMaps* maps =
       scene.compositing.method == MethodChoice::classic ? &context.maps_of(scene.camera) : nullptr;
-  ClassicStages stages = maps ? classic_stages(input1, input2, *maps, layers.sigma_px, std::move(buffers))
+  ClassicStages stages = maps ? classic_stages(input1, input2, *maps, layers.formation.blur_px, std::move(buffers))
                               : plain_stages(input1, input2, std::move(buffers));
-  if (maps) count_classic(composed.op_counts, pinhole, stages, layers.sigma_px);
+  if (maps) count_classic(composed.op_counts, pinhole, stages, layers.formation.blur_px);
   const cv::Rect part = cv::boundingRect(stages.changed);
   if (part.empty()) return stages;
   cv::Mat weight = weight_of(stages.changed, scene.own_body, part);
@@ -256,7 +257,8 @@ ClassicStages composite_classic(ComposedFrame& composed, const Scene& scene, con
     weight = weight.mul(1.0 - occluder_seen_from(layers.world_from_camera, scene.occluder,
                                                  context.lens_of(compositing_camera(scene)), part));
   composed.op_counts.pixels_blended += replace_pixels(composed.image, part, stages.output(part), weight);
-  const cv::Mat opacity = maps ? cv::Mat(classic_opacity(stages, *maps, layers.sigma_px, part).mul(weight)) : weight;
+  const cv::Mat opacity =
+      maps ? cv::Mat(classic_opacity(stages, *maps, layers.formation.blur_px, part).mul(weight)) : weight;
   add_to_mask(composed.mask, scene.footage.size_px, part, opacity);
   return stages;
 }

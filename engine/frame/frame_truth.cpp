@@ -98,16 +98,13 @@ std::vector<IntruderTruth> intruder_truths(const Scene& scene, const SceneMoment
                                            const std::vector<FootageLuma>& footage_luma) {
   const std::vector<MeasuredLayers> all = measured_layers(scene, far_to_near);
   const auto up = scene.horizon_is_known ? std::optional(up_in_camera(moment)) : std::nullopt;
-  const bool has_haze = scene.compositing.method == MethodChoice::direct;
   std::vector<IntruderTruth> truths;
   std::vector<IntruderTruth> parts;  // of one intruder
   for (std::size_t i = 0; i < all.size(); ++i) {
     IntruderTruth truth = measured(all[i], std::span(all).subspan(i + 1), composed.mask, up);
     see_lights(composed, far_to_near[i], footage_luma[i], truth);
     truth.detectability = detectability_in(composed.image, truth, footage_luma[i], scene);
-    truth.image_formation = {.blur_px = far_to_near[i].sigma_px,
-                             .motion_blur_px = far_to_near[i].motion_px,
-                             .visibility_m = has_haze ? scene.appearance.haze.visibility_m : std::nullopt};
+    truth.image_formation = far_to_near[i].formation;
     if (scene.earth) truth.place = scene.earth->place_of(moment.world_from_camera * truth.position_m);
     truth.lights = far_to_near[i].lamp_truths;
     truth.clouds = far_to_near[i].clouds;

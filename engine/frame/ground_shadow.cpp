@@ -8,7 +8,7 @@
 
 #include "base/pose.h"
 #include "compositor/blur.h"
-#include "compositor/haze.h"
+#include "frame/look.h"
 #include "frame/panorama.h"
 
 namespace sigs {
@@ -153,8 +153,7 @@ GroundShadow ground_shadow(const Scene& scene, const SceneMoment& moment, const 
   const cv::Rect rect = bounds_of(triangles, grown(bounds, blur_margin_px(soft_px)));
   if (rect.empty()) return {};
   const double distance_m = glm::length(*middle - moment.world_from_camera.translation_m);
-  const std::optional<double>& visibility_m = scene.appearance.haze.visibility_m;
-  const double left = visibility_m ? haze_transmission(distance_m, *visibility_m) : 1;
+  const double left = light_through_haze(scene, distance_m);
   Layer layer{.rect = rect, .color = cv::Mat(rect.size(), CV_32FC4, cv::Scalar::all(0))};
   cv::insertChannel(covered(triangles, rect) * (light.ground_shadow * moment.sun_visible_share * left), layer.color, 3);
   layer.coverage = cv::Mat::zeros(rect.size(), CV_32FC1);

@@ -278,15 +278,18 @@ IntruderLayers placed_layers(const Scene& scene, const SceneMoment& moment, cons
   layers.silhouette = seen(model.points_m);
   if (!scene.rotors_count && !model.body_m.empty()) layers.body = seen(model.body_m);
   if (!camera.lens.is_pinhole() && layers.silhouette) layers.op_counts.lens_evaluations = std::ssize(model.points_m);
-  layers.sigma_px = sigma_px_of(scene, placed.distance_m());
-  if (scene.compositing.method == MethodChoice::direct && moment.exposure_s > 0) {
+  const bool is_direct = scene.compositing.method == MethodChoice::direct;
+  layers.formation.blur_px = sigma_px_of(scene, placed.distance_m());
+  if (is_direct) layers.formation.visibility_m = scene.appearance.haze.visibility_m;
+  if (is_direct && moment.exposure_s > 0) {
     const glm::dvec2 motion_px = motion_during_exposure(scene, moment, placed, camera.lens);
     layers.motion = motion_kernel(motion_px);
     layers.motion_xy_px = motion_px;
-    if (!layers.motion.shifts.empty()) layers.motion_px = std::min(glm::length(motion_px), kMaxMotion_px);
+    if (!layers.motion.shifts.empty())
+      layers.formation.motion_blur_px = std::min(glm::length(motion_px), kMaxMotion_px);
     if (!camera.lens.is_pinhole()) layers.op_counts.lens_evaluations += 2;
   }
-  const double blur_px = margin_px(layers.sigma_px) + layers.motion.margin_px.width;
+  const double blur_px = margin_px(layers.formation.blur_px) + layers.motion.margin_px.width;
   layers.window =
       window_of(layers.silhouette, margin_across_px(layers, blur_px, camera.lens), camera.lens, scene.footage.size_px);
   return layers;
@@ -302,7 +305,7 @@ RenderPlan render_plan_for(const IntruderLayers& layers, LensTable& lens, const 
                   .time_s = moment.time_s,
                   .exposure_s = moment.exposure_s};
   const std::optional<Box> bounds = bounds_of(layers, mesh.radius_m);
-  const int blur_px = margin_px(layers.sigma_px);
+  const int blur_px = margin_px(layers.formation.blur_px);
   plan.warp_rect = warp_rect_of(bounds, blur_px, layers.motion.margin_px, layers, lens.camera().lens);
   const bool is_within = bounds && pixels_touched(*bounds, 1, kUnboundedRect) == plan.warp_rect;
   // A body that lies within needs no clipping.

@@ -44,9 +44,8 @@ struct IntruderLayers {
   std::optional<Silhouette> silhouette;  // of the model's points through the lens
   std::optional<Silhouette> body;      // the same without rotors; only where those do not count and the model has some
   cv::Rect window;                     // the image or, of a 360 degree one, as many columns around the intruder
-  double sigma_px = 0;                 // of the blur: the lens' own, and that at this distance
+  ImageFormation formation;            // as labels tell it; blur_px: the lens' own blur, and that at this distance
   MotionKernel motion;                 // in the image, during the exposure; empty: none
-  double motion_px = 0;                // its length; 0: none
   glm::dvec2 motion_xy_px{0, 0};       // the same before it is shortened
   std::vector<RenderedView> views;     // empty where no part of it can be in the image
   std::vector<RenderedView> given_up;  // coarse views that tell too little; their memory serves the next frame's

@@ -165,7 +165,7 @@ ValidFrame valid_frame(const Scene& scene, int frame, const Frame& background) {
     for (const RenderedView& drawn : layers->views) check_valid(drawn.layer, brightest_of(scene));
     for (const Layer* layer : {&layers->warped, &layers->blurred, &layers->occluded})
       check_valid(*layer, brightest_of(scene));
-    CHECK(std::isfinite(layers->sigma_px));
+    CHECK(std::isfinite(layers->formation.blur_px));
     CHECK(std::isfinite(layers->whole_area_px));
     CHECK(layers->whole_area_px >= 0);
     valid.layers.push_back(std::move(*layers));

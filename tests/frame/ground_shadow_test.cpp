@@ -9,7 +9,7 @@
 
 #include "base/transfer.h"
 #include "compositor/blend.h"
-#include "frame/composite.h"
+#include "frame/look.h"
 #include "frame/synthetic_scenes.h"
 #include "scene/scene_at.h"
 

@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
 #include <map>
 #include <pugixml.hpp>
 #include <string>
@@ -57,29 +56,8 @@ std::vector<std::map<std::string, std::string>> table_of(const fs::path& path) {
   return table;
 }
 
-IntruderTruth full(int id) {
-  IntruderTruth truth = visible_intruder(id, {301, 0, 41, 13});
-  truth.position_m = {899.2345678, -250.1, -20.00000049};
-  truth.world_from_body = rotation_of({rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)});
-  truth.visible_fraction = 2.0 / 3;
-  truth.amodal_box = Box{300.62341, -1.8833333, 41.375, 13.02};
-  truth.detectability = Detectability{-0.4123456789, 0.447, 7.25};
-  truth.image_formation = {.blur_px = 0.45, .motion_blur_px = 1.5, .visibility_m = 20000};
-  truth.encounter = EncounterTruth{.range_rate_mps = -61.23456789,
-                                   .closing_speed_mps = 61.23456789,
-                                   .bearing_rad = rad_of_deg(-12.5),
-                                   .elevation_rad = rad_of_deg(0.3333333333),
-                                   .hmd_m = 12.0000004,
-                                   .vmd_m = -1e8,
-                                   .time_to_closest_approach_s = 1e15,
-                                   .time_to_coaltitude_s = std::numeric_limits<double>::infinity(),
-                                   .of_volumes = {{"dwc-en-route", true, 17.25, 42.123456789},
-                                                  {"nmac", false, std::numeric_limits<double>::infinity(), 0}}};
-  return truth;
-}
-
 FrameTruth full_frame() {
-  FrameTruth frame = frame_of(117, {full(0), invisible_intruder(1)});
+  FrameTruth frame = frame_of(117, {full_truth(0), invisible_intruder(1)});
   frame.camera_position_m = {39.123456789, -0.0, -150};
   frame.world_from_camera = rotation_of({rad_of_deg(1.5), rad_of_deg(-2.25), rad_of_deg(30)});
   return frame;

@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
@@ -24,32 +23,14 @@ namespace {
 
 using Values = std::map<std::string, std::string>;
 
+// Full truth, the second with what not every format has.
 IntruderTruth everything(int id, const std::string& name) {
-  IntruderTruth truth = visible_intruder(id, {301, 0, 41, 13});
+  IntruderTruth truth = full_truth(id);
   truth.name = name;
-  truth.position_m = {899.2345678, -250.1, -20.00000049};
-  truth.world_from_body = rotation_of({rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)});
-  truth.visible_fraction = 2.0 / 3;
-  truth.amodal_box = Box{300.62341, -1.8833333, 41.375, 13.02};
-  truth.horizon = HorizonSide::above;
-  truth.place = GeodeticPosition{48.123456789012, 11.5, 612.25};
-  truth.detectability = Detectability{-0.4123456789, 0.447, 7.25};
-  truth.image_formation = {.blur_px = 0.45, .motion_blur_px = 1.5, .visibility_m = 20000};
-  truth.is_distractor = id == 1;
-  truth.has_contrail = truth.has_shadow = truth.lights_alone = id == 1;
+  truth.is_distractor = truth.has_contrail = truth.has_shadow = truth.lights_alone = id == 1;
   if (id == 1) truth.clouds = CloudTruth{.hidden = 0.123456789, .assumed_distance_m = 1500};
   if (id == 1)
     truth.lights = {{"left", {20.12345678, 7}, 1, 0.25}, {"strobe left", {20.12345678, 7}, 0.3333333333, 12}};
-  truth.encounter = EncounterTruth{.range_rate_mps = -61.23456789,
-                                   .closing_speed_mps = 61.23456789,
-                                   .bearing_rad = rad_of_deg(-12.5),
-                                   .elevation_rad = rad_of_deg(0.3333333333),
-                                   .hmd_m = 12.0000004,
-                                   .vmd_m = -1e8,
-                                   .time_to_closest_approach_s = 1e15,
-                                   .time_to_coaltitude_s = std::numeric_limits<double>::infinity(),
-                                   .of_volumes = {{"dwc-en-route", true, 17.25, 42.123456789},
-                                                  {"nmac", false, std::numeric_limits<double>::infinity(), 0}}};
   return truth;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "labels/label_writing.h"
+#include "base/pose.h"
 #include "support/files.h"
 
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <fstream>
+#include <limits>
 
 namespace sigs::test::labels {
 
@@ -40,6 +42,29 @@ IntruderTruth visible_intruder(int id, const cv::Rect& box) {
           .amodal_box = Box{box.x - 0.5, box.y - 0.5, double(box.width), double(box.height)},
           .horizon = HorizonSide::above,
           .inside_fraction = 1};
+}
+
+IntruderTruth full_truth(int id) {
+  IntruderTruth truth = visible_intruder(id, {301, 0, 41, 13});
+  truth.position_m = {899.2345678, -250.1, -20.00000049};
+  truth.world_from_body = rotation_of({rad_of_deg(-3.123456789), rad_of_deg(0.4), rad_of_deg(-179.9999996)});
+  truth.visible_fraction = 2.0 / 3;
+  truth.amodal_box = Box{300.62341, -1.8833333, 41.375, 13.02};
+  truth.horizon = HorizonSide::above;
+  truth.place = GeodeticPosition{48.123456789012, 11.5, 612.25};
+  truth.detectability = Detectability{-0.4123456789, 0.447, 7.25};
+  truth.image_formation = {.blur_px = 0.45, .motion_blur_px = 1.5, .visibility_m = 20000};
+  truth.encounter = EncounterTruth{.range_rate_mps = -61.23456789,
+                                   .closing_speed_mps = 61.23456789,
+                                   .bearing_rad = rad_of_deg(-12.5),
+                                   .elevation_rad = rad_of_deg(0.3333333333),
+                                   .hmd_m = 12.0000004,
+                                   .vmd_m = -1e8,
+                                   .time_to_closest_approach_s = 1e15,
+                                   .time_to_coaltitude_s = std::numeric_limits<double>::infinity(),
+                                   .of_volumes = {{"dwc-en-route", true, 17.25, 42.123456789},
+                                                  {"nmac", false, std::numeric_limits<double>::infinity(), 0}}};
+  return truth;
 }
 
 IntruderTruth invisible_intruder(int id) {

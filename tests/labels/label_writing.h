@@ -16,6 +16,9 @@ namespace sigs::test::labels {
 // An intruder that is wholly visible in a box, 100 m ahead.
 [[nodiscard]] IntruderTruth visible_intruder(int id, const cv::Rect& box);
 
+// The same with a value of its own for each number that can be told of it; two volumes, "dwc-en-route" and "nmac".
+[[nodiscard]] IntruderTruth full_truth(int id);
+
 // One that is not visible.
 [[nodiscard]] IntruderTruth invisible_intruder(int id);
 

@@ -1,19 +1,44 @@
 // SPDX-License-Identifier: MIT
-#include "frame/composite.h"
+#include "frame/look.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "compositor/blend.h"
 #include "compositor/blur.h"
 #include "compositor/float_patch.h"
+#include "compositor/haze.h"
 #include "video/color_space.h"
 
 namespace sigs {
-
 namespace {
+
+// Linear light of the haze in front of what is in a box of the image. Where the footage around it is asked for, but the
+// box is far beyond the image or wholly over the own body, the colour of the settings.
+cv::Vec3d airlight_of(const Scene& scene, const cv::Rect& box, const Frame* background) {
+  const HazeSettings& haze = scene.appearance.haze;
+  const glm::dvec3& color = haze.airlight_color;
+  std::optional<cv::Vec3d> behind;
+  if (haze.airlight == AirlightChoice::behind && background != nullptr)
+    behind = airlight_around(*background, box, scene.own_body);
+  return behind.value_or(cv::Vec3d(color.x, color.y, color.z));
+}
+
+// The saturation and the black are the camera's, which the airlight has already as the footage shows it: so they come
+// before haze.
+//   through_haze  of a layer in tone, a visibility and an airlight
+template <typename ThroughHaze>
+Layer with_look(const Scene& scene, const Layer& layer, const cv::Rect& box, const Frame* background,
+                ThroughHaze through_haze) {
+  if (scene.compositing.method != MethodChoice::direct) return layer;
+  const AppearanceSettings& look = scene.appearance;
+  Layer in_tone = toned(layer, look.saturation, look.black);
+  if (!look.haze.visibility_m) return in_tone;
+  return through_haze(in_tone, *look.haze.visibility_m, airlight_of(scene, box, background));
+}
 
 std::int64_t samples_of(const FloatPatch& patch, int first_plane, int end_plane) {
   std::int64_t count = 0;
@@ -129,6 +154,27 @@ double halo_of(const Scene& scene) {
 }
 
 }  // namespace
+
+double light_through_haze(const Scene& scene, double distance_m) {
+  const std::optional<double>& visibility_m = scene.appearance.haze.visibility_m;
+  return visibility_m ? haze_transmission(distance_m, *visibility_m) : 1;
+}
+
+Layer in_footage_look(const Scene& scene, const Layer& layer, double distance_m, const cv::Rect& box,
+                      const Frame* background) {
+  return with_look(scene, layer, box, background,
+                   [&](const Layer& in_tone, double visibility_m, const cv::Vec3d& airlight) {
+                     return hazed(in_tone, haze_transmission(distance_m, visibility_m), airlight);
+                   });
+}
+
+Layer in_footage_look(const Scene& scene, const Layer& layer, const cv::Mat& distance_m, const cv::Rect& box,
+                      const Frame* background) {
+  return with_look(scene, layer, box, background,
+                   [&](const Layer& in_tone, double visibility_m, const cv::Vec3d& airlight) {
+                     return hazed(in_tone, distance_m, visibility_m, airlight);
+                   });
+}
 
 int post_blend_stages_margin_px(const Scene& scene, PixelLayout layout, int max_halo_px) {
   const AppearanceSettings& appearance = scene.appearance;
