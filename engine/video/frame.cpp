@@ -2,6 +2,9 @@
 #include "video/frame.h"
 
 #include <algorithm>
+#include <array>
+#include <opencv2/core/hal/intrin.hpp>
+#include <type_traits>
 #include <vector>
 
 #include "base/ensure.h"
@@ -167,33 +170,63 @@ cv::Mat bgr_of_rgb(const Frame& frame) {
   return bgr;
 }
 
-template <class Out>
-Out converted(const cv::Matx33f& m, int row, float y, float u, float v) {
-  return code_of<Out>(m(row, 0) * y + m(row, 1) * u + m(row, 2) * v, kWhite<Out>);
+// Rows of blue, green and red, not rounded, in loops that compilers turn into vector instructions.
+template <class In>
+void convert_row(const In* luma, const float* cb, const float* cr, int width, const CodeToRgb& map,
+                 const cv::Matx33f& to_rgb, std::array<std::vector<float>, 3>& bgr) {
+  const cv::Vec3f offset = map.offset;
+  for (int c = 0; c < 3; ++c) {
+    const float of_y = to_rgb(2 - c, 0), of_u = to_rgb(2 - c, 1), of_v = to_rgb(2 - c, 2);
+    bgr[static_cast<std::size_t>(c)].resize(static_cast<std::size_t>(width));
+    float* const to = bgr[static_cast<std::size_t>(c)].data();
+    for (int x = 0; x < width; ++x)
+      to[x] =
+          of_y * (static_cast<float>(luma[x]) - offset[0]) + of_u * (cb[x] - offset[1]) + of_v * (cr[x] - offset[2]);
+  }
 }
 
-template <class In, class Out>
-void convert_row(const In* luma, const float* cb, const float* cr, int width, const CodeToRgb& map, Out* bgr) {
-  const cv::Matx33f m = map.to_rgb * kWhite<Out>;
-  for (int x = 0; x < width; ++x) {
-    const float y = static_cast<float>(luma[x]) - map.offset[0];
-    const float u = cb[x] - map.offset[1];
-    const float v = cr[x] - map.offset[2];
-    for (int c = 0; c < 3; ++c) bgr[3 * x + c] = converted<Out>(m, 2 - c, y, u, v);
+// code_of() of as many values as a vector has: packing clamps them.
+cv::v_int32x4 rounded_at(const float* values) {
+  return cv::v_trunc(cv::v_load(values) + cv::v_setall_f32(0.5F));
+}
+
+void codes_at(const float* values, cv::v_uint16x8& codes) {
+  codes = cv::v_pack_u(rounded_at(values), rounded_at(values + 4));
+}
+
+void codes_at(const float* values, cv::v_uint8x16& codes) {
+  codes = cv::v_pack_u(cv::v_pack(rounded_at(values), rounded_at(values + 4)),
+                       cv::v_pack(rounded_at(values + 8), rounded_at(values + 12)));
+}
+
+template <class Out>
+void write_row(const std::array<std::vector<float>, 3>& bgr, int width, Out* to) {
+  using Codes = std::conditional_t<sizeof(Out) == 1, cv::v_uint8x16, cv::v_uint16x8>;
+  int x = 0;
+  for (; x + Codes::nlanes <= width; x += Codes::nlanes) {
+    std::array<Codes, 3> codes;
+    for (std::size_t c = 0; c < 3; ++c) codes_at(bgr[c].data() + x, codes[c]);
+    cv::v_store_interleave(to + 3 * x, codes[0], codes[1], codes[2]);
   }
+  for (; x < width; ++x)
+    for (std::size_t c = 0; c < 3; ++c)
+      to[3 * x + static_cast<int>(c)] = code_of<Out>(bgr[c][static_cast<std::size_t>(x)], kWhite<Out>);
 }
 
 template <class In, class Out>
 cv::Mat bgr_of_ycbcr(const Frame& frame) {
   const CodeToRgb map = code_to_rgb(frame.layout, frame.color, frame.bit_depth);
+  const cv::Matx33f to_rgb = map.to_rgb * kWhite<Out>;
   const ChromaReader<In> chroma(frame);
   cv::Mat bgr(frame.size_px(), kBgrType<Out>);
   cv::parallel_for_({0, bgr.rows}, [&](const cv::Range& rows) {
     std::vector<float> samples, cb, cr;
+    std::array<std::vector<float>, 3> values;
     for (int y = rows.start; y < rows.end; ++y) {
       chroma.read(frame.planes[1], y, samples, cb);
       chroma.read(frame.planes[2], y, samples, cr);
-      convert_row(frame.planes[0].ptr<In>(y), cb.data(), cr.data(), bgr.cols, map, bgr.ptr<Out>(y));
+      convert_row(frame.planes[0].ptr<In>(y), cb.data(), cr.data(), bgr.cols, map, to_rgb, values);
+      write_row(values, bgr.cols, bgr.ptr<Out>(y));
     }
   });
   return bgr;
