@@ -4,7 +4,7 @@
 # go to the image of the last place; with the whole frame in sight, and at 1:1. Then images a second while the clip is
 # played (25 Hz, H.264), and the time from the program's start to the first image; images a second while the playhead is
 # pulled over 400 frames of an all-intra clip, once from end to end at 100 moves a second, beside those that FFmpeg decodes
-# of it. Medians of interleaved runs of all builds. Needs Xvfb, xdotool and ffmpeg, no display.
+# of it, and how often a strip of the image changes on the screen meanwhile. Medians of interleaved runs of all builds. Needs Xvfb, xdotool and ffmpeg, no display.
 #   bench/editor_drag.sh [--rounds N] [--size WIDTHxHEIGHT] [--seconds S] [BUILD...]   default: 3, 3840x2160, 4, build/release
 # --images FOLDER leaves screenshots of both views, in the drag and after it, there. --first: all that runs here goes
 # before other work of the machine (root), each thread by as much as the others; the rates are then those of a machine
@@ -105,9 +105,22 @@ drag() {
   screenshot "$2-settled"
 }
 
-# scrub BUILD: appends the images shown a second, from the first move to the last one's image.
+# How often the picture of a strip of the screen changes, until watched() asks: by a second program, so that images that the
+# editor made and did not show do not count.
+watch() { # X Y
+  ffmpeg -v error -f x11grab -draw_mouse 0 -framerate 100 -video_size 160x16 -i "$DISPLAY+$1,$2" -t 60 -fps_mode passthrough \
+    -f framemd5 - 2>/dev/null >"$work/strip" &
+  watcher=$!
+}
+watched() { # sets seen
+  kill "$watcher" 2>/dev/null || true
+  wait "$watcher" 2>/dev/null || true
+  seen=$(awk '!/^#/ && length($NF) == 32 { changes += $NF != last; last = $NF } END { print (changes > 0 ? changes - 1 : 0) }' "$work/strip")
+}
+
+# scrub BUILD: appends the images shown a second, from the first move to the last one's image, and those on the screen.
 scrub() {
-  local x y width images_before start
+  local x y width images_before start image_x image_y ms images
   rm -f "$probe"
   "$1/sigs-editor" --probe "$probe" "$work/intra.json" >"$work/log" 2>&1 &
   editor=$!
@@ -119,13 +132,18 @@ scrub() {
   sleep 0.3
   xdotool mousedown 1
   sleep 0.5
+  # Where nothing is drawn over the image.
+  read -r image_x image_y < <(box viewport/image | awk '{ print int($1 + $3 / 10), int($2 + 0.8 * $4) }')
+  watch "$image_x" "$image_y"
   start=$(now_ms) images_before=$(value composites)
   xdotool $(awk -v x="$x" -v y="$y" -v width="$width" 'BEGIN { for (i = 1; i <= 400; ++i)
     printf "mousemove %d %d sleep 0.01 ", x + width * i / 400, y }')
   xdotool mouseup 1
   wait_for '"current":true'
-  awk -v images="$(($(value composites) - images_before))" -v ms="$(($(now_ms) - start))" 'BEGIN { printf "%.1f\n", 1000 * images / ms }' |
-    tee -a "$work/$(tr / _ <<<"$1").scrubbed" | sed "s|^|$1 scrubbed, images/s: |" >&2
+  ms=$(($(now_ms) - start)) images=$(($(value composites) - images_before))
+  watched
+  awk -v images="$images" -v ms="$ms" -v seen="$seen" 'BEGIN { printf "%.1f %.1f\n", 1000 * images / ms, 1000 * seen / ms }' |
+    tee -a "$work/$(tr / _ <<<"$1").scrubbed" | sed "s|^|$1 scrubbed, images/s, of them on the screen: |" >&2
   kill "$editor"
   wait "$editor" 2>/dev/null || true
 }
@@ -182,7 +200,7 @@ for build in "${builds[@]}"; do
   done
   file=$work/$(tr / _ <<<"$build")
   echo "| $build | played | $(median 1 "$file.played") | | | | | first image after $(median 1 "$file.first") ms |"
-  echo "| $build | scrubbed | $(median 1 "$file.scrubbed") | | | | | |"
+  echo "| $build | scrubbed | $(median 1 "$file.scrubbed") | | | | | on the screen: $(median 2 "$file.scrubbed") |"
 done
 decoded=$({ TIMEFORMAT=%R; time ffmpeg -v error -i "$work/intra.mp4" -f null - ; } 2>&1)
 echo "FFmpeg decodes $(awk -v s="$decoded" 'BEGIN { printf "%.1f", 400 / s }') images of the all-intra clip a second"

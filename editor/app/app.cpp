@@ -337,7 +337,7 @@ void App::update(double now_s, bool something_happened) {
   light_.follow(document_);
   window_.begin(settings_);
   draw(shown, rig);
-  window_.end();
+  window_.end(layout_.images_at());
   textures_.end_update(PreviewLimits().texture_bytes());
   preview_.set_texture_bytes(textures_.bytes());
   probe_writer_.write(document_, shown, ui_probe_,

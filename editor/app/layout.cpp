@@ -77,6 +77,8 @@ void Layout::draw_images(const ViewContext& context, OwnBodySession& own_body, S
   const bool show_world = settings.show_world && !shows_own_body_;
   const float world = show_world ? static_cast<float>((room.x - bar) * settings.world_share) : 0;
   const float left = show_world ? room.x - bar - world : room.x;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  images_at_ = {corner.x + left / 2, corner.y + room.y / 2};
   panel("images", {left, room.y}, false, color::kCanvas, [&] { draw_tabs(context, own_body); });
   if (!show_world) return;
   ImGui::SameLine(0, 0);

@@ -22,6 +22,8 @@ class Layout {
  public:
   // Fills the current ImGui window, which is the window below the menu bar. Settings change where a line is dragged.
   void draw(const ViewContext& context, OwnBodySession& own_body, Settings& settings);
+  // The middle of the images' panel on the screen, as it was drawn last.
+  [[nodiscard]] ImVec2 images_at() const { return images_at_; }
   // Height of the timeline in screen pixels where the panels have room_px of height in all: what the settings want, as
   // far as the images above keep some room.
   [[nodiscard]] static float timeline_height_px(const Settings& settings, float room_px);
@@ -63,6 +65,7 @@ class Layout {
   bool wants_own_body_ = false;
   bool wants_footage_ = false;
   bool shows_own_body_ = false;  // the own-body view was in front in the last update
+  ImVec2 images_at_{0, 0};
 };
 
 }  // namespace sigs::editor

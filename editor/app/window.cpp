@@ -217,23 +217,25 @@ void Window::begin(const Settings& settings) {
   ImGui::NewFrame();
 }
 
-// While a mouse button is held, the panel that it works on comes first: the others follow at a rate at which numbers
-// can still be read. With OpenGL in software all of them together would leave a drag a dozen updates a second.
-std::optional<ImVec2> Window::place_drawn_first(State& state) {
+// While a mouse button is held, the panel that it works on and the image come first: the others follow at a rate at
+// which numbers can still be read. With OpenGL in software all of them together would leave a drag a dozen updates a
+// second.
+std::vector<ImVec2> Window::places_drawn_first(State& state, const ImVec2& image_at) {
   constexpr double kOthersInterval_s = 0.15;
   const double now_s = glfwGetTime();
-  if (ImGui::IsAnyMouseDown() && now_s - state.all_drawn_s < kOthersInterval_s) return ImGui::GetIO().MousePos;
+  if (ImGui::IsAnyMouseDown() && now_s - state.all_drawn_s < kOthersInterval_s)
+    return {ImGui::GetIO().MousePos, image_at};
   state.all_drawn_s = now_s;
-  return std::nullopt;
+  return {};
 }
 
-void Window::end() {
+void Window::end(const ImVec2& image_at) {
   ImGui::Render();
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(state_->window, &width, &height);
   if (std::exchange(state_->incoming.needs_all, false)) state_->canvas->forget();
-  if (state_->canvas->draw(*ImGui::GetDrawData(), width, height, place_drawn_first(*state_)))
+  if (state_->canvas->draw(*ImGui::GetDrawData(), width, height, places_drawn_first(*state_, image_at)))
     glfwSwapBuffers(state_->window);
 }
 

@@ -110,9 +110,11 @@ class Window {
   static void wake();  // ends a wait(); may be called from any thread
 
   // All ImGui calls of an update lie between these two. The font's size follows the settings and the screen's scale;
-  // end() draws the regions of the window that look different from the update before.
+  // end() draws the regions of the window that look different from the update before. While a mouse button is held,
+  // panels that lie neither under the mouse nor at `image_at` may wait.
+  //   image_at  a place on the screen of the image that edits are made for
   void begin(const Settings& settings);
-  void end();
+  void end(const ImVec2& image_at);
 
   // Whether the person asked to close the window; refuse_to_close() takes the request back.
   [[nodiscard]] bool wants_to_close() const;
@@ -134,8 +136,8 @@ class Window {
  private:
   struct State;
   explicit Window(std::unique_ptr<State> state);
-  // The place whose panel is drawn in this update though others have to wait; none: all are drawn.
-  [[nodiscard]] static std::optional<ImVec2> place_drawn_first(State& state);
+  // The places whose panels are drawn in this update though others have to wait; none: all are drawn.
+  [[nodiscard]] static std::vector<ImVec2> places_drawn_first(State& state, const ImVec2& image_at);
   std::unique_ptr<State> state_;
 };
 

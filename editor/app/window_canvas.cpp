@@ -220,22 +220,24 @@ std::vector<ImVec4> ChangedRegions::changed(const Panel& before, const Panel& af
   return regions;
 }
 
-bool ChangedRegions::lies_at(const Panel& panel, const ImVec2& place) {
-  return std::ranges::any_of(panel.pieces, [&](const Piece& piece) {
-    return std::ranges::any_of(piece.triangles, [&](const Triangle& triangle) {
-      const ImVec4& bounds = triangle.bounds;
+bool ChangedRegions::lies_at(const Panel& panel, std::span<const ImVec2> places) {
+  const auto has_place = [&](const Triangle& triangle) {
+    const ImVec4& bounds = triangle.bounds;
+    return std::ranges::any_of(places, [&](const ImVec2& place) {
       return place.x >= bounds.x && place.x < bounds.z && place.y >= bounds.y && place.y < bounds.w;
     });
-  });
+  };
+  return std::ranges::any_of(panel.pieces,
+                             [&](const Piece& piece) { return std::ranges::any_of(piece.triangles, has_place); });
 }
 
-std::vector<ImVec4> ChangedRegions::changes(std::vector<Panel>& panels, const std::optional<ImVec2>& first) {
+std::vector<ImVec4> ChangedRegions::changes(std::vector<Panel>& panels, std::span<const ImVec2> first) {
   std::vector<ImVec4> regions;
   std::vector<std::pair<std::size_t, std::vector<ImVec4>>> others;  // by the panel's index
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const std::vector<ImVec4> places = changed(panels_[i], panels[i]);
     if (places.empty()) continue;
-    if (!first || lies_at(panels[i], *first))
+    if (first.empty() || lies_at(panels[i], first))
       regions.insert(regions.end(), places.begin(), places.end());
     else
       others.emplace_back(i, places);
@@ -254,7 +256,7 @@ std::vector<ImVec4> ChangedRegions::changes(std::vector<Panel>& panels, const st
   return regions;
 }
 
-std::vector<ImVec4> ChangedRegions::of(const ImDrawData& data, const std::optional<ImVec2>& first) {
+std::vector<ImVec4> ChangedRegions::of(const ImDrawData& data, std::span<const ImVec2> first) {
   const ImVec4 whole{0, 0, data.DisplaySize.x, data.DisplaySize.y};
   std::vector<Panel> panels;
   for (int i = 0; i < data.CmdListsCount; ++i) panels.push_back(panel_of(*data.CmdLists[i]));
@@ -311,7 +313,7 @@ void Canvas::draw_region(ImDrawData& data, const ImVec4& region) const {
   set_clips(data, [&](std::size_t number) { return clips[number]; });
 }
 
-bool Canvas::draw(ImDrawData& data, int width_px, int height_px, const std::optional<ImVec2>& first) {
+bool Canvas::draw(ImDrawData& data, int width_px, int height_px, std::span<const ImVec2> first) {
   if (width_px <= 0 || height_px <= 0) return false;
   if (width_px != width_px_ || height_px != height_px_) make(width_px, height_px);
   const std::vector<ImVec4> regions = changed_.of(data, first);

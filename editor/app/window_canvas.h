@@ -4,7 +4,7 @@
 #include <imgui.h>
 
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <vector>
 
 namespace sigs::editor {
@@ -16,9 +16,9 @@ class ChangedRegions {
  public:
   // Rectangles (left, top, right, bottom, in ImGui's coordinates) that together contain every pixel that may differ
   // from the data of the call before; none: nothing differs. At most three, which do not overlap.
-  //   first  a place in those coordinates, or none. Changes of the panels that lie elsewhere then wait, unless they
-  //          touch a rectangle that is returned: a later call returns them, at the latest one without a place.
-  [[nodiscard]] std::vector<ImVec4> of(const ImDrawData& data, const std::optional<ImVec2>& first = std::nullopt);
+  //   first  places in those coordinates, or none. Changes of the panels that lie elsewhere then wait, unless they
+  //          touch a rectangle that is returned: a later call returns them, at the latest one without places.
+  [[nodiscard]] std::vector<ImVec4> of(const ImDrawData& data, std::span<const ImVec2> first = {});
 
   // The next call returns the whole window.
   void forget() { panels_.clear(); }
@@ -46,9 +46,9 @@ class ChangedRegions {
   static void add_changes(const Piece& before, const Piece& after, std::vector<ImVec4>& regions);
   // Where a panel differs; none where it does not.
   [[nodiscard]] static std::vector<ImVec4> changed(const Panel& before, const Panel& after);
-  [[nodiscard]] static bool lies_at(const Panel& panel, const ImVec2& place);
+  [[nodiscard]] static bool lies_at(const Panel& panel, std::span<const ImVec2> places);
   // Those of all panels, as of() returns them. What waits is put back into `panels` as it was drawn last.
-  [[nodiscard]] std::vector<ImVec4> changes(std::vector<Panel>& panels, const std::optional<ImVec2>& first);
+  [[nodiscard]] std::vector<ImVec4> changes(std::vector<Panel>& panels, std::span<const ImVec2> first);
 
   // Of the call before, and the window's size then. Empty: the next call returns the whole window.
   std::vector<Panel> panels_;
@@ -74,7 +74,7 @@ class Canvas {
   // Size in pixels of the framebuffer; another one than before has everything drawn. False: nothing differs, or the
   // size is 0, and the window was not touched.
   //   first  as for ChangedRegions: what changes elsewhere may be drawn by a later call
-  bool draw(ImDrawData& data, int width_px, int height_px, const std::optional<ImVec2>& first = std::nullopt);
+  bool draw(ImDrawData& data, int width_px, int height_px, std::span<const ImVec2> first = {});
 
   // Has the next call draw everything (after other fonts, or when the window was hidden).
   void forget() { changed_.forget(); }
