@@ -216,6 +216,7 @@ Thumbnails::~Thumbnails() {
 
 std::shared_ptr<const cv::Mat> Thumbnails::of(const fs::path& file) {
   const std::lock_guard lock(mutex_);
+  if (rests_ && !images_.contains(file)) return nullptr;
   const auto [place, is_new] = images_.try_emplace(file);
   if (!is_new) return place->second;
   queue_.push_back(file);
@@ -225,8 +226,10 @@ std::shared_ptr<const cv::Mat> Thumbnails::of(const fs::path& file) {
   return nullptr;
 }
 
-void Thumbnails::drop_waiting() {
+void Thumbnails::rest(bool rests) {
   const std::lock_guard lock(mutex_);
+  rests_ = rests;
+  if (!rests) return;
   for (const fs::path& file : queue_) images_.erase(file);
   queue_.clear();
 }

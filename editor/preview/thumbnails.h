@@ -41,12 +41,13 @@ class Thumbnails {
   Thumbnails(const Thumbnails&) = delete;
   Thumbnails& operator=(const Thumbnails&) = delete;
 
-  // Asks for the image and returns at once. Null: not there yet, or there is none to be had.
+  // Asks for the image and returns at once. Null: not there yet, or there is none to be had; while it rests, nothing is
+  // asked for.
   [[nodiscard]] std::shared_ptr<const cv::Mat> of(const std::filesystem::path& file);
 
-  // Drops what waits to be made, as if it had never been asked for: while nothing shows the images, others need the
+  // While it rests, nothing more is made, and what waits is dropped as if it had never been asked for: others need the
   // processor.
-  void drop_waiting();
+  void rest(bool rests);
 
  private:
   void work();
@@ -59,6 +60,7 @@ class Thumbnails {
   std::deque<std::filesystem::path> queue_;
   // By file; null while it is made, and where it could not be.
   std::map<std::filesystem::path, std::shared_ptr<const cv::Mat>> images_;
+  bool rests_ = false;
   bool stop_ = false;
   std::thread thread_;  // started when the first image is asked for
 };

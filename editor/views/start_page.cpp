@@ -223,6 +223,7 @@ void StartPage::draw_recent(const ViewContext& context, float width) {
 StartPageChoice StartPage::draw(const ViewContext& context, const std::vector<AbandonedProject>& abandoned,
                                 const fs::path& loading) {
   look_for(context.settings.recent);
+  images_.rest(!loading.empty());
   StartPageChoice choice;
   const float room = ImGui::GetContentRegionAvail().x;
   const float width = std::min(room - scaled(48), scaled(940));

@@ -46,8 +46,8 @@ class StartPage {
   [[nodiscard]] StartPageChoice draw(const ViewContext& context, const std::vector<AbandonedProject>& abandoned,
                                      const std::filesystem::path& loading);
 
-  // While it is not shown: images that are not made yet wait until it is.
-  void rest() { images_.drop_waiting(); }
+  // While it is not shown: images that are not made yet wait until it is, as they do while a project is being read.
+  void rest() { images_.rest(true); }
 
  private:
   // A project of Settings::recent.

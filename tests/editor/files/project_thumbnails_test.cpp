@@ -57,7 +57,7 @@ TEST_CASE("images come later, once, and are kept") {
   CHECK(wakes == 1);
 }
 
-TEST_CASE("what waits is dropped and made when it is asked for again") {
+TEST_CASE("while images rest, what waits is dropped and nothing is asked for; then it is made when asked for again") {
   std::atomic<int> made = 0;
   std::atomic<bool> may_go_on = false;
   const auto make = [&](const std::filesystem::path&, cv::Size size_px, ComposeContext&) -> Result<cv::Mat> {
@@ -75,10 +75,13 @@ TEST_CASE("what waits is dropped and made when it is asked for again") {
   CHECK_FALSE(images.of("first"));
   REQUIRE(wait_for([&] { return made == 1; }));
   CHECK_FALSE(images.of("second"));
-  images.drop_waiting();
+  images.rest(true);
+  CHECK_FALSE(images.of("third"));
   may_go_on = true;
   REQUIRE(wait_for([&] { return wakes == 1; }));
   CHECK(images.of("first"));  // the one at work is finished and kept
+  CHECK_FALSE(images.of("second"));
+  images.rest(false);
   CHECK(made == 1);
   CHECK_FALSE(images.of("second"));
   REQUIRE(wait_for([&] { return wakes == 2; }));
