@@ -2,6 +2,7 @@
 #include "editor/preview/preview_state.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace sigs::editor {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kWakeInterval(250);  // how long the window may not hear of frames fetched ahead
 constexpr std::chrono::milliseconds kStillEditing(200);  // after an edit the next one is likely
+constexpr std::chrono::milliseconds kStillPulling(150);  // likewise after a jump of the playhead
 
 template <class T>
 std::size_t held_bytes(const std::shared_ptr<const T>& kept) {
@@ -121,6 +123,7 @@ void PreviewState::want(const PreviewRequest& wanted) {
   const std::lock_guard lock(mutex_);
   if (wanted_ == wanted) return;
   if (!wanted_ || wanted_->revision.number != wanted.revision.number) revised_ = Clock::now();
+  if (wanted_ && !wanted.playing && std::abs(wanted_->frame - wanted.frame) > 1) jumped_ = Clock::now();
   wanted_ = wanted;
   if (!wanted.footage) untouched_ = {};
   if (!wanted.stages) staged_ = {};
@@ -174,13 +177,18 @@ void PreviewState::stop() {
   notify_threads();
 }
 
+// While the playhead is pulled, what lies ahead of it would take the processor from the images on its way.
+bool PreviewState::is_time_for_more() const {
+  return !prefetch_paused_ && Clock::now() - jumped_ >= kStillPulling;
+}
+
 std::optional<FrameKey> PreviewState::next_to_decode() const {
   const bool is_there = footage_.id != ContentId() && footage_.id == footage_wanted_.id && opened_footage_->video;
   if (!wanted_ || !wanted_->image || !is_there) return std::nullopt;
   const int count = opened_footage_->video->frame_count();
   const FrameKey first{footage_.id, std::clamp(wanted_->frame, 0, count - 1)};
   if (!is_decoded(first)) return first;
-  if (prefetch_paused_) return std::nullopt;
+  if (!is_time_for_more()) return std::nullopt;
   const std::optional<FrameKey> shown = wanted_key();
   for (const int frame : prefetch_order(*wanted_, count, limits_.ahead)) {
     const FrameKey key{footage_.id, frame};
@@ -212,7 +220,10 @@ std::optional<DecodeTask> PreviewState::next_decoding() {
       notify_threads();
     }
     if (task.decode) return task;
-    changed_.wait(lock);
+    if (prefetch_paused_ || is_time_for_more())
+      changed_.wait(lock);
+    else
+      changed_.wait_for(lock, kStillPulling);
   }
   return std::nullopt;
 }
@@ -247,7 +258,7 @@ std::optional<PreviewSnapshot> PreviewState::snapshot() {
   snapshot->wanted = wanted_;
   snapshot->footage = footage_;
   snapshot->opened_footage = opened_footage_;
-  snapshot->ahead = !prefetch_paused_ && Clock::now() - revised_ >= kStillEditing;
+  snapshot->ahead = is_time_for_more() && Clock::now() - revised_ >= kStillEditing;
   if (last_decoded_.value) snapshot->fresh = last_decoded_.key;
   return snapshot;
 }

@@ -149,6 +149,8 @@ class PreviewState {
   [[nodiscard]] std::shared_ptr<const PreviewImage> found(FrameKey key) const;
   [[nodiscard]] bool is_decoded(FrameKey key) const;
   [[nodiscard]] std::optional<FrameKey> next_to_decode() const;
+  // Whether frames are decoded and composited ahead of the playhead.
+  [[nodiscard]] bool is_time_for_more() const;
   // Tells the caches where the playhead is, and shows the wanted image where a cache holds it.
   void follow_playhead();
   [[nodiscard]] std::size_t shown_bytes(bool also_cached) const;
@@ -167,6 +169,7 @@ class PreviewState {
 
   std::optional<PreviewRequest> wanted_;
   Clock::time_point revised_{};  // when another revision was wanted than before
+  Clock::time_point jumped_{};   // when another frame was wanted than the one before or after, while nothing played
   ContentId input_files_;        // the files of the wanted revision as they were looked at last (set_input_files)
 
   // The footage that the wanted revision names, the last that was given out to be opened, and the one that is open.

@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 using namespace sigs;
@@ -102,6 +104,32 @@ TEST_CASE("a change that touches no image keeps the image that is shown, and fil
   CHECK_FALSE(fixture.shows_at_once(document.revision()));
   fixture.preview_state.set_input_files(kInputFiles, {.id = {.low = 6}});
   CHECK(fixture.shows_at_once(document.revision()));
+}
+
+TEST_CASE("while the playhead is pulled nothing is made ahead of it; while it steps or plays, and soon after, it is") {
+  PreviewStateFixture fixture(std::size_t{1} << 16);
+  Document document;
+  PreviewState& state = fixture.preview_state;
+  const auto want = [&](int frame, bool playing) {
+    state.want({.revision = document.revision(), .frame = frame, .playing = playing});
+    return state.snapshot()->ahead;
+  };
+  const auto comes_to_rest = [&] {
+    for (int i = 0; i < 500 && !state.snapshot()->ahead; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return state.snapshot()->ahead;
+  };
+  (void)want(0, false);
+  REQUIRE(comes_to_rest());
+  CHECK(want(1, false));
+  CHECK(want(0, false));
+  CHECK(want(7, true));
+  CHECK(want(300, true));
+  // One of many: should this thread have to wait long between two lines, the pull is over.
+  bool made_ahead = true;
+  for (int i = 0; i < 50 && made_ahead; ++i) made_ahead = want(10 * i, false);
+  CHECK_FALSE(made_ahead);
+  CHECK(comes_to_rest());
 }
 
 TEST_CASE(
