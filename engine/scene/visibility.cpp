@@ -92,7 +92,9 @@ VisibilityState state_of(const std::vector<glm::dvec2>& images, cv::Size size_px
 // Visibilities by so many frames, spread evenly over the range with first and last.
 std::vector<Visibility> sampled_visibilities(const VisibilityEstimator& estimator, const Scene& scene, int frames) {
   const int length = scene.last_frame - scene.first_frame;
-  std::vector<Visibility> visibilities(scene.intruders.size(), Visibility{.frames = length + 1, .is_estimate = true});
+  const bool has_attitude = scene.horizon_is_known || !scene.motion.source.attitude.empty();
+  std::vector<Visibility> visibilities(scene.intruders.size(),
+                                       {.frames = length + 1, .is_estimate = true, .has_attitude = has_attitude});
   for (int i = 0; i < frames; ++i) {
     const double share = frames > 1 ? double(i) / (frames - 1) : 0;
     const int frame = scene.first_frame + static_cast<int>(std::lround(share * length));
@@ -199,8 +201,8 @@ std::optional<Problem> never_visible(const Visibility& visibility, const std::st
   add_reason(visibility.behind_camera, "behind the camera");
   add_reason(outside, "outside the image");
   add_reason(visibility.occluded, "behind the own body");
-  const char* const axes = visibility.behind_camera + outside > 0
-                               ? "; the camera looks along world X where it has no attitude, Y is to its right, Z down"
+  const char* const axes = visibility.behind_camera + outside > 0 && !visibility.has_attitude
+                               ? "; the camera looks along world X, Y is to its right, Z down"
                                : "";
   return Problem{key_of_intruder(intruder) + ".trajectory",
                  fmt::format("\"{}\" is {} ({}){}", name, text_of(visibility), reasons, axes)};

@@ -23,6 +23,7 @@ struct Visibility {
   double smallest_px = 0;  // where it is visible: longer side of the whole silhouette's box, not cut off by the image
   double largest_px = 0;
   bool is_estimate = false;
+  bool has_attitude = true;  // false: none is known of the camera, which therefore looks along world X
 
   // Counts one more frame in which it is visible. size_px: longer side of the silhouette's box; <= 0: not known.
   void count_visible(double size_px);

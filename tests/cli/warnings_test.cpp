@@ -97,7 +97,11 @@ VisibilityLine visibility_in(const std::string& text) {
 TEST_CASE("an intruder that is behind the camera for the whole clip is named") {
   TinyProject tiny;
   put_at(tiny, "[-20, -3, -150]", "[-20, 3, -150]");
-  check_warned(tiny, "intruders[0].trajectory", {"cube", "never visible", "behind the camera in 10"});
+  check_warned(tiny, "intruders[0].trajectory",
+               {"cube", "never visible", "behind the camera in 10", "the camera looks along world X"});
+  const Run level = run_sigs("check " + tiny.project() + " --set camera.attitude_deg.pitch=-5");
+  CHECK(has(level.err, "behind the camera in 10"));
+  CHECK_FALSE(has(level.err, "world X"));
 }
 
 TEST_CASE("an intruder that is never in the image, and one behind a mask, are named with the reason") {
