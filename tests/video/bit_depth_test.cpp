@@ -177,15 +177,18 @@ TEST_CASE("black, white and neutral have the codes that H.273 gives for the dept
 }
 
 TEST_CASE("a deep image as BGR is that of its samples, in 8 bits and in 16") {
-  for (const PixelLayout layout : kLayouts) {
-    const Frame frame = test_frame(layout, {64, 32}, 3, {}, 12);
-    cv::Mat fine;
-    bgr16_of(frame).convertTo(fine, CV_64F, 255.0 / 65535);
-    cv::Mat coarse;
-    bgr_of(frame).convertTo(coarse, CV_64F);
-    // Both are roundings of the same value; RGB is rounded from its codes, not by way of 16 bits.
-    CHECK(cv::norm(fine, coarse, cv::NORM_INF) <= 0.5 + 255.0 / 65535);
-  }
+  for (const PixelLayout layout : kLayouts)
+    for (const cv::Size size : {cv::Size(64, 32), cv::Size(37, 5)}) {
+      Frame frame = test_frame(layout, size, 3, {}, 12);
+      for (int i = 0; i < frame.plane_count(); ++i)  // every code value, far outside the range of images
+        cv::randu(frame.planes[static_cast<std::size_t>(i)], 0, 1 << 12);
+      cv::Mat fine;
+      bgr16_of(frame).convertTo(fine, CV_64F, 255.0 / 65535);
+      cv::Mat coarse;
+      bgr_of(frame).convertTo(coarse, CV_64F);
+      // Both are roundings of the same value; RGB is rounded from its codes, not by way of 16 bits.
+      CHECK(cv::norm(fine, coarse, cv::NORM_INF) <= 0.5 + 255.0 / 65535);
+    }
 }
 
 TEST_CASE("FFV1 gives back every sample of 9 to 16 bits, to the ffmpeg program as well") {
