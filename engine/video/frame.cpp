@@ -91,62 +91,6 @@ constexpr float kWhite = sizeof(Sample) == 1 ? 255.0F : 65535.0F;
 template <class Sample>
 constexpr int kBgrType = sizeof(Sample) == 1 ? CV_8UC3 : CV_16UC3;
 
-float between(float first, float second, float share) {
-  return first + share * (second - first);
-}
-
-// Chroma at every luma sample of a row, as code values: the interpolation of chroma_taps, in loops that compilers turn
-// into vector instructions.
-template <class Sample>
-class ChromaReader {
- public:
-  explicit ChromaReader(const Frame& frame)
-      : step_(chroma_step(frame.layout).width),
-        on_luma_(chroma_on_luma_column(frame.color.chroma_site)),
-        rows_(chroma_taps(frame.size_px().height, chroma_step(frame.layout).height,
-                          chroma_on_luma_row(frame.color.chroma_site))) {}
-
-  // Leaves at least as many values as the row has pixels.
-  void read(const cv::Mat& plane, int y, std::vector<float>& samples, std::vector<float>& out) const {
-    read_samples(plane, rows_[static_cast<size_t>(y)], samples);
-    const auto count = static_cast<size_t>(plane.cols);
-    const float* here = samples.data() + 1;
-    out.resize(count * static_cast<size_t>(step_));
-    float* const to = out.data();
-    if (step_ == 1) {
-      std::copy_n(here, count, to);
-    } else if (on_luma_) {
-      for (size_t x = 0; x < count; ++x) {
-        to[2 * x] = here[x];
-        to[2 * x + 1] = between(here[x], here[x + 1], 0.5F);
-      }
-    } else {
-      for (size_t x = 0; x < count; ++x) {
-        to[2 * x] = between(here[x - 1], here[x], 0.75F);
-        to[2 * x + 1] = between(here[x], here[x + 1], 0.25F);
-      }
-    }
-  }
-
- private:
-  // The chroma row between two of the plane's, its ends repeated once on either side.
-  static void read_samples(const cv::Mat& plane, const ChromaTap& row, std::vector<float>& samples) {
-    const Sample* first = plane.ptr<Sample>(row.first);
-    const Sample* second = plane.ptr<Sample>(row.second);
-    const auto count = static_cast<size_t>(plane.cols);
-    samples.resize(count + 2);
-    float* const to = samples.data() + 1;
-    for (size_t x = 0; x < count; ++x)
-      to[x] = static_cast<float>(first[x]) + row.share * static_cast<float>(second[x] - first[x]);
-    samples.front() = to[0];
-    samples.back() = to[count - 1];
-  }
-
-  int step_;
-  bool on_luma_;
-  std::vector<ChromaTap> rows_;
-};
-
 template <class In, class Out>
 cv::Mat bgr_of_gray(const Frame& frame) {
   const CodeToRgb map = code_to_rgb(frame.layout, frame.color, frame.bit_depth);

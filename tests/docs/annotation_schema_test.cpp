@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ IntruderTruth visible_intruder(int id) {
           .visible_pixels = 287,
           .amodal_box = Box{-1e6, 0.00004, 2e6, 0},
           .horizon = HorizonSide::on,
+          .place = GeodeticPosition{48.125, -11.5, 612.25},
+          .detectability = Detectability{-0.5, 0.75, 12},
+          .image_formation = {.blur_px = 0.45, .motion_blur_px = 2, .visibility_m = 20000},
           .encounter = EncounterTruth{.range_rate_mps = -61.5,
                                       .closing_speed_mps = 61.5,
                                       .bearing_rad = rad_of_deg(180),
@@ -62,7 +66,11 @@ IntruderTruth visible_intruder(int id) {
                                       .of_volumes = {{"dwc-en-route", true, 17.25, 100},
                                                      {"nmac", false, std::numeric_limits<double>::infinity(), 0}}},
           .has_contrail = true,
-          .lights = {{"strobe left", {20.25, 12.5}, 0.125, 3.5}, {"tail", {-0.5, 12}, 1, 0.01}}};
+          .has_shadow = true,
+          .lights = {{"strobe left", {20.25, 12.5}, 0.125, 3.5}, {"tail", {-0.5, 12}, 1, 0.01}},
+          .lights_alone = true,
+          .clouds = CloudTruth{.hidden = 0.25, .assumed_distance_m = 1500},
+          .is_distractor = true};
 }
 
 IntruderTruth invisible_intruder(int id) {
@@ -129,6 +137,9 @@ const std::vector<Change> kBroken{
     {"<light name=\"tail\"", "<light title=\"tail\""},
     {"share=\"0.125\"", "share=\"1.125\""},
     {"brightest=\"3.5\"", "brightest=\"-3.5\""},
+    {"rms_contrast=\"0.75\"", "rms_contrast=\"-0.75\""},
+    {"visibility_m=\"20000\"", "visibility_km=\"20\""},
+    {"hidden=\"0.25\"", "hidden=\"1.25\""},
     {"<well_clear ", "<well-clear "},
     {" range_rate_mps=\"-61.5\"", ""},
     {"range_rate_mps=\"-61.5\"", "range_rate_mps=\"-6.15e1\""},
@@ -156,6 +167,24 @@ TEST_CASE("the example on the annotation format's page is valid by the schema") 
   const std::vector<std::string> examples = blocks(page("annotation-format.md"), "xml");
   REQUIRE(!examples.empty());
   for (const std::string& example : examples) check_valid(example);
+}
+
+TEST_CASE("each attribute that is written is described, those of the appearance also for other formats and Python") {
+  const std::string text = written();
+  const auto check_described = [&](const std::string& names, const std::string& where, const std::string& described) {
+    const std::regex attribute(R"re(([a-z_]+)=")re");
+    int count = 0;
+    for (std::sregex_iterator it(names.begin(), names.end(), attribute), end; it != end; ++it, ++count)
+      CHECK_MESSAGE(std::regex_search(described, std::regex("\\b" + it->str(1) + "\\b")), it->str(1)
+                                                                                              << " in " << where);
+    return count;
+  };
+  CHECK(check_described(text.substr(text.find("<sigs")), "docs/annotation-format.md", page("annotation-format.md")) >
+        100);
+  const std::size_t begin = text.find("<appearance ");
+  const std::string appearance = text.substr(begin, text.find("/>", begin) - begin);
+  CHECK(check_described(appearance, "docs/label-formats.md", page("label-formats.md")) == 6);
+  CHECK(check_described(appearance, "python/sigs/truth.py", *read_text(source_dir() / "python/sigs/truth.py")) == 6);
 }
 
 // As sigs wrote it before annotations had sides of the horizon, contrasts and encounters.

@@ -99,6 +99,19 @@ TEST_CASE("the shadow of a plate is the quadrilateral that a pinhole sees, as da
   }
 }
 
+TEST_CASE("a shadow takes as much less as haze lets through") {
+  Scenario scenario(kGroundImage);
+  prepare_ground(scenario, 90);
+  const double distance_m = 150 * std::sqrt(2.0);  // of the ground that the camera's axis meets
+  const cv::Point middle(kGroundImage.width / 2, kGroundImage.height / 2);
+  for (const double visibility_m : {1e7, 600.0}) {
+    scenario.project.appearance.haze.visibility_m = visibility_m;
+    const cv::Mat taken = taken_light(scenario.opened(), even_ground(180), 180);
+    const double through = std::exp(-3 * distance_m / visibility_m);
+    CHECK(taken.at<double>(middle) == doctest::Approx(0.6 * through).epsilon(0.03));  // codes are whole
+  }
+}
+
 TEST_CASE("the sun's disc softens the shadow: from a height of 50 spans hardly anything of it is left") {
   Scenario scenario(kGroundImage);
   prepare_ground(scenario, 90);

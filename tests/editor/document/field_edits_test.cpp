@@ -22,9 +22,11 @@ Project with_intruders(std::size_t count, std::size_t waypoints = 2) {
   return project;
 }
 
-// Another value than the present one, within the range of any field of its type.
-PlainValue another(const PlainValue& value) {
-  if (const auto* const number = std::get_if<double>(&value)) return *number + 0.5;
+// Another value than the present one, within the field's range.
+PlainValue another(const Field& field) {
+  const PlainValue value = value_of(field);
+  if (const auto* const number = std::get_if<double>(&value))
+    return *number + 0.5 <= field.maximum ? *number + 0.5 : *number - 0.5;
   if (const auto* const number = std::get_if<int>(&value)) return *number < 16 ? *number + 1 : *number - 1;
   if (std::holds_alternative<std::optional<double>>(value)) return std::optional<double>(0.5);
   if (std::holds_alternative<std::optional<int>>(value)) return std::optional<int>(7);
@@ -52,7 +54,7 @@ TEST_CASE("a value put by its key is read back, and nothing else changes") {
     Project changed = project;
     PlainValue wanted;
     for (const Field& field : fields_of(changed))
-      if (field.key == key) wanted = another(value_of(field));
+      if (field.key == key) wanted = another(field);
     CHECK(put_value(changed, key, wanted));
     for (const Field& field : fields_of(changed)) {
       Project untouched = project;
@@ -116,7 +118,7 @@ TEST_CASE("a new project has nothing to reset, and each changed field has its de
   for (const Field& field : fresh.fields()) CHECK_MESSAGE(!fresh.can_be_reset(field), field.key);
 
   Project changed = with_intruders(2);
-  for (const Field& field : fresh.fields()) put_value(changed, field.key, another(value_of(field)));
+  for (const Field& field : fresh.fields()) put_value(changed, field.key, another(field));
   const FieldSheet sheet(changed);
   Project again = changed;
   for (const Field& field : sheet.fields()) {
