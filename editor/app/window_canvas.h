@@ -60,9 +60,8 @@ class ChangedRegions {
 [[nodiscard]] ImVec4 common_part(const ImVec4& a, const ImVec4& b);
 
 // The image of the window, kept in a framebuffer from update to update, upside down as windows have it: so a driver
-// that draws in software can copy it by rows. Mesa 22.3 draws it all the same, since it has windows in sRGB: 4 ms of a
-// processor. Changed regions are drawn into it, then it is copied to the window. Needs a current OpenGL context in
-// every call, the destructor included.
+// that draws in software can copy it by rows (Mesa 22.3 draws it all the same). Changed regions are drawn into it, then
+// it is copied to the window. Needs a current OpenGL context in every call, the destructor included.
 class Canvas {
  public:
   Canvas() = default;

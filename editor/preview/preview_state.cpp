@@ -213,6 +213,7 @@ std::optional<DecodeTask> PreviewState::next_decoding() {
       task.open = footage_wanted_;
       return task;
     }
+    const bool waits_for_time = !prefetch_paused_ && !is_time_for_more();  // before it is asked what to decode
     task.decode = next_to_decode();
     // That all is decoded is told too, by the renderer, as soon as it has nothing left to do itself.
     if (std::exchange(decoding_, task.decode.has_value()) && !decoding_) {
@@ -220,10 +221,10 @@ std::optional<DecodeTask> PreviewState::next_decoding() {
       notify_threads();
     }
     if (task.decode) return task;
-    if (prefetch_paused_ || is_time_for_more())
-      changed_.wait(lock);
-    else
+    if (waits_for_time)
       changed_.wait_for(lock, kStillPulling);
+    else
+      changed_.wait(lock);
   }
   return std::nullopt;
 }

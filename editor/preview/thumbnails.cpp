@@ -229,7 +229,7 @@ std::shared_ptr<const cv::Mat> Thumbnails::of(const fs::path& file) {
 void Thumbnails::rest(bool rests) {
   const std::lock_guard lock(mutex_);
   rests_ = rests;
-  if (!rests) return;
+  if (!rests_) return;
   for (const fs::path& file : queue_) images_.erase(file);
   queue_.clear();
 }
