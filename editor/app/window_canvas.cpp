@@ -3,6 +3,7 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
+#include <epoxy/glx.h>
 
 #include <algorithm>
 #include <array>
@@ -134,16 +135,18 @@ void set_clips(ImDrawData& data, Clip clip) {
     for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) command.ClipRect = clip(number++);
 }
 
-ImVec4 upside_down(const ImVec4& rect, float height) {
-  return {rect.x, height - rect.w, rect.z, height - rect.y};
+// Mesa's renderers on the processor, as they name themselves.
+bool is_drawn_by_processor() {
+  const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return name != nullptr && (std::strstr(name, "llvmpipe") != nullptr || std::strstr(name, "softpipe") != nullptr);
 }
 
-void turn_upside_down(ImDrawData& data) {
-  const float height = data.DisplaySize.y;
-  for (int i = 0; i < data.CmdListsCount; ++i) {
-    for (ImDrawVert& vertex : data.CmdLists[i]->VtxBuffer) vertex.pos.y = height - vertex.pos.y;
-    for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) command.ClipRect = upside_down(command.ClipRect, height);
-  }
+// Whether the window's back buffer keeps what was drawn while parts of it are copied to the screen: on X11, through
+// GLX. A graphics card draws the whole window in no time, and swapping waits for its screen.
+bool can_show_parts() {
+  if (!is_drawn_by_processor() || glXGetCurrentContext() == nullptr) return false;
+  Display* const display = glXGetCurrentDisplay();
+  return epoxy_has_glx_extension(display, DefaultScreen(display), "GLX_MESA_copy_sub_buffer");
 }
 
 }  // namespace
@@ -274,40 +277,25 @@ std::vector<ImVec4> ChangedRegions::of(const ImDrawData& data, std::span<const I
   return regions;
 }
 
-Canvas::~Canvas() {
-  glDeleteFramebuffers(1, &framebuffer_);
-  glDeleteTextures(1, &color_);
-}
-
-void Canvas::make(int width_px, int height_px) {
-  if (framebuffer_ == 0) {
-    glGenFramebuffers(1, &framebuffer_);
-    glGenTextures(1, &color_);
-  }
-  // The order of samples that windows have; a renderbuffer cannot ask for one.
-  glBindTexture(GL_TEXTURE_2D, color_);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width_px, height_px, 0, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, nullptr);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_, 0);
-  width_px_ = width_px;
-  height_px_ = height_px;
-  changed_.forget();
+Canvas::PixelRect Canvas::pixels_of(const ImVec4& region, const ImVec2& scale) const {
+  return {.x = static_cast<int>(region.x * scale.x),
+          .y = static_cast<int>(static_cast<float>(height_px_) - region.w * scale.y),
+          .width = static_cast<int>((region.z - region.x) * scale.x),
+          .height = static_cast<int>((region.w - region.y) * scale.y)};
 }
 
 void Canvas::draw_region(ImDrawData& data, const ImVec4& region) const {
-  const ImVec2 scale = data.FramebufferScale;
+  const PixelRect part = pixels_of(region, data.FramebufferScale);
   glEnable(GL_SCISSOR_TEST);
-  glScissor(static_cast<int>(region.x * scale.x), static_cast<int>(static_cast<float>(height_px_) - region.w * scale.y),
-            static_cast<int>((region.z - region.x) * scale.x), static_cast<int>((region.w - region.y) * scale.y));
+  glScissor(part.x, part.y, part.width, part.height);
   glClearColor(0.118F, 0.125F, 0.145F, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
   const std::vector<ImVec4> clips = clips_of(data);
   set_clips(data, [&](std::size_t number) {
-    const ImVec4 part = common_part(clips[number], region);
+    const ImVec4 clip = common_part(clips[number], region);
     // Upside down would be an error to OpenGL; of no size it is left out.
-    return part.z > part.x && part.w > part.y ? part : ImVec4(0, 0, 0, 0);
+    return clip.z > clip.x && clip.w > clip.y ? clip : ImVec4(0, 0, 0, 0);
   });
   ImGui_ImplOpenGL3_RenderDrawData(&data);
   set_clips(data, [&](std::size_t number) { return clips[number]; });
@@ -315,18 +303,23 @@ void Canvas::draw_region(ImDrawData& data, const ImVec4& region) const {
 
 bool Canvas::draw(ImDrawData& data, int width_px, int height_px, std::span<const ImVec2> first) {
   if (width_px <= 0 || height_px <= 0) return false;
-  if (width_px != width_px_ || height_px != height_px_) make(width_px, height_px);
-  const std::vector<ImVec4> regions = changed_.of(data, first);
+  if (width_px != width_px_ || height_px != height_px_) forget();
+  width_px_ = width_px;
+  height_px_ = height_px;
+  if (!shows_parts_) shows_parts_ = can_show_parts();
+  const std::vector<ImVec4> regions = changed_.of(data, *shows_parts_ ? first : std::span<const ImVec2>());
   if (regions.empty()) return false;
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, width_px, height_px);
-  turn_upside_down(data);
-  for (const ImVec4& region : regions) draw_region(data, upside_down(region, data.DisplaySize.y));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glBlitFramebuffer(0, 0, width_px, height_px, 0, height_px, width_px, 0, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  return true;
+  if (!*shows_parts_) {
+    draw_region(data, {0, 0, data.DisplaySize.x, data.DisplaySize.y});
+    return true;
+  }
+  for (const ImVec4& region : regions) draw_region(data, region);
+  for (const ImVec4& region : regions) {
+    const PixelRect part = pixels_of(region, data.FramebufferScale);
+    glXCopySubBufferMESA(glXGetCurrentDisplay(), glXGetCurrentDrawable(), part.x, part.y, part.width, part.height);
+  }
+  return false;
 }
 
 }  // namespace sigs::editor

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,20 +60,14 @@ class ChangedRegions {
 // its top.
 [[nodiscard]] ImVec4 common_part(const ImVec4& a, const ImVec4& b);
 
-// The image of the window, kept in a framebuffer from update to update, upside down as windows have it: so a driver
-// that draws in software can copy it by rows (Mesa 22.3 draws it all the same). Changed regions are drawn into it, then
-// it is copied to the window. Needs a current OpenGL context in every call, the destructor included.
+// The image of the window. Where OpenGL draws on the processor, regions that changed are drawn into the window's back
+// buffer, which keeps the rest, and only they are shown; a graphics card draws all of it. Needs the window's OpenGL
+// context in every call.
 class Canvas {
  public:
-  Canvas() = default;
-  ~Canvas();
-  Canvas(const Canvas&) = delete;
-  Canvas& operator=(const Canvas&) = delete;
-
-  // Draws the regions that differ from the update before and copies all to the window's back buffer; the caller swaps.
-  // Leaves the data upside down.
-  // Size in pixels of the framebuffer; another one than before has everything drawn. False: nothing differs, or the
-  // size is 0, and the window was not touched.
+  // Draws and shows what differs from the update before.
+  // Size in pixels of the window's framebuffer; another one than before has everything drawn. Returns whether the
+  // caller has to swap buffers: not where nothing differs, the size is 0, or what was drawn is shown already.
   //   first  as for ChangedRegions: what changes elsewhere may be drawn by a later call
   bool draw(ImDrawData& data, int width_px, int height_px, std::span<const ImVec2> first = {});
 
@@ -80,13 +75,18 @@ class Canvas {
   void forget() { changed_.forget(); }
 
  private:
-  void make(int width_px, int height_px);                          // makes the framebuffer anew in this size
-  void draw_region(ImDrawData& data, const ImVec4& region) const;  // both are upside down
+  // In the framebuffer's pixels, from below.
+  struct PixelRect {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+  };
+  [[nodiscard]] PixelRect pixels_of(const ImVec4& region, const ImVec2& scale) const;
+  void draw_region(ImDrawData& data, const ImVec4& region) const;
 
   ChangedRegions changed_;
-  // OpenGL's names of the framebuffer and its texture; 0: not made yet.
-  unsigned int framebuffer_ = 0;
-  unsigned int color_ = 0;
+  std::optional<bool> shows_parts_;  // none: not known yet
   int width_px_ = 0;
   int height_px_ = 0;
 };
