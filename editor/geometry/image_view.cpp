@@ -41,21 +41,6 @@ double kept_in_sight(double origin, double length, double low, double high, bool
   return std::clamp(whole ? std::round(origin) : origin, minimum, maximum);
 }
 
-// Whole blocks within the range, and what is left over at the image's end.
-cv::Range in_blocks(const cv::Range& range, int image_end, int block) {
-  const int start = (range.start + block - 1) / block * block;
-  return {start, range.end == image_end ? image_end : range.end / block * block};
-}
-
-cv::Range inner(const cv::Range& range, int image_end, int block) {
-  return {range.start == 0 ? 0 : range.start + block, range.end == image_end ? image_end : range.end - block};
-}
-
-cv::Rect rect_of(const cv::Range& x, const cv::Range& y) {
-  if (x.end <= x.start || y.end <= y.start) return {};
-  return {x.start, y.start, x.size(), y.size()};
-}
-
 constexpr double kTiePx = 1;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -121,31 +106,6 @@ ImageView panned(const ImageView& view, const glm::dvec2& by_px, const glm::dvec
   return {view.zoom,
           {kept_in_sight(origin.x, length.x, rect.low.x, rect.high.x, whole),
            kept_in_sight(origin.y, length.y, rect.low.y, rect.high.y, whole)}};
-}
-
-cv::Vec3b PatchedImage::bgr_at(const cv::Point& pixel) const {
-  ENSURE(cv::Rect({0, 0}, size()).contains(pixel));
-  const bool is_patched = patch_rect().contains(pixel);
-  const cv::Mat& image = is_patched ? patch : ground;
-  const cv::Point at = is_patched ? pixel - patch_at : pixel;
-  if (image.channels() == 3) return image.at<cv::Vec3b>(at);
-  const uchar grey = image.at<uchar>(at);
-  return {grey, grey, grey};
-}
-
-cv::Mat PatchedImage::whole() const {
-  if (patch.empty()) return ground;
-  cv::Mat image = ground.clone();
-  patch.copyTo(image(patch_rect()));
-  return image;
-}
-
-DrawnPatch drawn_patch(const PatchedImage& image, int divisor) {
-  ENSURE(divisor >= 1);
-  const cv::Rect rect = image.patch_rect();
-  const cv::Range x = in_blocks({rect.x, rect.x + rect.width}, image.size().width, divisor);
-  const cv::Range y = in_blocks({rect.y, rect.y + rect.height}, image.size().height, divisor);
-  return {rect_of(x, y), rect_of(inner(x, image.size().width, divisor), inner(y, image.size().height, divisor))};
 }
 
 std::optional<std::size_t> nearest_point(std::span<const PickPoint> points, const glm::dvec2& mouse, double reach_px) {

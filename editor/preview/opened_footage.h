@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "editor/geometry/image_view.h"
+#include "editor/geometry/shown_image.h"
 #include "editor/preview/preview_output.h"
 #include "frame/composed_frame.h"
 #include "project/project.h"
@@ -41,35 +41,28 @@ struct DecodedFrame {
 // Bytes of the samples in an image, in a composited frame with its mask and stages, in a decoded frame. The footage
 // under composited frames counts for each of them, though those of the same frame share it.
 [[nodiscard]] std::size_t bytes_of(const cv::Mat& image);
+[[nodiscard]] inline std::size_t bytes_of(const ShownImage& image) {
+  return image.bytes();
+}
 [[nodiscard]] std::size_t bytes_of(const PreviewImage& image);
 [[nodiscard]] std::size_t bytes_of(const DecodedFrame& decoded);
 
-// Composited frames for the window. A whole frame of 4K takes longer to convert to BGR than to composite, and longer
-// again to bring to the graphics card; so only what compositing changed is converted, and copied back.
+// The untouched footage, which shares the frame's planes.
+[[nodiscard]] ShownImage shown(const std::shared_ptr<const DecodedFrame>& footage);
 
 // The footage's last frame as it is needed for each of the many images that a drag makes of it. For one thread.
 class FootageCopies {
  public:
-  // bgr_of() the frame; the same samples for the same frame. CV_8UC3.
-  [[nodiscard]] cv::Mat bgr(const std::shared_ptr<const DecodedFrame>& footage);
-
   // A copy of the frame to composite onto. Given back, it serves for the next image.
   [[nodiscard]] Frame to_composite(const std::shared_ptr<const DecodedFrame>& footage);
 
   // What was composited onto such a copy, as a patch on the footage; together, every pixel is that of
-  // bgr_of(composed.image). Takes the image of `composed`.
+  // bgr_of(composed.image). Takes the image of `composed`, and makes it the untouched footage again.
   [[nodiscard]] PatchedImage patched(const std::shared_ptr<const DecodedFrame>& footage, ComposedFrame& composed);
 
  private:
-  void hold(const std::shared_ptr<const DecodedFrame>& footage);
-
   std::shared_ptr<const DecodedFrame> footage_;
-  // Both of footage_; empty until they are asked for.
-  cv::Mat bgr_;
-  Frame copy_;
+  Frame copy_;  // of footage_; empty until it is asked for
 };
-
-// The part of bgr_of(frame), without converting the rest. The part lies within the frame.
-[[nodiscard]] cv::Mat bgr_of_part(const Frame& frame, const cv::Rect& part);
 
 }  // namespace sigs::editor

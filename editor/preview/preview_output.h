@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "editor/document/document.h"
-#include "editor/geometry/image_view.h"
+#include "editor/geometry/shown_image.h"
 #include "encounter/encounter.h"
 #include "frame/compose_frame.h"
 #include "project/project.h"
@@ -110,8 +110,8 @@ struct PreviewImage {
   int frame = 0;  // of the footage, from 0
   // Set where it was composited by another method than the project's own, for comparing.
   std::optional<MethodChoice> method;
-  // CV_8UC3 of the footage's size: what `sigs frame` writes, in one piece where it was made with stages or by another
-  // method than the project's own.
+  // Of the footage's size: what `sigs frame` writes, converted and in one piece (CV_8UC3) where it was made with stages
+  // or by another method than the project's own.
   PatchedImage bgr;
   cv::Mat mask;  // opacity of the intruders: CV_8UC1 or empty, as ComposedFrame::mask
   FrameTruth truth;
@@ -198,8 +198,8 @@ struct PreviewOutput {
   // Of the wanted frame and content where image_is_current, else the last that could be shown.
   std::shared_ptr<const PreviewImage> image;
   bool image_is_current = false;  // exactly what was wanted
-  // The wanted frame untouched, CV_8UC3 BGR; null: not there yet, or not asked for.
-  std::shared_ptr<const cv::Mat> footage;
+  // The wanted frame untouched; null: not there yet, or not asked for.
+  std::shared_ptr<const ShownImage> footage;
   // The wanted frame with its stages, and by the method of compare_with; null as above.
   std::shared_ptr<const PreviewImage> staged;
   std::shared_ptr<const PreviewImage> compared;

@@ -98,7 +98,7 @@ class SceneRenderer {
         method ? composed(with_method(own, *method), frame, std::move(background), context_, stages)
                : composed(own, frame, std::move(background), context_, stages);
     if (!made) {
-      image->bgr.ground = copies_.bgr(footage);
+      image->bgr.ground = in_one_piece ? ShownImage(bgr_of(footage->frame)) : shown(footage);
       image->truth = {.index = frame, .time_s = time_of_frame_s(own.footage, frame)};
       image->problem = made.error().text();
       return image;
@@ -113,9 +113,6 @@ class SceneRenderer {
     image->times = made->times;
     return image;
   }
-
-  // The untouched footage, CV_8UC3; the same samples as those under the composited images of the same frame.
-  [[nodiscard]] cv::Mat footage_bgr(const std::shared_ptr<const DecodedFrame>& footage) { return copies_.bgr(footage); }
 
   // A model that cannot be read is shown as the cross that replaces it. Never null; the image is empty where OpenGL
   // cannot be had. wanted.intruder has to be one of the project's.
@@ -228,7 +225,7 @@ class PreviewRenderer {
     const std::shared_ptr<const DecodedFrame> footage = footage_frame(key.frame);
     if (!footage) return false;
     if (untouched)
-      preview_state_.put_untouched(footage_key, std::make_shared<const cv::Mat>(scene_renderer_.footage_bgr(footage)));
+      preview_state_.put_untouched(footage_key, std::make_shared<const ShownImage>(shown(footage)));
     else if (compared)
       preview_state_.put_compared(
           key, scene_renderer_.image(*scene_, key.frame, footage, wanted.stages ? Stages::keep : Stages::leave_out,

@@ -111,12 +111,14 @@ MemoryUse PreviewState::memory() const {
 }
 
 // The caches share what textures and the view leave. What is shown has its room even while a cache holds it: it may go
-// there at any time. A decoded frame has 1.5 bytes a pixel, an image 4: a quarter holds about as many frames.
+// there at any time. A decoded frame has 1.5 bytes a pixel, an image that keeps it and a mask 2.5: three eighths hold
+// about as many frames.
 void PreviewState::share_memory() {
   const std::size_t taken = std::max(texture_bytes_, limits_.texture_bytes()) + shown_bytes(true);
   const std::size_t room = limits_.cache_bytes - std::min(limits_.cache_bytes, taken);
-  decoded_.set_limit(room / 4);
-  images_.set_limit(room - room / 4);
+  const std::size_t for_decoded = room / 8 * 3;
+  decoded_.set_limit(for_decoded);
+  images_.set_limit(room - for_decoded);
 }
 
 void PreviewState::want(const PreviewRequest& wanted) {
@@ -336,9 +338,9 @@ void PreviewState::put_image(FrameKey key, std::shared_ptr<const PreviewImage> i
   });
 }
 
-void PreviewState::put_untouched(FrameKey key, std::shared_ptr<const cv::Mat> bgr) {
+void PreviewState::put_untouched(FrameKey key, std::shared_ptr<const ShownImage> image) {
   put(true, [&] {
-    if (wanted_ && wanted_->footage) untouched_ = {key, std::move(bgr)};
+    if (wanted_ && wanted_->footage) untouched_ = {key, std::move(image)};
   });
 }
 

@@ -106,7 +106,7 @@ class PreviewState {
   void put_image(FrameKey key, std::shared_ptr<const PreviewImage> image, double took_ms, bool was_wanted);
   // Extra images of the wanted frame. Each is dropped where the window no longer asks for its kind. The key of the
   // untouched frame is by the footage's id, the others by combined_id().
-  void put_untouched(FrameKey key, std::shared_ptr<const cv::Mat> bgr);
+  void put_untouched(FrameKey key, std::shared_ptr<const ShownImage> image);
   void put_staged(FrameKey key, std::shared_ptr<const PreviewImage> image);
   void put_compared(FrameKey key, std::shared_ptr<const PreviewImage> image);
   [[nodiscard]] bool has_untouched(FrameKey key) const {
@@ -190,7 +190,7 @@ class PreviewState {
   // What the window shows: the wanted frame, or the last that was wanted before it. The other three are its extra
   // images.
   Slot<PreviewImage> newest_;
-  Slot<cv::Mat> untouched_;
+  Slot<ShownImage> untouched_;
   Slot<PreviewImage> staged_;
   Slot<PreviewImage> compared_;
   std::vector<std::shared_ptr<const Survey>> surveys_;

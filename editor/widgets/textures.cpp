@@ -51,21 +51,6 @@ void set_filter(unsigned int name, Filter filter) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, how);
 }
 
-// Pixels and the blocks that they become.
-struct BlockRun {
-  cv::Range pixels;
-  cv::Range blocks;
-};
-
-// The whole blocks, then what is left over as one more.
-std::vector<BlockRun> block_runs(int length, int divisor) {
-  const int whole = length / divisor;
-  std::vector<BlockRun> runs;
-  if (whole > 0) runs.push_back({{0, whole * divisor}, {0, whole}});
-  if (whole * divisor < length) runs.push_back({{whole * divisor, length}, {whole, whole + 1}});
-  return runs;
-}
-
 }  // namespace
 
 void TextureOrder::use(TextureKey key, std::size_t bytes) {
@@ -89,25 +74,20 @@ std::vector<TextureKey> TextureOrder::end_update(std::size_t max_bytes) {
   return gone;
 }
 
-cv::Size reduced_size(const cv::Size& image_px, int divisor) {
-  const int by = std::max(1, divisor);
-  return {(image_px.width + by - 1) / by, (image_px.height + by - 1) / by};
-}
-
 Textures::~Textures() {
   for (const auto& [key, entry] : entries_) glDeleteTextures(1, &entry.name);
 }
 
-ImTextureID Textures::of(const cv::Mat& image, Filter filter, int divisor) {
-  ENSURE(!image.empty());
-  const TextureKey key{image.data, divisor};
+ImTextureID Textures::of(const ShownImage& image, const cv::Rect& part, Filter filter, int divisor) {
+  ENSURE(!part.empty());
+  const TextureKey key{image.samples(), divisor, {part.x, part.y, part.width, part.height}};
   const auto [place, is_new] = entries_.try_emplace(key);
   Entry& entry = place->second;
-  if (is_new) entry = {.image = image, .name = uploaded(reduced_copy(image, divisor))};
+  if (is_new) entry = {.image = image, .name = uploaded(image.reduced(part, divisor))};
   if (is_new || entry.filter != filter) set_filter(entry.name, filter);
   entry.filter = filter;
-  const auto on_card = 4 * static_cast<std::size_t>(reduced_size(image.size(), divisor).area());
-  order_.use(key, on_card + image.total() * image.elemSize());
+  const auto on_card = 4 * static_cast<std::size_t>(reduced_size(part.size(), divisor).area());
+  order_.use(key, on_card + image.bytes());
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(entry.name));
 }
 
@@ -117,17 +97,6 @@ void Textures::end_update(std::size_t max_bytes) {
     glDeleteTextures(1, &place->second.name);
     entries_.erase(place);
   }
-}
-
-cv::Mat reduced_copy(const cv::Mat& image, int divisor) {
-  if (divisor < 2) return image;
-  cv::Mat reduced(reduced_size(image.size(), divisor), image.type());
-  for (const auto& [from_x, to_x] : block_runs(image.cols, divisor))
-    for (const auto& [from_y, to_y] : block_runs(image.rows, divisor)) {
-      cv::Mat part = reduced(to_y, to_x);
-      cv::resize(image(from_y, from_x), part, part.size(), 0, 0, cv::INTER_AREA);
-    }
-  return reduced;
 }
 
 void draw_brighter(ImDrawList& draw, const ImVec2& low, const ImVec2& high, int doublings) {

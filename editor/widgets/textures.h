@@ -3,19 +3,23 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <map>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "editor/geometry/shown_image.h"
+
 namespace sigs::editor {
 
-// What a texture is known by: the address of an image's samples, and how many times smaller it is. Valid as long as the
-// image is kept, which Textures does.
+// What a texture is known by: the address of an image's samples, how many times smaller it is, and which part of the
+// image. Valid as long as the image is kept, which Textures does.
 struct TextureKey {
   const unsigned char* samples = nullptr;
   int divisor = 1;
+  std::array<int, 4> part{};  // x, y, width, height
 
   [[nodiscard]] auto operator<=>(const TextureKey&) const = default;
 };
@@ -55,11 +59,14 @@ class Textures {
   Textures(const Textures&) = delete;
   Textures& operator=(const Textures&) = delete;
 
-  // The texture of an image, valid until the end of this update. CV_8UC1 (shown grey), CV_8UC3 (BGR) or CV_8UC4 (RGBA,
-  // straight), not empty. The image is known by the address of its samples and is kept with its texture; the samples
-  // must not change any more.
+  // The texture of an image, valid until the end of this update. The image is not empty, is known by the address of its
+  // samples, and is kept with its texture.
+  [[nodiscard]] ImTextureID of(const ShownImage& image, Filter filter) {
+    return of(image, {{0, 0}, image.size()}, filter, 1);
+  }
+  // That of a part of it (not empty, within the image).
   //   divisor  a copy so many times smaller each way, averaged; 1: the image itself
-  [[nodiscard]] ImTextureID of(const cv::Mat& image, Filter filter, int divisor = 1);
+  [[nodiscard]] ImTextureID of(const ShownImage& image, const cv::Rect& part, Filter filter, int divisor);
 
   // Once per update, after drawing: what was not drawn for 30 updates goes, and sooner where all hold more than
   // max_bytes.
@@ -70,7 +77,7 @@ class Textures {
 
  private:
   struct Entry {
-    cv::Mat image;  // keeps the samples, and so their address, from being used for another one
+    ShownImage image;  // keeps the samples, and so their address, from being used for another one
     // OpenGL's.
     unsigned int name = 0;
     Filter filter = Filter::smooth;
@@ -78,13 +85,6 @@ class Textures {
   TextureOrder order_;
   std::map<TextureKey, Entry> entries_;
 };
-
-// A copy that is so many times smaller each way: pixel (i, j) is the mean of the block of divisor x divisor pixels that
-// begins at (divisor * i, divisor * j), of those that there are at the right and lower edge. The image itself, not
-// copied, where divisor < 2.
-[[nodiscard]] cv::Mat reduced_copy(const cv::Mat& image, int divisor);
-// Its size: rounded up.
-[[nodiscard]] cv::Size reduced_size(const cv::Size& image_px, int divisor);
 
 // What was drawn there so far becomes twice as bright, so many times; what is drawn later does not.
 void draw_brighter(ImDrawList& draw, const ImVec2& low, const ImVec2& high, int doublings);

@@ -16,24 +16,36 @@ namespace {
 
 constexpr double kZoomPerNotch = 1.25;
 
-// Pixels of a larger image, of which `piece` is given, and the first pixel of that.
-struct Placed {
-  const cv::Mat& piece;
-  cv::Point at;
+constexpr int kTile_px = 512;
+
+// Around what is in sight, so that a view that moves needs another part seldom: with one pixel more, which smoothing
+// reads.
+cv::Rect in_tiles(const cv::Rect& sight, const cv::Size& image_px) {
+  const cv::Point low((std::max(0, sight.x - 1)) / kTile_px * kTile_px,
+                      (std::max(0, sight.y - 1)) / kTile_px * kTile_px);
+  const cv::Point high((sight.br().x + kTile_px) / kTile_px * kTile_px,
+                       (sight.br().y + kTile_px) / kTile_px * kTile_px);
+  return cv::Rect(low, high) & cv::Rect({0, 0}, image_px);
+}
+
+// A part of an image that is brought to the graphics card, and what of it is drawn.
+struct DrawnPart {
+  cv::Rect texture;
+  cv::Rect drawn;
 };
 
-// The part of the piece that lies in `part`. Blocks of the reduced copy begin at the piece's first pixel, and the last
-// ones may extend beyond it.
-void draw_part(ImDrawList& draw, Textures& textures, const Placed& placed, const cv::Rect& part,
-               const ImageView& view) {
+// The image's first pixel is the view's pixel `at`. Blocks of a reduced copy begin at the texture's first pixel, and
+// the last ones may extend beyond it.
+void draw_part(ImDrawList& draw, Textures& textures, const ShownImage& image, const cv::Point& at,
+               const DrawnPart& part, const ImageView& view) {
   const int divisor = divisor_at(view.zoom);
-  const cv::Size reduced = reduced_size(placed.piece.size(), divisor);
+  const cv::Size reduced = reduced_size(part.texture.size(), divisor);
   const glm::dvec2 texture_px(divisor * reduced.width, divisor * reduced.height);
-  const glm::dvec2 corner(placed.at.x, placed.at.y);
-  const glm::dvec2 low(part.x, part.y);
-  const glm::dvec2 high(part.x + part.width, part.y + part.height);
+  const glm::dvec2 corner(at.x + part.texture.x, at.y + part.texture.y);
+  const glm::dvec2 low(at.x + part.drawn.x, at.y + part.drawn.y);
+  const glm::dvec2 high = low + glm::dvec2(part.drawn.width, part.drawn.height);
   const Filter filter = view.zoom >= 1 ? Filter::nearest : Filter::smooth;
-  draw.AddImage(textures.of(placed.piece, filter, divisor), im(view.screen_of(low - 0.5)),
+  draw.AddImage(textures.of(image, part.texture, filter, divisor), im(view.screen_of(low - 0.5)),
                 im(view.screen_of(high - 0.5)), im((low - corner) / texture_px), im((high - corner) / texture_px));
 }
 
@@ -61,9 +73,10 @@ void draw_side(ImDrawList& draw, glm::dvec2 low, glm::dvec2 high, ImU32 color, b
   }
 }
 
-void draw_value(const ImageCanvas& canvas, const PatchedImage& image, int x, int y, float text_px) {
-  const cv::Vec3b bgr = image.bgr_at({x, y});
-  const int lines = image.ground.channels() == 3 ? 3 : 1;
+// pixel: CV_8UC3 or CV_8UC1, one pixel
+void draw_value(const ImageCanvas& canvas, const cv::Mat& pixel, int x, int y, float text_px) {
+  const int lines = pixel.channels() == 3 ? 3 : 1;
+  const cv::Vec3b bgr = lines == 3 ? pixel.at<cv::Vec3b>(0, 0) : cv::Vec3b::all(pixel.at<uchar>(0, 0));
   const glm::dvec2 middle = canvas.view.screen_of({x, y});
   char text[8];
   for (int line = 0; line < lines; ++line) {
@@ -172,7 +185,7 @@ cv::Rect pixels_in_sight(const ImageView& view, const cv::Size& image_px, const 
           cv::Point(static_cast<int>(high.x), static_cast<int>(high.y))};
 }
 
-void draw_image(ImDrawList& draw, Textures& textures, const cv::Mat& image, const ImageView& view,
+void draw_image(ImDrawList& draw, Textures& textures, const ShownImage& image, const ImageView& view,
                 const ScreenRect& rect) {
   draw_image(draw, textures, PatchedImage{.ground = image, .patch = {}, .patch_at = {}}, view, rect);
 }
@@ -183,11 +196,14 @@ void draw_image(ImDrawList& draw, Textures& textures, const PatchedImage& image,
   // The part in sight alone: a quad of 80,000 screen pixels has no exact texture coordinates.
   const cv::Rect sight = pixels_in_sight(view, image.size(), rect);
   if (sight.empty()) return;
+  const int divisor = divisor_at(view.zoom);
+  const cv::Rect whole({0, 0}, image.size());
   draw.PushClipRect(im(rect.low), im(rect.high), true);
-  draw_part(draw, textures, {image.ground, {0, 0}}, sight, view);
-  const DrawnPatch patch = drawn_patch(image, divisor_at(view.zoom));
+  draw_part(draw, textures, image.ground, {0, 0}, {divisor > 1 ? whole : in_tiles(sight, image.size()), sight}, view);
+  const DrawnPatch patch = drawn_patch(image, divisor);
   if (const cv::Rect part = patch.drawn & sight; !part.empty())
-    draw_part(draw, textures, {image.patch(patch.reduced - image.patch_at), patch.reduced.tl()}, part, view);
+    draw_part(draw, textures, image.patch, image.patch_at, {patch.reduced - image.patch_at, part - image.patch_at},
+              view);
   draw.PopClipRect();
 }
 
@@ -263,9 +279,12 @@ void draw_pixel_values(const ImageCanvas& canvas, const PatchedImage& image, con
     const int side = 2 * kValuesAroundMouse + 1;
     shown &= cv::Rect(pixel->x - kValuesAroundMouse, pixel->y - kValuesAroundMouse, side, side);
   }
+  if (shown.empty()) return;
+  const cv::Mat pixels = image.part(shown);
   canvas.draw.PushClipRect(im(canvas.rect.low), im(canvas.rect.high), true);
-  for (int y = shown.y; y < shown.y + shown.height; ++y)
-    for (int x = shown.x; x < shown.x + shown.width; ++x) draw_value(canvas, image, x, y, static_cast<float>(text_px));
+  for (int y = 0; y < shown.height; ++y)
+    for (int x = 0; x < shown.width; ++x)
+      draw_value(canvas, pixels({x, y, 1, 1}), shown.x + x, shown.y + y, static_cast<float>(text_px));
   canvas.draw.PopClipRect();
 }
 
@@ -294,7 +313,7 @@ void draw_pixel_mark(const ImageCanvas& canvas, const cv::Point& pixel) {
 std::string pixel_text(const PatchedImage& image, const cv::Point& pixel) {
   if (!cv::Rect({0, 0}, image.size()).contains(pixel)) return {};
   const cv::Vec3b bgr = image.bgr_at(pixel);
-  if (image.ground.channels() == 1) return fmt::format("{:3}", bgr[0]);
+  if (image.ground.is_grey()) return fmt::format("{:3}", bgr[0]);
   return fmt::format("{:3} {:3} {:3}", bgr[2], bgr[1], bgr[0]);
 }
 

@@ -58,7 +58,7 @@ bool handle_zoom_input(ZoomableImage& look, const glm::dvec2& room_corner);
 [[nodiscard]] int divisor_at(double zoom);
 
 // The part of an image that lies within a rect: pixel by pixel from zoom 1 on, smooth below.
-void draw_image(ImDrawList& draw, Textures& textures, const cv::Mat& image, const ImageView& view,
+void draw_image(ImDrawList& draw, Textures& textures, const ShownImage& image, const ImageView& view,
                 const ScreenRect& rect);
 
 // The same of a patched image: the ground's texture stays when the patch is another one. On the screen the patch ends

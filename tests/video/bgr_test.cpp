@@ -9,6 +9,7 @@
 #include "video/chroma.h"
 #include "video/clips.h"
 #include "video/frame.h"
+#include "video/reduced_bgr.h"
 
 using namespace sigs;
 using namespace sigs::test;
@@ -185,4 +186,92 @@ TEST_CASE("every byte of a converted image is that of the plain formula pixel by
             }
           CHECK(largest_difference(bgr_of(frame), expected) == 0);
         }
+}
+
+namespace {
+
+// The mean of a plane's samples that pixels of the block have, rounded as codes are.
+double block_mean(const cv::Mat& plane, const cv::Size& step, const cv::Rect& block) {
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < plane.rows; ++y)
+    for (int x = 0; x < plane.cols; ++x)
+      if (!(cv::Rect({x * step.width, y * step.height}, step) & block).empty()) {
+        sum += sample_at(plane, y, x);
+        ++count;
+      }
+  return std::floor(sum / count + 0.5);
+}
+
+cv::Vec3d bgr_of_block(const Frame& frame, const cv::Rect& block) {
+  cv::Vec3d code(0, 0, 0);
+  for (int i = 0; i < frame.plane_count(); ++i)
+    code[i] = block_mean(frame.planes[static_cast<std::size_t>(i)], i == 0 ? cv::Size(1, 1) : chroma_step(frame.layout),
+                         block);
+  const CodeToRgb map = code_to_rgb(frame.layout, frame.color, frame.bit_depth);
+  cv::Vec3d bgr(0, 0, 0);
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < 3; ++i)
+      if (frame.layout != PixelLayout::gray || i == 0)
+        bgr[2 - c] += 255.0 * map.to_rgb(c, i) * (code[i] - map.offset[i]);
+  for (int c = 0; c < 3; ++c) bgr[c] = std::clamp(bgr[c], 0.0, 255.0);
+  return bgr;
+}
+
+}  // namespace
+
+TEST_CASE("a smaller image has the colours of the mean codes of its blocks") {
+  cv::RNG random(29);
+  for (const PixelLayout layout :
+       {PixelLayout::gray, PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444, PixelLayout::rgb})
+    for (const int bit_depth : {8, 10, 16})
+      for (const cv::Rect& part : {cv::Rect(0, 0, 37, 23), cv::Rect(12, 6, 13, 11), cv::Rect(9, 15, 1, 1)}) {
+        Frame frame = blank_frame(layout, {37, 23}, {}, bit_depth);
+        for (int i = 0; i < frame.plane_count(); ++i)
+          random.fill(frame.planes[static_cast<std::size_t>(i)], cv::RNG::UNIFORM, 0, 1 << bit_depth);
+        for (const int divisor : {2, 3, 4, 5, 6, 7, 8, 50}) {
+          const cv::Mat small = reduced_bgr(frame, part, divisor);
+          REQUIRE(small.size() ==
+                  cv::Size((part.width + divisor - 1) / divisor, (part.height + divisor - 1) / divisor));
+          double largest = 0;
+          for (int j = 0; j < small.rows; ++j)
+            for (int i = 0; i < small.cols; ++i) {
+              const cv::Rect block = cv::Rect(part.x + i * divisor, part.y + j * divisor, divisor, divisor) & part;
+              const cv::Vec3d off = cv::Vec3d(small.at<cv::Vec3b>(j, i)) - bgr_of_block(frame, block);
+              largest = std::max(largest, cv::norm(off, cv::NORM_INF));
+            }
+          CAPTURE(bit_depth);
+          CAPTURE(divisor);
+          CHECK(largest <= 1.001);  // RGB of more bits is rounded to 8 by itself
+        }
+      }
+}
+
+TEST_CASE("a smaller image is the mean of the converted one, within three codes, where colours change gently") {
+  cv::Mat bgr(181, 241, CV_8UC3);
+  cv::RNG random(31);
+  for (int y = 0; y < bgr.rows; ++y)
+    for (int x = 0; x < bgr.cols; ++x) {
+      const int grain = random.uniform(-12, 13);
+      bgr.at<cv::Vec3b>(y, x) = {static_cast<uchar>(140 + grain + x / 4), static_cast<uchar>(120 + grain),
+                                 static_cast<uchar>(90 + grain + y / 4)};
+    }
+  for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444})
+    for (const ChromaSite site : {ChromaSite::left, ChromaSite::center, ChromaSite::top_left}) {
+      const Frame frame = frame_of_bgr(bgr, layout, {.chroma_site = site});
+      const cv::Mat whole = bgr_of(frame);
+      for (const int divisor : {2, 3, 4, 7}) {
+        const cv::Mat small = reduced_bgr(frame, {{0, 0}, bgr.size()}, divisor);
+        double largest = 0;
+        for (int j = 0; j < small.rows; ++j)
+          for (int i = 0; i < small.cols; ++i) {
+            const cv::Rect block = cv::Rect(i * divisor, j * divisor, divisor, divisor) & cv::Rect({0, 0}, bgr.size());
+            const cv::Scalar mean = cv::mean(whole(block));
+            for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(small.at<cv::Vec3b>(j, i)[c] - mean[c]));
+          }
+        // Half a code of luma and of chroma each, times 1.164 and 2.112 for blue, half at the end, and what chroma
+        // differs from block to block where they share a sample.
+        CHECK(largest <= 3);
+      }
+    }
 }

@@ -92,7 +92,7 @@ void OwnBodyCanvas::draw(const ViewContext& context, OwnBodySession& session, co
 void OwnBodyCanvas::draw_layers(const ViewContext& context, const OwnBodySession& session, const ImageCanvas& canvas,
                                 CanvasMode look) {
   const bool footage_alone = hovered_ && !ImGui::GetIO().WantTextInput && held(Key::backslash);
-  const cv::Mat* const footage = context.shown.footage.get();
+  const ShownImage* const footage = context.shown.footage.get();
   context.needs.footage = true;
   canvas.draw.AddRectFilled(im(canvas.rect.low), im(canvas.rect.high), color::kCanvas);
   if (footage != nullptr && session.fits())

@@ -123,12 +123,12 @@ std::vector<StageTile> StagesView::input_tiles(const PreviewImage& image) {
 std::vector<StageTile> StagesView::method_tiles(const ViewContext& context) {
   std::vector<StageTile> tiles;
   if (staged_)
-    tiles.push_back({"A: " + method_name(own_method(context)), "By the project's own method", staged_->bgr.ground});
+    tiles.push_back({"A: " + method_name(own_method(context)), "By the project's own method", staged_->bgr.whole()});
   const MethodChoice other = other_method(context);
   if (!compared_ || !staged_ || compared_->frame != staged_->frame) return tiles;
-  tiles.push_back({"B: " + method_name(other), "The same frame by the other method", compared_->bgr.ground});
+  tiles.push_back({"B: " + method_name(other), "The same frame by the other method", compared_->bgr.whole()});
   tiles.push_back({"|A - B|" + gain_text(gain_), "Where the methods differ; black: nowhere",
-                   differences_.of(staged_->bgr.ground, compared_->bgr.ground, gain_)});
+                   differences_.of(staged_->bgr.whole(), compared_->bgr.whole(), gain_)});
   return tiles;
 }
 
@@ -138,7 +138,7 @@ std::vector<StageTile> StagesView::tiles(const ViewContext& context) {
   if (image == nullptr) return {};
   if (look_ == Mode::against_input) return input_tiles(*image);
   std::vector<StageTile> made = stage_tiles(image->stages, intruder(context));
-  if (made.empty() && !image->bgr.empty()) made.push_back({"Output", "The finished frame", image->bgr.ground});
+  if (made.empty() && !image->bgr.empty()) made.push_back({"Output", "The finished frame", image->bgr.whole()});
   return made;
 }
 

@@ -105,7 +105,7 @@ float icon_side() {
 }  // namespace
 
 PatchedImage watched_image(const ViewContext& context, bool of_footage) {
-  if (of_footage) return {.ground = context.shown.footage ? *context.shown.footage : cv::Mat()};
+  if (of_footage) return {.ground = context.shown.footage ? *context.shown.footage : ShownImage()};
   return context.shown.image ? context.shown.image->bgr : PatchedImage();
 }
 

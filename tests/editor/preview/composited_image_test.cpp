@@ -88,8 +88,11 @@ TEST_CASE("a patched image is every pixel of what was composited, one after the 
       const cv::Mat whole = bgr_of(composed.image);
       const PatchedImage image = copies.patched(footage, composed);
       CHECK(is_same_image(image.whole(), whole));
-      CHECK(image.ground.data == copies.bgr(footage).data);
-      CHECK(image.patch.total() < image.ground.total() / 2);
+      CHECK(image.ground.samples() == footage->frame.planes[0].data);  // not another copy
+      CHECK(image.patch.bytes() < image.ground.bytes());
+      // A pixel by itself, and at the patch's edges.
+      for (const cv::Rect& seen : {cv::Rect(image.patch_at, cv::Size(1, 1)), image.patch_rect(), part})
+        CHECK(is_same_image(image.part(seen), whole(seen)));
     }
   }
 }
@@ -107,14 +110,34 @@ TEST_CASE("a frame without an intruder is its footage") {
   }
 }
 
-TEST_CASE("the footage of one frame is converted once for all its images, and another frame is another image") {
+TEST_CASE("another frame is another image, and the copy of the one before is not taken for it") {
   cv::RNG random(19);
   const auto one = decoded(PixelLayout::yuv420, {32, 32}, random);
   const auto other = decoded(PixelLayout::yuv420, {32, 32}, random);
   FootageCopies copies;
-  const cv::Mat first = copies.bgr(one);
-  CHECK(copies.bgr(one).data == first.data);
-  CHECK(is_same_image(copies.bgr(other), bgr_of(other->frame)));
+  ComposedFrame composed = changed(copies.to_composite(one), {4, 4, 8, 8}, random);
+  CHECK(is_same_image(copies.patched(one, composed).ground.whole(), bgr_of(one->frame)));
+  CHECK(is_same_image(shown(other).whole(), bgr_of(other->frame)));
   CHECK(is_same_image(copies.to_composite(other).planes[0], other->frame.planes[0]));
-  CHECK(is_same_image(copies.bgr(one), first));
+}
+
+TEST_CASE("made smaller, a patched image is one image: its blocks are those of the whole, and of the footage outside") {
+  cv::RNG random(23);
+  for (const PixelLayout layout : {PixelLayout::yuv420, PixelLayout::yuv422, PixelLayout::yuv444, PixelLayout::gray})
+    for (const cv::Rect& part : {cv::Rect(140, 90, 31, 17), cv::Rect(0, 0, 3, 3), cv::Rect(298, 190, 3, 11)}) {
+      const auto footage = decoded(layout, {301, 201}, random);
+      FootageCopies copies;
+      ComposedFrame composed = changed(copies.to_composite(footage), part, random);
+      const auto frame = std::make_shared<const Frame>(cloned(composed.image));
+      const PatchedImage image = copies.patched(footage, composed);
+      for (int divisor = 2; divisor <= 9; ++divisor) {
+        const cv::Rect all({0, 0}, image.size());
+        const cv::Mat expected = ShownImage(frame).reduced(all, divisor);
+        cv::Mat drawn = image.ground.reduced(all, divisor).clone();
+        const DrawnPatch patch = drawn_patch(image, divisor);
+        const cv::Mat reduced = image.patch.reduced(patch.reduced - image.patch_at, divisor);
+        reduced.copyTo(drawn(cv::Rect(patch.reduced.tl() / divisor, reduced.size())));
+        CHECK(is_same_image(drawn, expected));
+      }
+    }
 }

@@ -103,7 +103,7 @@ TEST_CASE("mask, truth, untouched frame, stages and the other method are those o
   CHECK(is_same_image(shown.image->mask, composed.mask));
   CHECK(shown.image->truth.time_s == composed.truth.time_s);
   CHECK(shown.image->truth.intruders.at(0).visible_fraction == composed.truth.intruders.at(0).visible_fraction);
-  CHECK(is_same_image(*shown.footage, bgr_of(engine.source.read(kFrame).value())));
+  CHECK(is_same_image(shown.footage->whole(), bgr_of(engine.source.read(kFrame).value())));
   CHECK(is_same_image(shown.staged->bgr.whole(), bgr_of(composed.image)));
   REQUIRE(shown.staged->stages.size() == composed.stages.size());
   for (std::size_t i = 0; i < composed.stages.size(); ++i) {
@@ -301,8 +301,8 @@ TEST_CASE("all images of a drag share the footage under them, and the model by i
   for (std::uint64_t number = 2; number <= 5; ++number) {
     wanted.revision = revision(number, moved(project, static_cast<double>(number)));
     const PreviewOutput shown = preview_client.show(wanted);
-    CHECK(shown.image->bgr.ground.data == first.image->bgr.ground.data);
-    CHECK(shown.footage->data == first.image->bgr.ground.data);
+    CHECK(shown.image->bgr.ground.samples() == first.image->bgr.ground.samples());
+    CHECK(shown.footage->samples() == first.image->bgr.ground.samples());
   }
   preview_client.wait([](const PreviewOutput& s) { return !s.busy; });
   CHECK(preview_client.shown().model == first.model);

@@ -157,22 +157,24 @@ TEST_CASE("each pixel of a reduced image is the mean of a block, at the right an
 
 TEST_CASE("a patch drawn from a smaller copy has the pixels of the smaller copy of the whole image") {
   cv::RNG random(7);
-  PatchedImage image{.ground = cv::Mat(301, 407, CV_8UC3), .patch = {}, .patch_at = {}};
-  random.fill(image.ground, cv::RNG::UNIFORM, 0, 256);
+  cv::Mat ground(301, 407, CV_8UC3);
+  random.fill(ground, cv::RNG::UNIFORM, 0, 256);
+  PatchedImage image{.ground = ground, .patch = {}, .patch_at = {}};
   // In the middle; in a corner, where it has a margin on two sides alone; over the whole.
   for (const cv::Rect& changed : {cv::Rect(150, 120, 60, 40), cv::Rect(380, 290, 27, 11), cv::Rect(0, 0, 407, 301)}) {
     const cv::Rect part = cv::Rect(changed.x - kPatchMargin_px, changed.y - kPatchMargin_px,
                                    changed.width + 2 * kPatchMargin_px, changed.height + 2 * kPatchMargin_px) &
                           cv::Rect({0, 0}, image.size());
-    image.patch = image.ground(part).clone();
-    image.patch_at = part.tl();
-    cv::Mat inner = image.patch(changed - part.tl());
+    const cv::Mat pixels = ground(part).clone();
+    cv::Mat inner = pixels(changed - part.tl());
     random.fill(inner, cv::RNG::UNIFORM, 0, 256);
+    image.patch = pixels;
+    image.patch_at = part.tl();
     for (int divisor = 1; divisor <= kPatchMargin_px / 2; ++divisor) {
       const cv::Mat expected = reduced_copy(image.whole(), divisor);
-      cv::Mat drawn = reduced_copy(image.ground, divisor).clone();
+      cv::Mat drawn = reduced_copy(ground, divisor).clone();
       const DrawnPatch patch = drawn_patch(image, divisor);
-      const cv::Mat reduced = reduced_copy(image.patch(patch.reduced - image.patch_at), divisor);
+      const cv::Mat reduced = image.patch.reduced(patch.reduced - image.patch_at, divisor);
       reduced.copyTo(drawn(cv::Rect(patch.reduced.tl() / divisor, reduced.size())));
       // What smoothing reads of either texture, too.
       CHECK(cv::norm(drawn, expected, cv::NORM_INF) == 0);
