@@ -79,10 +79,10 @@ std::vector<double> ProbeWriter::intervals_ms() const {
   return {quantile(intervals, 0.5), quantile(intervals, 0.9), quantile(intervals, 0.99)};
 }
 
-void ProbeWriter::write(const Document& document, const PreviewOutput& shown, const UiProbe& ui_probe,
-                        const ProbedWindow& window) {
+void ProbeWriter::note(const Document& document, const PreviewOutput& shown, const UiProbe& ui_probe,
+                       const ProbedWindow& window) {
   if (!wanted()) return;
-  nlohmann::json json;
+  nlohmann::json& json = noted_ = nlohmann::json::object();
   json["frame"] = document.playhead();
   json["revision"] = document.state().number;
   json["camera"] = document.active_camera();
@@ -102,11 +102,15 @@ void ProbeWriter::write(const Document& document, const PreviewOutput& shown, co
   json["at_rest"] = is_at_rest(input, window.has_input_left);
   for (const auto& [name, rect] : ui_probe.all())
     json["places"][name] = {rect.low.x, rect.low.y, rect.size().x, rect.size().y};
+}
+
+void ProbeWriter::write() {
+  if (!wanted()) return;
   ++update_;
-  const std::string text = json.dump();
+  const std::string text = noted_.dump();
   if (text == last_) return;
-  json["turn"] = update_;
-  if (replace_at_once(file_, json.dump() + "\n")) last_ = text;
+  noted_["turn"] = update_;
+  if (replace_at_once(file_, noted_.dump() + "\n")) last_ = text;
 }
 
 App::App(Window& window, Settings settings, ProbeWriter probe)
@@ -337,15 +341,17 @@ void App::update(double now_s, bool something_happened) {
   light_.follow(document_);
   window_.begin(settings_);
   draw(shown, rig);
+  probe_writer_.note(document_, shown, ui_probe_,
+                     {.page = shell_.has_project() ? "project" : "start",
+                      .updates_per_second = updates_per_second_,
+                      .released_keys = window_.released_keys(),
+                      .has_input_left = window_.has_input_left()});
+  take_edits();
+  ask_preview();  // it works while OpenGL does
   window_.end(layout_.images_at());
   textures_.end_update(PreviewLimits().texture_bytes());
   preview_.set_texture_bytes(textures_.bytes());
-  probe_writer_.write(document_, shown, ui_probe_,
-                      {.page = shell_.has_project() ? "project" : "start",
-                       .updates_per_second = updates_per_second_,
-                       .released_keys = window_.released_keys(),
-                       .has_input_left = window_.has_input_left()});
-  take_edits();
+  probe_writer_.write();
   const std::uint64_t document = document_.first_number();
   if (!(window_.wants_to_close() || window_.has_dropped()) || !finish_typing()) {
     for (const std::filesystem::path& path : window_.take_dropped()) shell_.handle_dropped(path, edits_);

@@ -59,8 +59,10 @@ class ProbeWriter {
   explicit ProbeWriter(std::filesystem::path file) : file_(std::move(file)) {}
 
   [[nodiscard]] bool wanted() const { return !file_.empty(); }
-  // Once per update, after drawing. A file that cannot be written is tried again in the next update.
-  void write(const Document& document, const PreviewOutput& shown, const UiProbe& ui_probe, const ProbedWindow& window);
+  // Once per update, what it draws: of the document as it was then.
+  void note(const Document& document, const PreviewOutput& shown, const UiProbe& ui_probe, const ProbedWindow& window);
+  // Once that is on the screen. A file that cannot be written is tried again in the next update.
+  void write();
 
  private:
   // Whether input has been the same for three updates and none is left.
@@ -70,6 +72,7 @@ class ProbeWriter {
   [[nodiscard]] std::vector<double> intervals_ms() const;
 
   std::filesystem::path file_;
+  nlohmann::json noted_;
   // The text that was written last, without its "turn", and the input of the update before.
   std::string last_;
   int update_ = 0;
@@ -91,9 +94,9 @@ class App {
   // Opens a project; the start page is shown until it is read. Errors are shown in the window.
   void open(const std::filesystem::path& path) { shell_.handle(OpenProject{path}); }
 
-  // One update of the loop: draws everything, then lets the document apply the edits and the program handle the
-  // requests that the views queued, then asks the preview for what is to be shown next. Nothing here waits for the
-  // preview.
+  // One update of the loop: lays everything out, lets the document apply the edits that the views queued, asks the
+  // preview for what is to be shown next, which is made while OpenGL draws, then has the program handle requests.
+  // Nothing here waits for the preview.
   //   now_s               seconds of a steady clock
   //   something_happened  an event or a wake came since the last update
   void update(double now_s, bool something_happened);

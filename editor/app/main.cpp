@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr double kTurn_s = 1.0 / 60;
+constexpr double kTurn_s = 1.0 / 75;
 constexpr double kSlowTurn_s = 1.0 / 33;
 
 // From one update to the next. No more updates than a screen shows; and where OpenGL draws in software, a third of the

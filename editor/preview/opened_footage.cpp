@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -121,8 +122,15 @@ ShownImage shown(const std::shared_ptr<const DecodedFrame>& footage) {
 }
 
 Frame FootageCopies::to_composite(const std::shared_ptr<const DecodedFrame>& footage) {
-  if (std::exchange(footage_, footage) != footage) copy_ = {};
-  return copy_.planes[0].empty() ? cloned(footage->frame) : std::exchange(copy_, {});
+  const bool is_other = std::exchange(footage_, footage) != footage;
+  Frame copy = std::exchange(copy_, {});
+  if (!is_other && !copy.planes[0].empty()) return copy;
+  // Into the same memory: new memory of the system would have to be cleared first.
+  std::array<cv::Mat, 3> planes = std::move(copy.planes);
+  copy = footage->frame;
+  for (std::size_t i = 0; i < planes.size(); ++i) footage->frame.planes[i].copyTo(planes[i]);
+  copy.planes = std::move(planes);
+  return copy;
 }
 
 PatchedImage FootageCopies::patched(const std::shared_ptr<const DecodedFrame>& footage, ComposedFrame& composed) {

@@ -88,7 +88,8 @@ Result<void> FrameSeeker::begin(size_t start, int from, int end) {
   end_ = end;
   running_ = true;
   newest_ = start == 0 ? -1 : starts_[start].n - 1;
-  return stream_.start(from, {.threads = 2, .reorder_depth = order_.reorder_depth, .quantisers = quantisers_}, end);
+  const int threads = end - from > 1 ? 2 : 1;
+  return stream_.start(from, {.threads = threads, .reorder_depth = order_.reorder_depth, .quantisers = quantisers_}, end);
 }
 
 void FrameSeeker::note_damage() {
