@@ -15,6 +15,7 @@
 #include "cli/evaluation_folder.h"
 #include "cli/options.h"
 #include "cli/process.h"
+#include "dataset/index.h"
 
 namespace sigs::cli {
 
@@ -78,9 +79,7 @@ Result<void> check_truth_options(const Paths& inputs, const TruthOptions& option
 }
 
 Result<std::vector<ClipFiles>> clips_of(const Paths& inputs, const std::string& split, const TruthOptions& options) {
-  std::error_code code;  // a dataset has a folder labels/ too
-  const bool is_dataset = inputs.size() == 1 && is_folder(inputs.front()) &&
-                          (fs::exists(inputs.front() / "index.json", code) || !is_truth_folder(inputs.front()));
+  const bool is_dataset = inputs.size() == 1 && is_dataset_folder(inputs.front());
   if (const Result<void> good = check_truth_options(is_dataset ? Paths() : inputs, options); !good)
     return fail(good.error());
   if (is_dataset) return clips_of_dataset(inputs.front(), split);
@@ -88,8 +87,8 @@ Result<std::vector<ClipFiles>> clips_of(const Paths& inputs, const std::string& 
   std::vector<ClipFiles> clips;
   std::vector<std::string> names;
   for (const fs::path& labels : inputs) {
-    if (is_folder(labels) && !is_truth_folder(labels))
-      return fail(labels.string(), "is a folder; name label files, or one dataset alone", ErrorKind::usage);
+    if (is_dataset_folder(labels))  // it may have a folder labels/, as yolo has
+      return fail(labels.string(), "is a dataset; name label files, or one dataset alone", ErrorKind::usage);
     if (const Result<void> good = check_labels(labels, clips); !good) return fail(good.error());
     if (!is_own_labels(labels)) {
       if (const Result<void> added = add_truth(labels, options, clips, names); !added) return fail(added.error());

@@ -292,6 +292,17 @@ Result<void> remove_index(const fs::path& dataset) {
   return {};
 }
 
+bool is_dataset_folder(const fs::path& folder) {
+  std::error_code code;
+  if (fs::exists(folder / kIndexName, code) || is_folder(staging_folder_of(folder))) return true;
+  const auto is_complete_video = [](const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path / kEntryName, ignored);
+  };
+  const Result<std::vector<fs::path>> contents = folder_contents(folder);
+  return contents && std::any_of(contents->begin(), contents->end(), is_complete_video);
+}
+
 std::string split_of(const PlannedVideo& video) {
   return video.split.empty() ? "all" : video.split;
 }

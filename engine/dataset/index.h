@@ -48,6 +48,10 @@ struct FinishedVideo {
   VideoEntry entry;
 };
 
+// Whether a folder is a dataset's, whole or not: it has an index, the staging folder of a run, or the folder of a video
+// that is complete. The folder of a single video, and one that cannot be read, is none.
+[[nodiscard]] bool is_dataset_folder(const std::filesystem::path& folder);
+
 // The name that lists and labels use for a video's split: "all" where it has none.
 [[nodiscard]] std::string split_of(const PlannedVideo& video);
 

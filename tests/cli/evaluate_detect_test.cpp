@@ -140,7 +140,7 @@ TEST_CASE("inputs that do not match are refused in one line") {
   refused(one + " --results " + file + " " + folder, 64, "are folders and files");
   refused(one + " --results gone.csv", 66, "gone.csv: no such file or folder");
   refused("gone.xml --results " + file, 66, "gone.xml: no such file or folder");
-  refused(folder + " --results " + file, 66, "index.json: no such file; a dataset has it when it is whole");
+  refused(folder + " --results " + file, 65, "folder: is no truth: it has neither gt/gt.txt (mot) nor labels/ (yolo)");
   refused(fixture.tiny.project() + " --results " + file, 64, "p.json: is not labels (.xml); of a project sigs export");
   refused(one + " " + one + " --results " + file + " " + file, 64, "one.xml: is named twice");
   fs::create_symlink(one, fixture.tiny.file("link.xml"));
@@ -154,6 +154,36 @@ TEST_CASE("inputs that do not match are refused in one line") {
   refused(one + " --false-overlap 0.5 --results " + file, 64, "--false-overlap: is more than --match-overlap");
   fixture.put("set/index.json", "{\"videos\": 3}");
   refused(fixture.dataset + " --results " + folder, 65, "index.json: is no index of a dataset");
+}
+
+TEST_CASE("a folder is taken for an unfinished dataset where it has what a run leaves, and else for a truth") {
+  const Fixture fixture;
+  const std::string file = fixture.put("a.csv", kNothing);
+  const auto check_refused = [&](const std::string& folder, int status, const std::string& message) {
+    const Run run = fixture.detect(folder + " --results " + file);
+    CHECK_MESSAGE(run.status == status, folder << ": " << run.err);
+    CHECK_MESSAGE(run.err.find(message) != std::string::npos, folder << ": " << run.err);
+  };
+  const std::string unfinished = "index.json: no such file; a dataset has it when it is whole";
+  const std::string no_truth = "is no truth: it has neither gt/gt.txt (mot) nor labels/ (yolo)";
+  fs::remove(fixture.tiny.file("set/index.json"));
+  check_refused(fixture.dataset, 65, no_truth);
+  fs::create_directories(fixture.tiny.file("set/.part"));  // of a run that was killed during its first video
+  check_refused(fixture.dataset, 66, unfinished);
+  fs::remove(fixture.tiny.file("set/.part"));
+  fixture.put("set/one/entry.json", "{}");  // of a shard that has ended
+  check_refused(fixture.dataset, 66, unfinished);
+  fs::create_directories(fixture.tiny.file("set/labels"));
+  check_refused(fixture.dataset, 66, unfinished);
+  check_refused(fixture.dataset + " " + fixture.labels("two"), 64, "set: is a dataset; name label files, or one");
+  check_refused(fixture.dataset + "/one", 65, no_truth);  // the folder of one video
+  REQUIRE(
+      run_sigs("export " + fixture.tiny.project() + " --masks none --labels voc,kitti,vot --out " + fixture.tiny.out())
+          .status == 0);
+  for (const char* const format : {"voc", "kitti", "vot"}) {
+    check_refused(fixture.tiny.out() + "/tiny." + format, 65, no_truth);
+    check_refused(fixture.tiny.out() + "/tiny." + format, 65, "of other labels of SIGS name the file .xml");
+  }
 }
 
 TEST_CASE("results whose images are another clip's are scored with a warning") {

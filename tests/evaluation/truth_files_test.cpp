@@ -109,6 +109,15 @@ double gridded_overlap(const Box& a, const Box& b) {
 
 }  // namespace
 
+TEST_CASE("a text in a truth's file is no key, whatever it says") {
+  const TruthFolder folder;
+  const std::string coco = text_of(coco_truth(folder));
+  const auto described = folder.put("described.json", R"({"made for": "samples",)" + coco.substr(1));
+  check_tiny(only_clip(described).truth, 1);
+  check_problem(folder.put("words.json", R"({"made of": "images", "as": "samples"})"), "is not labels (.xml)");
+  check_problem(folder.put("list.json", R"(["samples", "images"])"), "is not labels (.xml)");
+}
+
 TEST_CASE("one clip is the same truth as a coco file, a mot folder and a yolo folder") {
   const TruthFolder folder;
   const TruthClip coco = only_clip(coco_truth(folder));

@@ -29,7 +29,10 @@ bool has_outer_key(const std::string& text, std::string_view key) {
       if (letter == '\\') ++i;
       if (letter != '"') continue;
       in_string = false;
-      if (depth == 1 && std::string_view(text).substr(begin, i - begin) == key) return true;
+      if (depth != 1 || std::string_view(text).substr(begin, i - begin) != key) continue;
+      // A value has no colon behind it.
+      const std::size_t next = text.find_first_not_of(" \t\r\n", i + 1);
+      if (next != std::string::npos && text[next] == ':') return true;
     } else if (letter == '"') {
       in_string = true;
       begin = i + 1;
@@ -65,10 +68,6 @@ Result<void> check_classes(const fs::path& path, const TruthOptions& options, co
 
 }  // namespace
 
-bool is_truth_folder(const fs::path& path) {
-  return is_folder(path) && (!mot_sequences_in(path).empty() || is_folder(path / "labels"));
-}
-
 Result<std::vector<TruthClip>> read_truth_clips(const fs::path& path, const TruthOptions& options) {
   Result<std::vector<TruthClip>> clips = std::vector<TruthClip>();
   if (!is_folder(path))
@@ -78,7 +77,9 @@ Result<std::vector<TruthClip>> read_truth_clips(const fs::path& path, const Trut
   else if (is_folder(path / "labels"))
     clips = read_yolo_clips(path, options);
   else
-    clips = fail(path.string(), "is no truth: it has neither gt/gt.txt (mot) nor labels/ (yolo)");
+    clips = fail(path.string(),
+                 "is no truth: it has neither gt/gt.txt (mot) nor labels/ (yolo), and no index.json as a dataset has; "
+                 "of other labels of SIGS name the file .xml");
   if (!clips) return clips;
   if (const Result<void> good = check_classes(path, options, *clips); !good) return fail(good.error());
   std::ranges::stable_sort(*clips, {}, &TruthClip::name);

@@ -40,9 +40,6 @@ struct TruthOptions {
 [[nodiscard]] Result<std::vector<TruthClip>> read_truth_clips(const std::filesystem::path& path,
                                                               const TruthOptions& options = {});
 
-// Whether the path is a folder of a layout above; a file is judged by read_truth_clips().
-[[nodiscard]] bool is_truth_folder(const std::filesystem::path& path);
-
 // Results of all clips in one file of layout aot or coco, which calls images as the truth does: those of each clip, in
 // order. Errors as read_results(); a layout without names of images.
 [[nodiscard]] Result<std::vector<Results>> read_shared_results(const std::filesystem::path& path,
