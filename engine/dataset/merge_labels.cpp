@@ -68,11 +68,19 @@ Result<void> check_sequence_names(const Plan& plan) {
 struct Merger {
   std::string_view format;
   std::string_view suffix;  // of one split's file; empty: a folder of all splits
-  Result<void> (*merge)(const SplitLabels& labels, const fs::path& place);
+  Result<void> (*merge)(const SplitLabels& labels, const fs::path& place) = nullptr;
+  // In place of the one above: all splits at once.
+  Result<void> (*merge_splits)(const std::vector<SplitLabels>& splits, const fs::path& folder,
+                               const std::string& from) = nullptr;
 };
 
-constexpr Merger kMergers[] = {{"coco", ".json", merge_coco}, {"aot", ".json", merge_aot}, {"csv", ".csv", merge_csv},
-                               {"mot", "", merge_mot},        {"kitti", "", merge_kitti},  {"vot", "", merge_vot}};
+constexpr Merger kMergers[] = {{.format = "coco", .suffix = ".json", .merge = merge_coco},
+                               {.format = "aot", .suffix = ".json", .merge = merge_aot},
+                               {.format = "csv", .suffix = ".csv", .merge = merge_csv},
+                               {.format = "mot", .suffix = "", .merge = merge_mot},
+                               {.format = "kitti", .suffix = "", .merge = merge_kitti},
+                               {.format = "vot", .suffix = "", .merge = merge_vot},
+                               {.format = "yolo", .suffix = "", .merge_splits = merge_yolo}};
 
 std::vector<SplitLabels> labels_of(std::string_view format, const MergeRequest& request,
                                    const std::vector<FinishedVideo>& videos) {
@@ -90,6 +98,18 @@ std::vector<SplitLabels> labels_of(std::string_view format, const MergeRequest& 
   return sets;
 }
 
+Result<void> merge_each(const Merger& merger, const std::vector<SplitLabels>& splits, const fs::path& folder,
+                        const std::atomic<bool>* cancel) {
+  for (const SplitLabels& labels : splits) {
+    if (const Result<void> on = check_interrupt(cancel); !on) return on;
+    const bool is_file = !merger.suffix.empty();
+    const Result<void> merged =
+        merger.merge(labels, is_file ? folder / (labels.split + std::string(merger.suffix)) : folder);
+    if (!merged) return merged;
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_labels_agree(const Plan& plan) {
@@ -99,21 +119,15 @@ Result<void> check_labels_agree(const Plan& plan) {
 
 Result<void> merge_labels(const MergeRequest& request, const std::vector<FinishedVideo>& videos) {
   for (const Merger& merger : kMergers) {
-    for (const SplitLabels& labels : labels_of(merger.format, request, videos)) {
-      if (const Result<void> on = check_interrupt(request.cancel); !on) return on;
-      const fs::path folder = request.folder / merger.format;
-      if (const Result<void> made = make_inner_folder(folder); !made) return made;
-      const bool is_file = !merger.suffix.empty();
-      const Result<void> merged =
-          merger.merge(labels, is_file ? folder / (labels.split + std::string(merger.suffix)) : folder);
-      if (!merged) return merged;
-    }
+    const std::vector<SplitLabels> splits = labels_of(merger.format, request, videos);
+    if (splits.empty()) continue;
+    const fs::path folder = request.folder / merger.format;
+    if (const Result<void> made = make_inner_folder(folder); !made) return made;
+    const Result<void> merged = merger.merge_splits != nullptr ? merger.merge_splits(splits, folder, "../../")
+                                                               : merge_each(merger, splits, folder, request.cancel);
+    if (!merged) return merged;
   }
-  const std::vector<SplitLabels> yolo = labels_of("yolo", request, videos);
-  if (yolo.empty()) return {};
-  const fs::path folder = request.folder / "yolo";
-  const Result<void> made = make_inner_folder(folder);
-  return made ? merge_yolo(yolo, folder, "../../") : made;
+  return {};
 }
 
 }  // namespace sigs
