@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/paths.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "evaluation/opencv_tracker.h"
@@ -124,7 +125,7 @@ void add_format_option(CLI::App& command, ResultsFormat& format) {
           [&format, names](const std::string& name) {
             format = static_cast<ResultsFormat>(std::find(names.begin(), names.end(), name) - names.begin());
           },
-          "of the results: auto, otb, vot, mot, csv, aot or coco")
+          "of the results: " + listed(names))
       ->option_text("NAME=auto")
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
 }

@@ -74,6 +74,20 @@ TEST_CASE("the command line's page has a section on every verb with exactly its 
   }
 }
 
+TEST_CASE("the command line's page has every layout of results that --format takes") {
+  const std::string help = help_of("evaluate track");
+  const std::set<std::string> in_program =
+      matches(help.substr(help.find("of the results: ")), std::regex("^of the results:([^-]*)"));
+  REQUIRE(in_program.size() == 1);
+  std::string on_page;
+  for (const auto& row : table_rows(section("evaluate track"), "| option | default | meaning |"))
+    if (row.front().starts_with("--format")) on_page = row.back();
+  const std::set<std::string> layouts = matches(*in_program.begin(), std::regex("([a-z]+)"));
+  CHECK(layouts.size() >= 7);
+  for (const std::string& layout : layouts)
+    CHECK_MESSAGE(on_page.find(layout) != std::string::npos, "--format " << layout << ": " << on_page);
+}
+
 TEST_CASE("the command line's page has the exit statuses that the program names") {
   const std::string help = help_of("");
   const std::set<std::string> in_program =
