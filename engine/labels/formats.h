@@ -19,7 +19,7 @@ namespace sigs {
 
 // The formats in which labels are written, one function for each, all in the table of labels.cpp. README.md of this
 // folder lists what a new one needs; docs/label-formats.md describes every field.
-//   path      an empty file, or an empty folder for yolo, voc, mot, kitti and vot
+//   path      an empty file, or an empty folder where LabelFormat::is_folder
 //   sequence  what is the same for all frames; ids of intruders and frames of the footage count from 0
 // Errors: cannot_create; write_failed where the beginning of a file cannot be written.
 //

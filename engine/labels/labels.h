@@ -109,6 +109,8 @@ struct LabelFormat {
 
   bool names_images = true;    // whether its readers look for numbered images, one for each frame
   bool has_thresholds = true;  // whether it leaves intruders out (is_labelled); else it contains all of them
+  bool widens_boxes = false;   // whether its boxes are those of labelled_box(); else all of them are visible boxes
+  bool has_ignored_regions = false;  // whether it marks the own body and real aircraft as regions to ignore
 };
 
 // All formats, in the order in which the help lists them.

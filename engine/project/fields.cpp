@@ -176,7 +176,8 @@ void add_output(FieldList list, ExportSettings& output) {
            "opacity of the intruders, as video or images");
   static const std::string label_help = "annotation formats to write: " + listed(kLabelNames);  // a Field keeps no copy
   list.add("labels", &output.labels, "", label_help);
-  // Formats that leave nothing out are those without LabelFormat::has_thresholds (engine/labels/labels.h).
+  // Formats that leave nothing out are those without LabelFormat::has_thresholds (engine/labels/labels.h); boxes are
+  // widened where they have LabelFormat::widens_boxes.
   list.number("label_min_pixels", &output.label_min_pixels, "px", 1, 1e9,
               "fewer visible pixels: no label; xml, csv and jsonl leave nothing out");
   list.number("label_min_visible_fraction", &output.label_min_visible_fraction, "", 0, 1,

@@ -7,10 +7,12 @@
 #include <map>
 #include <string>
 
+#include "base/text.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
 #include "cli/tiny_recipe.h"
 #include "occlusion/synthetic_clip.h"
+#include "project/project.h"
 #include "support/files.h"
 
 namespace sigs::test {
@@ -59,9 +61,9 @@ struct Exported {
 
 TEST_CASE("labels of a flight with a place on the Earth are replaced in every format") {
   const TinyProject tiny;
-  const std::string command =
-      "export " + tiny.project() + " --masks none --set geo.latitude_deg=47" +
-      " --set geo.longitude_deg=8 --labels xml,jsonl,csv,coco,yolo,voc,mot,kitti,cvat,vot,aot --out " + tiny.out();
+  const std::string command = "export " + tiny.project() +
+                              " --masks none --set geo.latitude_deg=47 --set geo.longitude_deg=8 --labels " +
+                              listed(kLabelNames, ",") + " --out " + tiny.out();
   REQUIRE(run_sigs(command).status == 0);
   CHECK(fs::exists(fs::path(tiny.out()) / "tiny.kitti/poses/tiny.txt"));
   const Run again = run_sigs(command + " --force");

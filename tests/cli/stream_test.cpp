@@ -19,8 +19,11 @@
 #include <vector>
 
 #include "base/staged_outputs.h"
+#include "base/text.h"
 #include "cli/program.h"
 #include "cli/tiny_project.h"
+#include "labels/labels.h"
+#include "project/project.h"
 #include "support/files.h"
 #include "support/test_data.h"
 
@@ -270,13 +273,15 @@ TEST_CASE("folders of labels name and link TIFF and JPEG images by their own ext
   for (const auto& [codec, extension] : {std::pair{"tiff", ".tiff"}, std::pair{"jpeg", ".jpg"}}) {
     for (int run = 0; run < 2; ++run)  // the second replaces what the first has written
       REQUIRE(run_sigs("export " + tiny.project() + " --out " + tiny.out() + " --force --masks none --codec " + codec +
-                       " --labels yolo,voc,mot,kitti,vot,coco,aot")
+                       " --labels " + listed(kLabelNames, ","))
                   .status == 0);
     const fs::path image = tiny.file("out/tiny/frame_000004") += extension;
-    for (const char* const link :
-         {"tiny.yolo/images/tiny/frame_000004", "tiny.voc/JPEGImages/frame_000004", "tiny.mot/tiny/img1/000005",
-          "tiny.kitti/image_02/tiny/000004", "tiny.vot/tiny/color/00000005"})
-      CHECK_MESSAGE(fs::equivalent(image, tiny.file("out") / (std::string(link) + extension)), link);
+    for (const LabelFormat& format : label_formats()) {
+      if (!format.is_folder) continue;
+      const fs::path folder = tiny.file("out") / ("tiny" + std::string(format.suffix));
+      CHECK_MESSAGE(fs::equivalent(image, folder / image_in_labels(format.name, 4, 0, image.extension().string())),
+                    format.name);
+    }
     for (const auto& text :
          {std::pair{"tiny.mot/tiny/seqinfo.ini", std::string("imExt=") + extension},
           std::pair{"tiny.vot/tiny/sequence", std::string("color/%08d") + extension},

@@ -2,6 +2,7 @@
 #include "cli/tiny_project.h"
 
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 #include "base/staged_outputs.h"
@@ -92,6 +93,21 @@ int TinyProject::files_out() const {
   if (!std::filesystem::exists(out())) return 0;
   const std::filesystem::directory_iterator files(out());
   return static_cast<int>(std::distance(begin(files), end(files)));
+}
+
+std::filesystem::path image_in_labels(std::string_view format, int frame, int first_frame, std::string_view extension) {
+  const auto numbered = [extension](int number, std::size_t digits) {
+    const std::string text = std::to_string(number);
+    return std::string(digits - text.size(), '0').append(text).append(extension);
+  };
+  const int index = frame - first_frame;
+  const std::map<std::string_view, std::string> images{{"mot", "tiny/img1/" + numbered(index + 1, 6)},
+                                                       {"kitti", "image_02/tiny/" + numbered(index, 6)},
+                                                       {"vot", "tiny/color/" + numbered(index + 1, 8)},
+                                                       {"voc", "JPEGImages/frame_" + numbered(frame, 6)},
+                                                       {"yolo", "images/tiny/frame_" + numbered(frame, 6)}};
+  const auto found = images.find(format);
+  return found == images.end() ? "" : found->second;
 }
 
 }  // namespace sigs::test

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
+#include <string_view>
 
 #include "support/test_data.h"
 
@@ -27,5 +28,11 @@ class TinyProject {
  private:
   TemporaryFolder folder_;
 };
+
+// Where a folder of labels of the tiny project has the image of a frame: "tiny/img1/000001.png". Empty: of this format
+// it is not known, or the format is no folder.
+//   frame, first_frame  the footage's numbers of it and of the first frame that is exported
+[[nodiscard]] std::filesystem::path image_in_labels(std::string_view format, int frame, int first_frame,
+                                                    std::string_view extension = ".png");
 
 }  // namespace sigs::test

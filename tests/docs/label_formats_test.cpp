@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,6 +24,19 @@ std::vector<Row> rows() {
   return table_rows(page("label-formats.md"), kTableHeader);
 }
 
+// Whether a sentence names it, as a word of its own.
+bool names(const std::string& sentence, const LabelFormat& format) {
+  return std::regex_search(sentence, std::regex("\\b" + std::string(format.name) + "\\b"));
+}
+
+// A page's text from these words on, up to the next full stop or the end of the cell.
+std::string sentence_from(const std::string& page_name, const std::string& words) {
+  const std::string text = page(page_name);
+  const std::size_t begin = text.find(words);
+  REQUIRE_MESSAGE(begin != std::string::npos, "docs/" << page_name << ": " << words);
+  return text.substr(begin, std::min(text.find(". ", begin), text.find(" |", begin)) - begin);
+}
+
 // What its row has in the column "written".
 std::string output_of(const LabelFormat& format) {
   return std::string("NAME").append(format.suffix).append(format.is_folder ? "/" : "");
@@ -38,12 +52,24 @@ TEST_CASE("the label formats' page has a row for every format, in the program's 
   CHECK_MESSAGE(on_page == in_code, "the page has " << listed(on_page) << "; the code " << listed(in_code));
 }
 
-TEST_CASE("a format's row says what is written and whether thresholds leave something out, as the code does") {
+TEST_CASE("a format's row says what is written, what is left out and whether the own body is in it, as the code does") {
   for (const Row& row : rows()) {
     const LabelFormat* const format = label_format(row.at(0));
     REQUIRE_MESSAGE(format != nullptr, row.at(0));
     CHECK_MESSAGE(row.at(1) == output_of(*format), row.at(0));
     CHECK_MESSAGE((row.at(7) != "nothing") == format->has_thresholds, row.at(0));
+    CHECK_MESSAGE(row.at(6).empty() != format->has_ignored_regions, row.at(0) << ", own body");
+  }
+}
+
+TEST_CASE("pages name the formats with regions to ignore, and those whose boxes are widened, as the code does") {
+  const std::string widened = sentence_from("label-formats.md", "widen the boxes of");
+  const std::string ignored = sentence_from("label-formats.md", "coco has them as crowd regions");
+  const std::string in_recipes = sentence_from("dataset-recipe.md", "regions to ignore in");
+  for (const LabelFormat& format : label_formats()) {
+    CHECK_MESSAGE(names(widened, format) == format.widens_boxes, format.name << ": " << widened);
+    CHECK_MESSAGE(names(ignored, format) == format.has_ignored_regions, format.name << ": " << ignored);
+    CHECK_MESSAGE(names(in_recipes, format) == format.has_ignored_regions, format.name << ": " << in_recipes);
   }
 }
 

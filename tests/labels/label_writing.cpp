@@ -93,7 +93,7 @@ void write_labels(const std::string& format, const fs::path& path, const LabelSe
 void write_synthetic_images(const fs::path& folder, const LabelSequence& clip) {
   REQUIRE(fs::create_directory(folder));
   for (int frame = clip.footage.first_frame; frame <= clip.footage.last_frame; ++frame)
-    std::ofstream(folder / image_name(frame)) << frame;
+    std::ofstream(folder / image_name(frame, clip.image_extension)) << frame;
 }
 
 std::vector<std::string> lines_of(const fs::path& path) {

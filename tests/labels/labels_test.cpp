@@ -22,6 +22,19 @@ namespace sigs::test {
 
 using namespace labels;
 
+namespace {
+
+// Everything that a format writes of a clip of one frame, by the files' names.
+std::map<std::string, std::string> written(const LabelFormat& format, const LabelSequence& clip,
+                                           const FrameTruth& frame) {
+  const TemporaryFolder folder;
+  write_labels(std::string(format.name), folder / "l", clip, {frame});
+  return format.is_folder ? contents_of(folder / "l")
+                          : std::map<std::string, std::string>{{"l", text_of(folder / "l")}};
+}
+
+}  // namespace
+
 TEST_CASE("the formats that a project may ask for are those that can be written, in one order") {
   std::vector<std::string_view> names;
   for (const LabelFormat& format : label_formats()) names.push_back(format.name);
@@ -72,18 +85,55 @@ TEST_CASE("every format writes a clip without any intruder and one of a single f
 }
 
 TEST_CASE("thresholds change a file exactly where its format says that it has them") {
-  const std::vector<FrameTruth> frames{frame_of(0, {visible_intruder(0, {1, 1, 3, 2})})};
-  const auto written = [&](const LabelFormat& format, const LabelThresholds& thresholds) {
-    const TemporaryFolder folder;
-    LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
-    clip.thresholds = thresholds;
-    write_labels(std::string(format.name), folder / "l", clip, frames);
-    return format.is_folder ? contents_of(folder / "l")
-                            : std::map<std::string, std::string>{{"l", text_of(folder / "l")}};
-  };
+  const FrameTruth frame = frame_of(0, {visible_intruder(0, {1, 1, 3, 2})});
+  const LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
+  LabelSequence strict = clip;
+  strict.thresholds = {.min_pixels = 7, .min_visible_fraction = 1};
   for (const LabelFormat& format : label_formats()) {
-    const bool differs = written(format, {}) != written(format, {.min_pixels = 7, .min_visible_fraction = 1});
+    const bool differs = written(format, clip, frame) != written(format, strict, frame);
     CHECK_MESSAGE(differs == format.has_thresholds, format.name << " in engine/labels/labels.cpp");
+  }
+}
+
+TEST_CASE("boxes are widened exactly where their format says so") {
+  const FrameTruth frame = frame_of(0, {visible_intruder(0, {100, 100, 30, 20})});
+  const LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
+  LabelSequence wider = clip;
+  wider.box_scale = 1.5;
+  for (const LabelFormat& format : label_formats()) {
+    const bool differs = written(format, clip, frame) != written(format, wider, frame);
+    CHECK_MESSAGE(differs == format.widens_boxes, format.name << " in engine/labels/labels.cpp");
+  }
+}
+
+TEST_CASE("own body and real aircraft are regions to ignore exactly where their format says so") {
+  const FrameTruth frame = frame_of(0, {visible_intruder(0, {100, 100, 30, 20})});
+  const LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
+  LabelSequence with_body = clip;
+  with_body.own_body = cv::Mat::zeros(clip.footage.size_px, CV_32FC1);
+  with_body.own_body.rowRange(400, 480).setTo(1);
+  LabelSequence with_real_aircraft = clip;
+  with_real_aircraft.has_real_aircraft = true;
+  FrameTruth with_box = frame;
+  with_box.real_aircraft = {{300, 50, 9, 5}};
+  for (const LabelFormat& format : label_formats()) {
+    const std::map<std::string, std::string> without = written(format, clip, frame);
+    CHECK_MESSAGE((written(format, with_body, frame) != without) == format.has_ignored_regions,
+                  format.name << " in engine/labels/labels.cpp");
+    CHECK_MESSAGE((written(format, with_real_aircraft, with_box) != without) == format.has_ignored_regions,
+                  format.name << " in engine/labels/labels.cpp");
+  }
+}
+
+TEST_CASE("the help of the boxes' scale names the formats whose boxes are widened") {
+  Project project;
+  for (const Field& field : fields_of(project)) {
+    if (field.key != "export.label_box_scale") continue;
+    const std::string_view formats = field.help.substr(0, field.help.find(':'));
+    for (const LabelFormat& format : label_formats())
+      CHECK_MESSAGE((formats.find(format.name) != std::string_view::npos) == format.widens_boxes,
+                    format.name << ": widens_boxes in engine/labels/labels.cpp, " << field.key
+                                << " in engine/project/fields.cpp");
   }
 }
 
@@ -126,6 +176,24 @@ TEST_CASE("every format with images names the one that is missing") {
     REQUIRE_MESSAGE(!finished.has_value(), format.name);
     CHECK(finished.error().kind == ErrorKind::write_failed);
     CHECK(finished.error().text().find("frame_000000.png") != std::string::npos);
+  }
+}
+
+TEST_CASE("every folder of labels has its images with the extension that they have") {
+  for (const LabelFormat& format : label_formats()) {
+    if (!format.is_folder) continue;
+    const TemporaryFolder folder;
+    LabelSequence clip = synthetic_sequence(0, 1, {"airplane"});
+    clip.image_extension = ".jpg";
+    write_synthetic_images(folder / "images", clip);
+    write_labels(std::string(format.name), folder / "l", clip,
+                 {frame_of(0, {visible_intruder(0, {1, 1, 2, 2})}), frame_of(1, {invisible_intruder(0)})},
+                 folder / "images");
+    const std::vector<std::string> files = files_below(folder / "l");
+    CHECK_MESSAGE(std::ranges::count_if(files, [](const std::string& file) { return file.ends_with(".jpg"); }) == 2,
+                  format.name);
+    CHECK_MESSAGE(std::ranges::none_of(files, [](const std::string& file) { return file.ends_with(".png"); }),
+                  format.name);
   }
 }
 
