@@ -303,10 +303,14 @@ void Canvas::draw_region(ImDrawData& data, const ImVec4& region) const {
 
 bool Canvas::draw(ImDrawData& data, int width_px, int height_px, std::span<const ImVec2> first) {
   if (width_px <= 0 || height_px <= 0) return false;
-  if (width_px != width_px_ || height_px != height_px_) forget();
+  if (!shows_parts_) shows_parts_ = can_show_parts();
+  if (width_px != width_px_ || height_px != height_px_) {
+    forget();
+    // Mesa asks for the window's size, and makes a buffer of it, after buffers were swapped and not before.
+    if (*shows_parts_) glXSwapBuffers(glXGetCurrentDisplay(), glXGetCurrentDrawable());
+  }
   width_px_ = width_px;
   height_px_ = height_px;
-  if (!shows_parts_) shows_parts_ = can_show_parts();
   const std::vector<ImVec4> regions = changed_.of(data, *shows_parts_ ? first : std::span<const ImVec2>());
   if (regions.empty()) return false;
   glViewport(0, 0, width_px, height_px);

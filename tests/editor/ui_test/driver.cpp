@@ -378,6 +378,11 @@ void EditorDriver::resize(int width_px, int height_px) {
   settle();
 }
 
+void EditorDriver::hide_and_show() {
+  xdotool({"search", "--onlyvisible", "--class", ".", "windowunmap", "--sync", "windowmap", "--sync"});
+  settle();
+}
+
 void EditorDriver::screenshot(const fs::path& file, bool with_mouse) const {
   fs::create_directories(file.parent_path());
   const std::string size = std::to_string(width_px_) + "x" + std::to_string(height_px_);

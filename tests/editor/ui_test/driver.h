@@ -83,6 +83,8 @@ class EditorDriver {
   void kill_after_key(const std::string& keys, double delay_s);
   // Gives the window another size.
   void resize(int width_px, int height_px);
+  // Takes the window from the screen and puts it there again: all of it has to be drawn anew.
+  void hide_and_show();
 
   void screenshot(const std::filesystem::path& file, bool with_mouse = false) const;  // PNG
 

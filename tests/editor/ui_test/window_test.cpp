@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "editor/ui_test/ui_test.h"
+
+// What is on the screen, not what the editor says of it: parts of the window that changed are drawn and shown alone.
+
+namespace sigs::test {
+
+namespace {
+
+cv::Mat screen_of(UiTest& ui_test, const std::string& name) {
+  const std::filesystem::path file = build_dir() / "screenshots" / ("window-" + name + ".png");
+  ui_test.editor().screenshot(file);
+  return cv::imread(file.string());
+}
+
+cv::Rect pixels_of(const ScreenPlace& place) {
+  return {static_cast<int>(std::lround(place.x)), static_cast<int>(std::lround(place.y)),
+          static_cast<int>(std::lround(place.width)), static_cast<int>(std::lround(place.height))};
+}
+
+// By how many codes half of an image's samples differ at most: overlays cover less than half.
+double median_difference(const cv::Mat& a, const cv::Mat& b) {
+  cv::Mat difference;
+  cv::absdiff(a, b, difference);
+  std::vector<uchar> codes(difference.datastart, difference.dataend);
+  std::nth_element(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(codes.size() / 2), codes.end());
+  return codes[codes.size() / 2];
+}
+
+UiTest& opened(UiTest& ui_test) {
+  ui_test.editor().start({put(sample_project("crossing"), ui_test.folder() / "mine.json").string()});
+  ui_test.editor().wait_for_image();
+  return ui_test;
+}
+
+// Until nothing is made ahead either, which begins a while after an edit.
+void wait_for_rest(EditorDriver& editor) {
+  nlohmann::json memory;
+  auto since = std::chrono::steady_clock::now();
+  editor.wait_for("rest", [&](const nlohmann::json& now) {
+    if (now.value("busy", true) || now.at("memory") != memory) since = std::chrono::steady_clock::now();
+    memory = now.at("memory");
+    return std::chrono::steady_clock::now() - since > std::chrono::seconds(1);
+  });
+  editor.settle();
+}
+
+cv::Mat footage_frame() {
+  const std::filesystem::path clip = source_dir() / "assets/footage/sample.mp4";
+  const std::filesystem::path file = build_dir() / "screenshots/first-frame.png";
+  std::filesystem::create_directories(file.parent_path());
+  const std::string command = fmt::format("ffmpeg -v error -y -i '{}' -frames:v 1 '{}'", clip.string(), file.string());
+  REQUIRE(std::system(command.c_str()) == 0);
+  return cv::imread(file.string());
+}
+
+}  // namespace
+
+TEST_CASE("the footage is where the window says, whatever size the window gets") {
+  UiTest ui_test("window");
+  EditorDriver& editor = opened(ui_test).editor();
+  const cv::Mat frame = footage_frame();
+  for (const auto& [width_px, height_px] : {std::pair(1600, 960), {1150, 760}, {1500, 620}, {820, 900}, {1600, 960}}) {
+    editor.resize(width_px, height_px);
+    editor.wait_for_image();
+    editor.move(1, 1);
+    editor.settle();
+    const cv::Mat screen = screen_of(ui_test, fmt::format("{}x{}", width_px, height_px));
+    const cv::Rect place = pixels_of(editor.place("viewport/image"));
+    REQUIRE((place & cv::Rect(0, 0, width_px, height_px)) == place);
+    cv::Mat expected;
+    cv::resize(frame, expected, place.size(), 0, 0, cv::INTER_AREA);
+    CAPTURE(width_px);
+    CAPTURE(height_px);
+    CHECK(median_difference(screen(place), expected) <= 4);
+    CHECK(median_difference(screen(place), cv::Mat(place.size(), CV_8UC3, cv::Scalar::all(20))) > 40);
+  }
+}
+
+TEST_CASE("what was drawn part by part is what all of the window is when it is drawn anew") {
+  UiTest ui_test("window");
+  EditorDriver& editor = opened(ui_test).editor();
+  const auto check = [&](const std::string& when) {
+    editor.wait_for_image();
+    wait_for_rest(editor);
+    const cv::Mat by_parts = screen_of(ui_test, when + "-parts");
+    editor.hide_and_show();
+    const cv::Mat anew = screen_of(ui_test, when + "-anew");
+    REQUIRE(by_parts.size() == anew.size());
+    // The line below the view tells the memory of textures too, which go when they were not drawn for a while.
+    const cv::Rect view = pixels_of(editor.place("viewport"));
+    const cv::Rect readout = cv::Rect(view.x, view.br().y, view.width, 28) & cv::Rect({0, 0}, anew.size());
+    for (cv::Mat image : {by_parts, anew}) image(readout).setTo(0);
+    CAPTURE(when);
+    CHECK(cv::norm(by_parts, anew, cv::NORM_INF) == 0);
+    CHECK(cv::countNonZero(anew.reshape(1) > 60) > anew.rows * anew.cols / 10);  // not a dark screen
+  };
+  check("start");
+  editor.drag("viewport/waypoint/0/1", 60, 40);
+  editor.move(1, 1);
+  check("drag");
+  editor.key("End");
+  check("other-frame");
+  editor.resize(1300, 800);
+  editor.move(1, 1);
+  check("smaller");
+  const ScreenPlace view = editor.place("viewport");
+  editor.move(view.center_x(), view.center_y());
+  editor.key("1");
+  editor.move(1, 1);
+  check("exact");
+}
+
+}  // namespace sigs::test
