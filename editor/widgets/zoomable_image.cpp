@@ -21,10 +21,9 @@ constexpr int kTile_px = 512;
 // Around what is in sight, so that a view that moves needs another part seldom: with one pixel more, which smoothing
 // reads.
 cv::Rect in_tiles(const cv::Rect& sight, const cv::Size& image_px) {
-  const cv::Point low((std::max(0, sight.x - 1)) / kTile_px * kTile_px,
-                      (std::max(0, sight.y - 1)) / kTile_px * kTile_px);
-  const cv::Point high((sight.br().x + kTile_px) / kTile_px * kTile_px,
-                       (sight.br().y + kTile_px) / kTile_px * kTile_px);
+  const auto tile_at = [](int at) { return std::max(0, at) / kTile_px * kTile_px; };
+  const cv::Point low(tile_at(sight.x - 1), tile_at(sight.y - 1));
+  const cv::Point high(tile_at(sight.br().x) + kTile_px, tile_at(sight.br().y) + kTile_px);
   return cv::Rect(low, high) & cv::Rect({0, 0}, image_px);
 }
 

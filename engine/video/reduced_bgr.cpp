@@ -46,41 +46,11 @@ struct Columns {
   }
 };
 
-// Loops of a known length become vector instructions.
+// The sums of all blocks but the last, which may be narrower.
 template <int kWidth>
-void add_even_blocks(const std::int32_t* sums, int blocks, std::int32_t* to) {
-  for (int i = 0; i < blocks; ++i) {
-    std::int32_t sum = 0;
-    for (int k = 0; k < kWidth; ++k) sum += sums[i * kWidth + k];
-    to[i] = sum;
-  }
-}
-
-// The sums of the blocks; returns how many, the others are left as they are.
-int add_even_blocks(const std::vector<std::int32_t>& sums, const Columns& columns, std::vector<std::int32_t>& to) {
-  const int blocks = static_cast<int>(to.size()) - 1;  // the last one may be narrower
-  switch (columns.even_width) {
-    case 1:
-      add_even_blocks<1>(sums.data(), blocks, to.data());
-      return blocks;
-    case 2:
-      add_even_blocks<2>(sums.data(), blocks, to.data());
-      return blocks;
-    case 3:
-      add_even_blocks<3>(sums.data(), blocks, to.data());
-      return blocks;
-    case 4:
-      add_even_blocks<4>(sums.data(), blocks, to.data());
-      return blocks;
-    case 6:
-      add_even_blocks<6>(sums.data(), blocks, to.data());
-      return blocks;
-    case 8:
-      add_even_blocks<8>(sums.data(), blocks, to.data());
-      return blocks;
-    default:
-      return 0;
-  }
+void add_even_blocks(const std::vector<std::int32_t>& sums, std::vector<std::int32_t>& to) {
+  const std::int32_t* from = sums.data();
+  for (std::size_t i = 0; i + 1 < to.size(); ++i, from += kWidth) to[i] = std::accumulate(from, from + kWidth, 0);
 }
 
 // Memory for one row of blocks.
@@ -88,6 +58,22 @@ struct RowSums {
   std::vector<std::int32_t> samples;
   std::vector<std::int32_t> blocks;
 };
+
+// Loops of a known length, for the widths that footage is shown with, become vector instructions.
+void add_blocks(const Columns& columns, RowSums& sums) {
+  std::size_t done = sums.blocks.size() - 1;
+  if (columns.even_width == 1)
+    add_even_blocks<1>(sums.samples, sums.blocks);
+  else if (columns.even_width == 2)
+    add_even_blocks<2>(sums.samples, sums.blocks);
+  else if (columns.even_width == 4)
+    add_even_blocks<4>(sums.samples, sums.blocks);
+  else
+    done = 0;
+  const auto samples = sums.samples.begin() - columns.first;
+  for (std::size_t i = done; i < sums.blocks.size(); ++i)
+    sums.blocks[i] = std::accumulate(samples + columns.samples[i].start, samples + columns.samples[i].end, 0);
+}
 
 template <class Sample>
 void mean_row(const cv::Mat& plane, const cv::Range& rows, const Columns& columns, RowSums& sums, Sample* means) {
@@ -98,10 +84,7 @@ void mean_row(const cv::Mat& plane, const cv::Range& rows, const Columns& column
     std::int32_t* const to = sums.samples.data();
     for (int x = 0; x < columns.count; ++x) to[x] += from[x];
   }
-  for (auto i = static_cast<std::size_t>(add_even_blocks(sums.samples, columns, sums.blocks)); i < sums.blocks.size();
-       ++i)
-    sums.blocks[i] = std::accumulate(sums.samples.begin() + columns.samples[i].start - columns.first,
-                                     sums.samples.begin() + columns.samples[i].end - columns.first, 0);
+  add_blocks(columns, sums);
   const float share = 1.0F / static_cast<float>(rows.size());
   for (std::size_t i = 0; i < sums.blocks.size(); ++i)
     means[i] = static_cast<Sample>(
@@ -123,7 +106,7 @@ cv::Mat block_means(const cv::Mat& plane, const BlocksOfAxis& across, const Bloc
 }  // namespace
 
 cv::Mat reduced_bgr(const Frame& frame, const cv::Rect& part, int divisor) {
-  ENSURE(divisor >= 2 && !part.empty() && (part & cv::Rect({0, 0}, frame.size_px())) == part);
+  ENSURE(divisor >= 2 && divisor <= 128 && !part.empty() && (part & cv::Rect({0, 0}, frame.size_px())) == part);
   Frame small{.layout = frame.layout, .bit_depth = frame.bit_depth, .color = frame.color};
   if (frame.plane_count() == 3 && frame.layout != PixelLayout::rgb) small.layout = PixelLayout::yuv444;
   for (int i = 0; i < frame.plane_count(); ++i) {

@@ -13,7 +13,7 @@ namespace sigs {
 // where colours change abruptly, chroma samples that belong to two blocks, and codes outside of what BGR has, add to
 // that. Costs about one pass over the planes, where bgr_of() and an average take five times as long.
 //   part     not empty, within the frame; its size is divided and rounded up
-//   divisor  2 or more
+//   divisor  2 to 128
 [[nodiscard]] cv::Mat reduced_bgr(const Frame& frame, const cv::Rect& part, int divisor);
 
 }  // namespace sigs
