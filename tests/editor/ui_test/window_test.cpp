@@ -10,7 +10,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "editor/ui_test/ui_test.h"
@@ -21,6 +20,7 @@ namespace sigs::test {
 
 namespace {
 
+// Into the build folder's screenshots/ too.
 cv::Mat screen_of(UiTest& ui_test, const std::string& name) {
   const std::filesystem::path file = build_dir() / "screenshots" / ("window-" + name + ".png");
   ui_test.editor().screenshot(file);
@@ -74,18 +74,19 @@ TEST_CASE("the footage is where the window says, whatever size the window gets")
   UiTest ui_test("window");
   EditorDriver& editor = opened(ui_test).editor();
   const cv::Mat frame = footage_frame();
-  for (const auto& [width_px, height_px] : {std::pair(1600, 960), {1150, 760}, {1500, 620}, {820, 900}, {1600, 960}}) {
-    editor.resize(width_px, height_px);
+  for (const cv::Size& size_px :
+       {cv::Size(1600, 960), cv::Size(1150, 760), cv::Size(1500, 620), cv::Size(820, 900), cv::Size(1600, 960)}) {
+    editor.resize(size_px.width, size_px.height);
     editor.wait_for_image();
     editor.move(1, 1);
     editor.settle();
-    const cv::Mat screen = screen_of(ui_test, fmt::format("{}x{}", width_px, height_px));
+    const cv::Mat screen = screen_of(ui_test, fmt::format("{}x{}", size_px.width, size_px.height));
     const cv::Rect place = pixels_of(editor.place("viewport/image"));
-    REQUIRE((place & cv::Rect(0, 0, width_px, height_px)) == place);
+    REQUIRE((place & cv::Rect({0, 0}, size_px)) == place);
     cv::Mat expected;
     cv::resize(frame, expected, place.size(), 0, 0, cv::INTER_AREA);
-    CAPTURE(width_px);
-    CAPTURE(height_px);
+    CAPTURE(size_px.width);
+    CAPTURE(size_px.height);
     CHECK(median_difference(screen(place), expected) <= 4);
     CHECK(median_difference(screen(place), cv::Mat(place.size(), CV_8UC3, cv::Scalar::all(20))) > 40);
   }
