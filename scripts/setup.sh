@@ -15,7 +15,7 @@ sigs_packages_programs=(
   libpng-dev libglm-dev libtinyobjloader-dev libassimp-dev libepoxy-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   nlohmann-json3-dev libcli11-dev libpugixml-dev libyaml-cpp-dev libexpected-dev libfmt-dev libgeographiclib-dev
   pybind11-dev python3-dev python3-numpy
-  libimgui-dev libglfw3-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
+  libimgui-dev libglfw3-dev libx11-dev libgl1 libglx-mesa0 fonts-inter fonts-dejavu-core
 )
 # For the Debian packages (scripts/package.sh).
 sigs_packages_package=(

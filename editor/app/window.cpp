@@ -231,11 +231,8 @@ std::vector<ImVec2> Window::places_drawn_first(State& state, const ImVec2& image
 
 void Window::end(const ImVec2& image_at) {
   ImGui::Render();
-  int width = 0;
-  int height = 0;
-  glfwGetFramebufferSize(state_->window, &width, &height);
   if (std::exchange(state_->incoming.needs_all, false)) state_->canvas->forget();
-  if (state_->canvas->draw(*ImGui::GetDrawData(), width, height, places_drawn_first(*state_, image_at)))
+  if (state_->canvas->draw(*ImGui::GetDrawData(), places_drawn_first(*state_, image_at)))
     glfwSwapBuffers(state_->window);
 }
 

@@ -149,6 +149,26 @@ bool can_show_parts() {
   return epoxy_has_glx_extension(display, DefaultScreen(display), "GLX_MESA_copy_sub_buffer");
 }
 
+bool has_refused = false;  // the X server, since show_parts() began
+
+// Copies parts of the back buffer to the screen, in pixels from below. False: the server has refused one. Mesa's buffer
+// has the size that the window had when Mesa asked for it, and nothing outside of it can be copied; by default an error
+// of the server ends the program.
+template <class Rects>
+bool show_parts(const Rects& parts) {
+  Display* const display = glXGetCurrentDisplay();
+  has_refused = false;
+  const auto before = XSetErrorHandler([](Display*, XErrorEvent*) {
+    has_refused = true;
+    return 0;
+  });
+  for (const auto& part : parts)
+    glXCopySubBufferMESA(display, glXGetCurrentDrawable(), part.x, part.y, part.width, part.height);
+  XSync(display, False);
+  XSetErrorHandler(before);
+  return !has_refused;
+}
+
 }  // namespace
 
 ImVec4 common_part(const ImVec4& a, const ImVec4& b) {
@@ -301,7 +321,9 @@ void Canvas::draw_region(ImDrawData& data, const ImVec4& region) const {
   set_clips(data, [&](std::size_t number) { return clips[number]; });
 }
 
-bool Canvas::draw(ImDrawData& data, int width_px, int height_px, std::span<const ImVec2> first) {
+bool Canvas::draw(ImDrawData& data, std::span<const ImVec2> first) {
+  const auto width_px = static_cast<int>(std::lround(data.DisplaySize.x * data.FramebufferScale.x));
+  const auto height_px = static_cast<int>(std::lround(data.DisplaySize.y * data.FramebufferScale.y));
   if (width_px <= 0 || height_px <= 0) return false;
   if (!shows_parts_) shows_parts_ = can_show_parts();
   if (width_px != width_px_ || height_px != height_px_) {
@@ -318,11 +340,12 @@ bool Canvas::draw(ImDrawData& data, int width_px, int height_px, std::span<const
     draw_region(data, {0, 0, data.DisplaySize.x, data.DisplaySize.y});
     return true;
   }
-  for (const ImVec4& region : regions) draw_region(data, region);
+  std::vector<PixelRect> parts;
   for (const ImVec4& region : regions) {
-    const PixelRect part = pixels_of(region, data.FramebufferScale);
-    glXCopySubBufferMESA(glXGetCurrentDisplay(), glXGetCurrentDrawable(), part.x, part.y, part.width, part.height);
+    draw_region(data, region);
+    parts.push_back(pixels_of(region, data.FramebufferScale));
   }
+  if (!show_parts(parts)) width_px_ = height_px_ = 0;  // the next call has another size
   return false;
 }
 

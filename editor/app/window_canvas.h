@@ -66,10 +66,11 @@ class ChangedRegions {
 class Canvas {
  public:
   // Draws and shows what differs from the update before.
-  // Size in pixels of the window's framebuffer; another one than before has everything drawn. Returns whether the
-  // caller has to swap buffers: not where nothing differs, the size is 0, or what was drawn is shown already.
+  // Another size than before has everything drawn. Returns whether the caller has to swap buffers: not where nothing
+  // differs, the size is 0, or what was drawn is shown already. What cannot be shown, as the window has got another
+  // size meanwhile, the next call draws again.
   //   first  as for ChangedRegions: what changes elsewhere may be drawn by a later call
-  bool draw(ImDrawData& data, int width_px, int height_px, std::span<const ImVec2> first = {});
+  bool draw(ImDrawData& data, std::span<const ImVec2> first = {});
 
   // Has the next call draw everything (after other fonts, or when the window was hidden).
   void forget() { changed_.forget(); }

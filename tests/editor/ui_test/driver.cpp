@@ -378,8 +378,15 @@ void EditorDriver::resize(int width_px, int height_px) {
   settle();
 }
 
+void EditorDriver::resize_through(const std::vector<std::pair<int, int>>& sizes_px) {
+  std::vector<std::string> command{"search", "--onlyvisible", "--class", "."};
+  for (const auto& [width_px, height_px] : sizes_px)
+    command.insert(command.end(), {"windowsize", std::to_string(width_px), std::to_string(height_px)});
+  xdotool(command);
+}
+
 void EditorDriver::hide_and_show() {
-  xdotool({"search", "--onlyvisible", "--class", ".", "windowunmap", "--sync", "windowmap", "--sync"});
+  xdotool({"search", "--onlyvisible", "--class", ".", "windowunmap", "windowmap"});
   settle();
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sigs::test {
@@ -83,6 +84,8 @@ class EditorDriver {
   void kill_after_key(const std::string& keys, double delay_s);
   // Gives the window another size.
   void resize(int width_px, int height_px);
+  // Sizes, width and height, one straight after the other, as a hand that drags an edge gives them.
+  void resize_through(const std::vector<std::pair<int, int>>& sizes_px);
   // Takes the window from the screen and puts it there again: all of it has to be drawn anew.
   void hide_and_show();
 
