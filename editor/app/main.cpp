@@ -15,8 +15,9 @@ namespace {
 constexpr double kTurn_s = 1.0 / 75;
 constexpr double kSlowTurn_s = 1.0 / 33;
 
-// From one update to the next. No more updates than a screen shows; and where OpenGL draws in software, a third of the
-// time while a clip is played, so that decoding has the rest, else most of it: a hand that drags sees the difference.
+// From one update to the next. A few more updates than most screens show, as an image that just misses one waits for
+// the next; and where OpenGL draws in software, a third of the time while a clip is played, so that decoding has the
+// rest, else most of it: a hand that drags sees the difference.
 double turn_s(double update_took_s, bool plays) {
   return std::clamp((plays ? 3 : 1.2) * update_took_s, kTurn_s, kSlowTurn_s);
 }

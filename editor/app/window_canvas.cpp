@@ -149,21 +149,56 @@ bool can_show_parts() {
   return epoxy_has_glx_extension(display, DefaultScreen(display), "GLX_MESA_copy_sub_buffer");
 }
 
+// In the framebuffer's pixels, from below.
+struct PixelRect {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+PixelRect pixels_of(const ImVec4& region, const ImDrawData& data) {
+  const ImVec2 scale = data.FramebufferScale;
+  const double height_px = std::round(data.DisplaySize.y * scale.y);
+  return {.x = static_cast<int>(region.x * scale.x),
+          .y = static_cast<int>(height_px - region.w * scale.y),
+          .width = static_cast<int>((region.z - region.x) * scale.x),
+          .height = static_cast<int>((region.w - region.y) * scale.y)};
+}
+
+void draw_region(ImDrawData& data, const ImVec4& region) {
+  const PixelRect part = pixels_of(region, data);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(part.x, part.y, part.width, part.height);
+  glClearColor(0.118F, 0.125F, 0.145F, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
+  const std::vector<ImVec4> clips = clips_of(data);
+  set_clips(data, [&](std::size_t number) {
+    const ImVec4 clip = common_part(clips[number], region);
+    // Upside down would be an error to OpenGL; of no size it is left out.
+    return clip.z > clip.x && clip.w > clip.y ? clip : ImVec4(0, 0, 0, 0);
+  });
+  ImGui_ImplOpenGL3_RenderDrawData(&data);
+  set_clips(data, [&](std::size_t number) { return clips[number]; });
+}
+
 bool has_refused = false;  // the X server, since show_parts() began
 
-// Copies parts of the back buffer to the screen, in pixels from below. False: the server has refused one. Mesa's buffer
+// Copies parts of the back buffer to the screen. False: the server has refused one. Mesa's buffer
 // has the size that the window had when Mesa asked for it, and nothing outside of it can be copied; by default an error
 // of the server ends the program.
-template <class Rects>
-bool show_parts(const Rects& parts) {
+bool show_parts(const ImDrawData& data, std::span<const ImVec4> regions) {
   Display* const display = glXGetCurrentDisplay();
   has_refused = false;
   const auto before = XSetErrorHandler([](Display*, XErrorEvent*) {
     has_refused = true;
     return 0;
   });
-  for (const auto& part : parts)
+  for (const ImVec4& region : regions) {
+    const PixelRect part = pixels_of(region, data);
     glXCopySubBufferMESA(display, glXGetCurrentDrawable(), part.x, part.y, part.width, part.height);
+  }
   XSync(display, False);
   XSetErrorHandler(before);
   return !has_refused;
@@ -297,30 +332,6 @@ std::vector<ImVec4> ChangedRegions::of(const ImDrawData& data, std::span<const I
   return regions;
 }
 
-Canvas::PixelRect Canvas::pixels_of(const ImVec4& region, const ImVec2& scale) const {
-  return {.x = static_cast<int>(region.x * scale.x),
-          .y = static_cast<int>(static_cast<float>(height_px_) - region.w * scale.y),
-          .width = static_cast<int>((region.z - region.x) * scale.x),
-          .height = static_cast<int>((region.w - region.y) * scale.y)};
-}
-
-void Canvas::draw_region(ImDrawData& data, const ImVec4& region) const {
-  const PixelRect part = pixels_of(region, data.FramebufferScale);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(part.x, part.y, part.width, part.height);
-  glClearColor(0.118F, 0.125F, 0.145F, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-  glDisable(GL_SCISSOR_TEST);
-  const std::vector<ImVec4> clips = clips_of(data);
-  set_clips(data, [&](std::size_t number) {
-    const ImVec4 clip = common_part(clips[number], region);
-    // Upside down would be an error to OpenGL; of no size it is left out.
-    return clip.z > clip.x && clip.w > clip.y ? clip : ImVec4(0, 0, 0, 0);
-  });
-  ImGui_ImplOpenGL3_RenderDrawData(&data);
-  set_clips(data, [&](std::size_t number) { return clips[number]; });
-}
-
 bool Canvas::draw(ImDrawData& data, std::span<const ImVec2> first) {
   const auto width_px = static_cast<int>(std::lround(data.DisplaySize.x * data.FramebufferScale.x));
   const auto height_px = static_cast<int>(std::lround(data.DisplaySize.y * data.FramebufferScale.y));
@@ -340,12 +351,8 @@ bool Canvas::draw(ImDrawData& data, std::span<const ImVec2> first) {
     draw_region(data, {0, 0, data.DisplaySize.x, data.DisplaySize.y});
     return true;
   }
-  std::vector<PixelRect> parts;
-  for (const ImVec4& region : regions) {
-    draw_region(data, region);
-    parts.push_back(pixels_of(region, data.FramebufferScale));
-  }
-  if (!show_parts(parts)) width_px_ = height_px_ = 0;  // the next call has another size
+  for (const ImVec4& region : regions) draw_region(data, region);
+  if (!show_parts(data, regions)) width_px_ = height_px_ = 0;  // the next call has another size
   return false;
 }
 

@@ -76,16 +76,6 @@ class Canvas {
   void forget() { changed_.forget(); }
 
  private:
-  // In the framebuffer's pixels, from below.
-  struct PixelRect {
-    int x = 0;
-    int y = 0;
-    int width = 0;
-    int height = 0;
-  };
-  [[nodiscard]] PixelRect pixels_of(const ImVec4& region, const ImVec2& scale) const;
-  void draw_region(ImDrawData& data, const ImVec4& region) const;
-
   ChangedRegions changed_;
   std::optional<bool> shows_parts_;  // none: not known yet
   int width_px_ = 0;

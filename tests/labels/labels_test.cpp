@@ -84,26 +84,29 @@ TEST_CASE("every format writes a clip without any intruder and one of a single f
   }
 }
 
-TEST_CASE("thresholds change a file exactly where its format says that it has them") {
-  const FrameTruth frame = frame_of(0, {visible_intruder(0, {1, 1, 3, 2})});
+namespace {
+
+void check_settings_change_files(const LabelSequence& changed, const FrameTruth& frame, bool LabelFormat::*flag) {
   const LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
-  LabelSequence strict = clip;
-  strict.thresholds = {.min_pixels = 7, .min_visible_fraction = 1};
   for (const LabelFormat& format : label_formats()) {
-    const bool differs = written(format, clip, frame) != written(format, strict, frame);
-    CHECK_MESSAGE(differs == format.has_thresholds, format.name << " in engine/labels/labels.cpp");
+    const bool differs = written(format, clip, frame) != written(format, changed, frame);
+    CHECK_MESSAGE(differs == format.*flag, format.name << " in engine/labels/labels.cpp");
   }
 }
 
+}  // namespace
+
+TEST_CASE("thresholds change a file exactly where its format says that it has them") {
+  LabelSequence strict = synthetic_sequence(0, 0, {"airplane"});
+  strict.thresholds = {.min_pixels = 7, .min_visible_fraction = 1};
+  check_settings_change_files(strict, frame_of(0, {visible_intruder(0, {1, 1, 3, 2})}), &LabelFormat::has_thresholds);
+}
+
 TEST_CASE("boxes are widened exactly where their format says so") {
-  const FrameTruth frame = frame_of(0, {visible_intruder(0, {100, 100, 30, 20})});
-  const LabelSequence clip = synthetic_sequence(0, 0, {"airplane"});
-  LabelSequence wider = clip;
+  LabelSequence wider = synthetic_sequence(0, 0, {"airplane"});
   wider.box_scale = 1.5;
-  for (const LabelFormat& format : label_formats()) {
-    const bool differs = written(format, clip, frame) != written(format, wider, frame);
-    CHECK_MESSAGE(differs == format.widens_boxes, format.name << " in engine/labels/labels.cpp");
-  }
+  check_settings_change_files(wider, frame_of(0, {visible_intruder(0, {100, 100, 30, 20})}),
+                              &LabelFormat::widens_boxes);
 }
 
 TEST_CASE("own body and real aircraft are regions to ignore exactly where their format says so") {
