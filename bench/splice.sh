@@ -124,7 +124,10 @@ kinds() {
       --progress none 2>&1 >"$lot/written"); then
       result=$(head -1 "$lot/written")
       outcome=$(compared "$clip" "$result")
-      command -v gst-launch-1.0 >/dev/null && gst=$(gst-launch-1.0 -q filesrc location="$result" ! decodebin ! fakesink 2>&1 | head -1)
+      gst="not installed"
+      if command -v gst-launch-1.0 >/dev/null; then
+        gst=$(gst-launch-1.0 -q filesrc location="$result" ! decodebin ! fakesink 2>&1 | head -1)
+      fi
       echo "| $name | $outcome | ${gst:-no error} | $(sed -n 's/^warning: .*mp4: //p; s/^warning: .*mov: //p' <<<"$said" | tr '\n' ' ') |"
     else
       echo "| $name | refused | | | | | $(sed -n "s/^error: .*cannot be used: //p" <<<"$said" | sed "s|$lot/clips/||") |"
