@@ -40,7 +40,7 @@ struct FrameOptions {
 Result<Frame> background_of(FrameSource& source, const Scene& scene, int frame, ComposeContext& context) {
   const bool draws = any_in_view(scene, frame);
   std::optional<Result<Frame>> background;
-  Result<std::thread> reading = started_thread([&] { background = source.read(frame); });
+  Result<std::thread> reading = started_thread([&] { background = guarded([&] { return source.read(frame); }); });
   if (draws) static_cast<void>(guarded([&] { return context.renderer(); }));
   if (!reading) return source.read(frame);
   reading->join();

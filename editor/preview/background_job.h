@@ -129,7 +129,7 @@ class BackgroundJob {
     if (thread)
       thread_ = std::move(*thread);
     else
-      finish(fail(thread.error()));
+      finish(fail(std::move(thread.error())));
     return true;
   }
 

@@ -37,7 +37,7 @@ class SampledFrames {
 
  private:
   void decode(FrameSource& footage, const std::vector<int>& numbers, HeatPalette palette);
-  void give_up(const Error& error);
+  void give_up(Error error);
 
   BoundedQueue<Result<NumberedFrame>> ahead_;
   std::optional<Error> failure_;  // written by the thread until the queue is closed, then read by the caller
@@ -50,11 +50,11 @@ SampledFrames::SampledFrames(FrameSource& footage, std::vector<int> numbers, Hea
     : ahead_(kDecodedAhead) {
   Result<std::thread> thread =
       started_thread([this, &footage, numbers = std::move(numbers), palette] { decode(footage, numbers, palette); },
-                     [this](const Error& error) { give_up(error); });
+                     [this](Error error) { give_up(std::move(error)); });
   if (thread)
     thread_ = std::move(*thread);
   else
-    give_up(thread.error());
+    give_up(std::move(thread.error()));
 }
 
 SampledFrames::~SampledFrames() {
@@ -62,8 +62,8 @@ SampledFrames::~SampledFrames() {
   if (thread_.joinable()) thread_.join();
 }
 
-void SampledFrames::give_up(const Error& error) {
-  failure_ = error;
+void SampledFrames::give_up(Error error) {
+  failure_ = std::move(error);
   ahead_.close();
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,8 +12,11 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <memory>
+#include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -25,6 +29,16 @@ namespace sigs {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct Closing {
+  void operator()(DIR* folder) const { closedir(folder); }
+};
+
+// Why errno says that a folder could not be looked through. Throws std::bad_alloc where memory is why.
+Error not_looked_through(const fs::path& folder) {
+  if (errno == ENOMEM) throw std::bad_alloc();
+  return {folder.string(), std::string("cannot be looked through: ") + std::strerror(errno), ErrorKind::cannot_read};
+}
 
 using Identity = std::pair<dev_t, ino_t>;
 
@@ -102,11 +116,17 @@ std::string lower_extension(const fs::path& path) {
 }
 
 Result<std::vector<fs::path>> folder_contents(const fs::path& folder) {
+  const std::unique_ptr<DIR, Closing> entries(opendir(folder.c_str()));
+  if (entries == nullptr) return fail(not_looked_through(folder));
   std::vector<fs::path> paths;
-  std::error_code code;
-  for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code))
-    paths.push_back(it->path());
-  if (code) return fail(folder.string(), "cannot be looked through: " + code.message(), ErrorKind::cannot_read);
+  for (;;) {
+    errno = 0;
+    const dirent* const entry = readdir(entries.get());
+    if (entry == nullptr) break;
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") paths.push_back(folder / name);
+  }
+  if (errno != 0) return fail(not_looked_through(folder));
   std::sort(paths.begin(), paths.end());
   return paths;
 }

@@ -24,7 +24,8 @@ namespace sigs {
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
 // Paths of what a folder contains, sorted by name (bytes compared), so that no result depends on the file system. Does
-// not descend into folders in it. Error cannot_read.
+// not descend into folders in it. Error cannot_read. Throws std::bad_alloc, where libstdc++'s iterator of a folder ends
+// the program.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> folder_contents(const std::filesystem::path& folder);
 
 // Whether the path names a folder or a symbolic link to one. False where it cannot be examined.

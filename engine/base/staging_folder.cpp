@@ -47,10 +47,8 @@ bool is_staging_name(const std::string& name) {
 }
 
 std::vector<fs::path> staging_folders_in(const fs::path& folder) {
-  std::vector<fs::path> found;
-  std::error_code code;
-  for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code))
-    if (is_staging_name(it->path().filename().string())) found.push_back(it->path());
+  std::vector<fs::path> found = folder_contents(folder).value_or(std::vector<fs::path>());
+  std::erase_if(found, [](const fs::path& path) { return !is_staging_name(path.filename().string()); });
   return found;
 }
 

@@ -2,11 +2,15 @@
 #include "base/threads.h"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>  // defines __GLIBC__ where it is glibc
+#include <exception>
 #include <new>
 #include <opencv2/core.hpp>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -25,9 +29,68 @@ namespace {
 [[maybe_unused]] const bool loops_are_not_shared = (cv::setNumThreads(1), true);
 #endif
 
+// A block of the heap that is held back. Many small ones: a large one would go back to the system, and from there into
+// the stack of the next thread.
+struct HeldBlock {
+  HeldBlock* next;
+};
+constexpr std::size_t kHeldBlock_bytes = std::size_t{64} << 10;
+constexpr int kHeldBlocks = 128;  // of each list
+std::atomic<HeldBlock*> held_for_work = nullptr;
+std::atomic<HeldBlock*> held_for_leaving = nullptr;
+
+void free_blocks(HeldBlock* block) {
+  while (block != nullptr) std::free(std::exchange(block, block->next));
+}
+
+// The handler of allocations that find no memory: returns where another try is worth it.
+void give_memory_back() {
+  HeldBlock* const blocks = held_for_work.exchange(nullptr);
+  free_blocks(blocks);
+  if (blocks != nullptr) return;
+  free_blocks(held_for_leaving.exchange(nullptr));
+  throw std::bad_alloc();
+}
+
+// An exception that may not leave ends the program. Where it says that there is no memory, the program says so too, and
+// ends as by an error; what it was writing stays in its staging folders, which the next run removes.
+std::terminate_handler end_otherwise = nullptr;
+[[noreturn]] void end_program() {
+  constexpr std::string_view kLine = "error: out of memory; smaller inputs and fewer jobs at a time need less\n";
+  if (std::current_exception() == nullptr || !is_out_of_memory()) {
+    end_otherwise();
+    std::abort();
+  }
+  static_cast<void>(!write(STDERR_FILENO, kLine.data(), kLine.size()));
+  _exit(static_cast<int>(ErrorKind::unavailable));
+}
+
+// Whether the list is held. It has all of its blocks or none.
+bool hold_anew(std::atomic<HeldBlock*>& held) {
+  if (held != nullptr) return true;
+  HeldBlock* first = nullptr;
+  for (int i = 0; i < kHeldBlocks; ++i) {
+    auto* const block = static_cast<HeldBlock*>(std::malloc(kHeldBlock_bytes));
+    if (block == nullptr) {
+      free_blocks(first);
+      return false;
+    }
+    block->next = first;
+    first = block;
+  }
+  HeldBlock* none = nullptr;
+  if (!held.compare_exchange_strong(none, first)) free_blocks(first);
+  return true;
+}
+
 // What TBB throws, by which OpenCV shares its loops among threads: a plain runtime_error without a code.
 bool is_thread_not_started(const std::exception& problem) {
   return std::string_view(problem.what()).starts_with("pthread_create has failed");
+}
+
+// Where there is no memory for a longer message: this one needs none.
+Error out_of_memory() {
+  return {{}, "out of memory", ErrorKind::unavailable};
 }
 
 Error error_of_exception(const std::string& where) {
@@ -48,18 +111,6 @@ Error error_of_exception(const std::string& where) {
   }
 }
 
-template <class Body>
-Result<std::thread> started(Body body) {
-  const char* why = "out of memory";
-  try {
-    return std::thread(std::move(body));
-  } catch (const std::system_error&) {
-    why = "the system's limit of threads or memory is reached";
-  } catch (const std::bad_alloc&) {
-  }
-  return fail("", std::string("no more threads can be started: ") + why, ErrorKind::unavailable);
-}
-
 }  // namespace
 
 bool is_out_of_memory() {
@@ -77,23 +128,18 @@ bool is_out_of_memory() {
 Error thrown_error(const std::string& where) {
   try {
     return error_of_exception(where);
-  } catch (...) {  // no memory for the message either; this short one needs none
-    return {{}, "out of memory", ErrorKind::unavailable};
+  } catch (...) {
+    return out_of_memory();
   }
 }
 
-Result<std::thread> started_thread(std::function<void()> body) {
-  return started(std::move(body));
-}
-
-Result<std::thread> started_thread(std::function<void()> body, std::function<void(const Error&)> on_error) {
-  return started([body = std::move(body), on_error = std::move(on_error)] {
-    const Result<void> done = guarded([&]() -> Result<void> {
-      body();
-      return {};
-    });
-    if (!done) on_error(done.error());
-  });
+Error thread_not_started() {
+  try {
+    const char* const why = is_out_of_memory() ? "out of memory" : "the system's limit of threads or memory is reached";
+    return {{}, std::string("no more threads can be started: ") + why, ErrorKind::unavailable};
+  } catch (...) {
+    return out_of_memory();
+  }
 }
 
 void run_in_background(const std::function<void()>& body) {
@@ -109,6 +155,16 @@ void tune_allocator() {
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
   mallopt(M_ARENA_MAX, 2);
 #endif
+}
+
+void hold_memory_back() {
+  end_otherwise = std::set_terminate(end_program);
+  if (hold_anew(held_for_leaving) && hold_anew(held_for_work)) std::set_new_handler(give_memory_back);
+}
+
+void check_held_memory() {
+  if (held_for_work != nullptr || std::get_new_handler() != give_memory_back) return;
+  if (!hold_anew(held_for_leaving) || !hold_anew(held_for_work)) throw std::bad_alloc();
 }
 
 bool has_free_memory(std::size_t bytes) {

@@ -39,12 +39,15 @@ template <class Job>
 [[nodiscard]] bool is_out_of_memory();
 
 // Starts a thread, which the caller has to join. The body must not throw (see guarded()). Error unavailable: the system
-// grants no more threads, or no memory for one; then nothing was started.
-[[nodiscard]] Result<std::thread> started_thread(std::function<void()> body);
+// grants no more threads, or no memory for one; then nothing was started. Throws nothing, so that threads which the
+// caller has started before are still joined.
+template <class Body>
+[[nodiscard]] Result<std::thread> started_thread(Body body);
 
-// The same for a body that may throw: on_error is called, on the thread, with what it throws (see thrown_error()).
-[[nodiscard]] Result<std::thread> started_thread(std::function<void()> body,
-                                                 std::function<void(const Error&)> on_error);
+// The same for a body that may throw: on_error is called, on the thread, with what it throws (see thrown_error()). It
+// must not throw: there may be no memory for a copy of the error, which it may move away.
+template <class Body, class OnError>
+[[nodiscard]] Result<std::thread> started_thread(Body body, OnError on_error);
 
 // Runs the body on a thread that nobody joins, or here where the system grants no more threads. The body must not
 // throw.
@@ -64,15 +67,50 @@ void parallel_for(int count, int threads, const Work& work);
 // (docs/reliability.md). For programs, before they start threads; nothing happens with another allocator than glibc's.
 void tune_allocator();
 
+// Holds back 16 MiB of the heap. Half of it is given to the first allocation that finds no memory: small ones, of which
+// some are made where no exception may leave (a JSON value's destructor), succeed until the work comes to
+// check_held_memory(). The other half is free while the exception of one that failed all the same leaves. For programs,
+// before they start threads.
+void hold_memory_back();
+
+// Throws std::bad_alloc where some of that memory was given away and cannot be held back anew. guarded(),
+// started_thread() and parallel_for() call it before each piece of work.
+void check_held_memory();
+
 // Whether so many bytes of addresses can still be mapped. Some libraries end the program where they do not get the
 // memory that they begin with; this is asked before they are loaded.
 [[nodiscard]] bool has_free_memory(std::size_t bytes);
 
 // --- Templates.
 
+// Why a thread could not be started; call it in a catch clause only.
+[[nodiscard]] Error thread_not_started();
+
+template <class Body>
+Result<std::thread> started_thread(Body body) {
+  try {
+    check_held_memory();
+    return std::thread(std::move(body));
+  } catch (...) {
+    return fail(thread_not_started());
+  }
+}
+
+template <class Body, class OnError>
+Result<std::thread> started_thread(Body body, OnError on_error) {
+  return started_thread([body = std::move(body), on_error = std::move(on_error)]() mutable {
+    Result<void> done = guarded([&]() -> Result<void> {
+      body();
+      return {};
+    });
+    if (!done) on_error(std::move(done.error()));
+  });
+}
+
 template <class Job>
 std::invoke_result_t<Job&> guarded(Job&& job, const std::string& where) {
   try {
+    check_held_memory();
     return job();
   } catch (...) {
     return fail(thrown_error(where));
@@ -86,7 +124,10 @@ void parallel_for(int count, int threads, const Work& work) {
   std::exception_ptr thrown;
   const auto run = [&] {
     try {
-      for (int i = next++; i < count; i = next++) work(i);
+      for (int i = next++; i < count; i = next++) {
+        check_held_memory();
+        work(i);
+      }
     } catch (...) {
       next = count;
       const std::lock_guard lock(mutex);
@@ -96,7 +137,7 @@ void parallel_for(int count, int threads, const Work& work) {
   std::vector<std::thread> others;
   others.reserve(static_cast<std::size_t>(std::max(0, std::min(threads, count) - 1)));
   while (others.size() < others.capacity()) {
-    Result<std::thread> other = started_thread(run);
+    Result<std::thread> other = started_thread(std::ref(run));
     if (!other) break;
     others.push_back(std::move(*other));
   }

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <numeric>
 #include <set>
 #include <string>
@@ -198,11 +199,11 @@ Result<DatasetLock> DatasetLock::acquire(const fs::path& dataset, const Shard& s
   if (!lock->is_open()) return fail(already_locked(dataset, shard));
   DatasetLock dataset_lock(file, std::move(*lock));
   // Each run makes its own lock before it looks for others: of two runs at once, at least one finds the other's.
-  std::error_code code;
-  for (fs::directory_iterator it(staging_folder_of(dataset), code), end; !code && it != end; it.increment(code)) {
-    const std::optional<Shard> other = shard_of(it->path().filename().string());
-    if (other && it->path() != file && overlap(shard, *other) && is_held(it->path()))
-      return fail(already_locked(dataset, *other));
+  const Result<std::vector<fs::path>> others = folder_contents(staging_folder_of(dataset));
+  if (!others) return dataset_lock;
+  for (const fs::path& path : *others) {
+    const std::optional<Shard> other = shard_of(path.filename().string());
+    if (other && path != file && overlap(shard, *other) && is_held(path)) return fail(already_locked(dataset, *other));
   }
   return dataset_lock;
 }
@@ -210,7 +211,12 @@ Result<DatasetLock> DatasetLock::acquire(const fs::path& dataset, const Shard& s
 DatasetLock::DatasetLock(fs::path file, Descriptor lock) : file_(std::move(file)), lock_(std::move(lock)) {}
 
 DatasetLock::~DatasetLock() {
-  if (!lock_.is_open() || is_needed(file_)) return;
+  if (!lock_.is_open()) return;
+  try {
+    if (is_needed(file_)) return;
+  } catch (const std::bad_alloc&) {  // without memory to look it stays, as after a kill
+    return;
+  }
   unlink(file_.c_str());
   rmdir(file_.parent_path().c_str());  // refused where it is not empty
 }

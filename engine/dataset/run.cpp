@@ -296,11 +296,12 @@ Result<void> DatasetRun::export_missing(DatasetReport& report) {
 void DatasetRun::warn_of_unplanned_videos() {
   std::set<std::string> planned;
   for (const Task& task : tasks_) planned.insert(task.folder.video->name);
-  std::error_code code;
-  for (fs::directory_iterator it(dataset_, code), end; !code && it != end; it.increment(code)) {
-    const std::string name = it->path().filename().string();
-    if (!planned.contains(name) && fs::exists(it->path() / kEntryName, code))
-      warn({(dataset_ / name).string(), "is a video that is not in the recipe; the index leaves it out"});
+  const Result<std::vector<fs::path>> there = folder_contents(dataset_);
+  if (!there) return;
+  for (const fs::path& path : *there) {
+    std::error_code code;
+    if (!planned.contains(path.filename().string()) && fs::exists(path / kEntryName, code))
+      warn({path.string(), "is a video that is not in the recipe; the index leaves it out"});
   }
 }
 
@@ -342,8 +343,6 @@ Result<DatasetReport> DatasetRun::all() {
   if (is_cancelled()) return fail(interrupted());
   const bool is_whole = request_.index && !request_.shard && report.failures.empty();
   if (step && is_whole) step = write_index(report);
-  // Of what the index was to be made of.
-  if (!step) static_cast<void>(clear_staging_folder(dataset_, request_.shard.has_value()));
   if (!step && is_cancelled()) return fail(interrupted());
   if (!step) return fail(with_final_names(step.error(), dataset_));
   report.seconds = watch.elapsed_s();
@@ -368,7 +367,9 @@ Result<DatasetReport> made_in(const fs::path& dataset, const Plan& plan, const D
     return fail(free.error());
   const Result<DatasetLock> dataset_lock = DatasetLock::acquire(dataset, request.shard.value_or(Shard{}));
   if (!dataset_lock) return fail(dataset_lock.error());
-  return DatasetRun(plan, request, control, dataset).all();
+  Result<DatasetReport> report = guarded([&] { return DatasetRun(plan, request, control, dataset).all(); });
+  if (!report) static_cast<void>(clear_staging_folder(dataset, request.shard.has_value()));
+  return report;
 }
 
 }  // namespace

@@ -159,7 +159,8 @@ Result<VideoEntry> make_video(const VideoFolder& folder, const VideoExport& requ
   if (made) step = finish(staged, folder, *made);
   if (made && step) step = commit_video(staged, folder);
   fs::remove_all(staged, code);
-  return made && !step ? Result<VideoEntry>(fail(step.error())) : made;
+  if (made && !step) return fail(std::move(step.error()));
+  return made;
 }
 
 }  // namespace sigs

@@ -18,11 +18,12 @@
 namespace sigs {
 
 WriterThread::WriterThread(VideoWriter writer) : writer_(std::move(writer)) {
-  Result<std::thread> thread = started_thread([this] { write_all(); }, [this](const Error& error) { give_up(error); });
+  Result<std::thread> thread =
+      started_thread([this] { write_all(); }, [this](Error error) { give_up(std::move(error)); });
   if (thread)
     thread_ = std::move(*thread);
   else
-    give_up(thread.error());
+    give_up(std::move(thread.error()));
 }
 
 WriterThread::~WriterThread() {
@@ -52,8 +53,8 @@ Result<void> WriterThread::finish() {
   return finished;
 }
 
-void WriterThread::give_up(const Error& error) {
-  failure_ = {at_, error};
+void WriterThread::give_up(Error error) {
+  failure_ = {at_, std::move(error)};
   queue_.close();
 }
 

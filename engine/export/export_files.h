@@ -85,7 +85,7 @@ class WriterThread {
     bool is_blank = false;
   };
   void write_all();
-  void give_up(const Error& error);
+  void give_up(Error error);
 
   VideoWriter writer_;
   BoundedQueue<Item> queue_{2};

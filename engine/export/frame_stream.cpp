@@ -2,6 +2,7 @@
 #include "export/frame_stream.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/ensure.h"
 #include "base/stopwatch.h"
@@ -28,17 +29,17 @@ FramePipeline::FramePipeline(const Scene& scene, FrameSource& source, const Fram
 // Fewer composing threads than requested do the same work, more slowly; without any it ends in an error.
 void FramePipeline::start(void (FramePipeline::*work)()) {
   Result<std::thread> thread =
-      started_thread([this, work] { (this->*work)(); }, [this](const Error& error) { give_up(error); });
+      started_thread([this, work] { (this->*work)(); }, [this](Error error) { give_up(std::move(error)); });
   if (thread)
     threads_.push_back(std::move(*thread));
   else if (threads_.size() < 2)
-    give_up(thread.error());
+    give_up(std::move(thread.error()));
 }
 
-void FramePipeline::give_up(const Error& error) {
+void FramePipeline::give_up(Error error) {
   {
     const std::lock_guard lock(mutex_);
-    if (!failure_) failure_ = error;
+    if (!failure_) failure_ = std::move(error);
   }
   decoded_.close();
   finished_.close();

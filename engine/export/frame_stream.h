@@ -97,7 +97,7 @@ class FramePipeline {
     Frame image;
   };
   void start(void (FramePipeline::*work)());
-  void give_up(const Error& error);
+  void give_up(Error error);
   [[nodiscard]] bool is_needed(int number) const;
   void decode();
   [[nodiscard]] Result<ComposedFrame> composed(DecodedFrame decoded, ComposeContext& context) const;

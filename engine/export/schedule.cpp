@@ -157,6 +157,7 @@ void make_sharing(const Batch& batch, const std::vector<PendingVideo>& videos, c
   std::vector<std::thread> threads;
   threads.reserve(batch.videos.size());
   std::vector<std::size_t> left;  // without a thread
+  left.reserve(batch.videos.size());
   for (std::size_t i = 0; i < batch.videos.size(); ++i) {
     const auto make_one = [&, i] {
       try {

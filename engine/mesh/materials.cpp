@@ -20,6 +20,7 @@
 #include "base/image.h"
 #include "base/image_codecs.h"
 #include "base/input_file.h"
+#include "base/paths.h"
 #include "base/staged_outputs.h"
 #include "base/text.h"
 #include "base/threads.h"
@@ -31,11 +32,11 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path any_case(const fs::path& path) {
-  std::error_code code;
   const std::string wanted = lower_case(path.filename().string());
-  for (fs::directory_iterator entry(path.parent_path(), code); !code && entry != fs::directory_iterator();
-       entry.increment(code))
-    if (lower_case(entry->path().filename().string()) == wanted) return entry->path();
+  const Result<std::vector<fs::path>> there = folder_contents(path.parent_path());
+  if (!there) return {};
+  for (const fs::path& one : *there)
+    if (lower_case(one.filename().string()) == wanted) return one;
   return {};
 }
 

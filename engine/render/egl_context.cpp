@@ -157,7 +157,7 @@ Result<void> check_threads() {
       if (thread)
         threads.push_back(std::move(*thread));
       else
-        all = fail(thread.error());
+        all = fail(std::move(thread.error()));
     }
   }
   for (std::thread& thread : threads) thread.join();

@@ -315,11 +315,11 @@ cv::Mat luma_of_part(const Frame& frame, const cv::Rect& rect) {
 
 LumaStream::LumaStream(FrameSource& footage, const FrameSteps& steps) : ahead_(kFramesAhead) {
   Result<std::thread> thread = started_thread([this, &footage, steps] { decode(footage, steps); },
-                                              [this](const Error& error) { give_up(error); });
+                                              [this](Error error) { give_up(std::move(error)); });
   if (thread)
     thread_ = std::move(*thread);
   else
-    give_up(thread.error());
+    give_up(std::move(thread.error()));
 }
 
 LumaStream::~LumaStream() {
@@ -327,8 +327,8 @@ LumaStream::~LumaStream() {
   if (thread_.joinable()) thread_.join();
 }
 
-void LumaStream::give_up(const Error& error) {
-  failure_ = error;
+void LumaStream::give_up(Error error) {
+  failure_ = std::move(error);
   ahead_.close();
 }
 

@@ -137,7 +137,7 @@ class LumaStream {
 
  private:
   void decode(FrameSource& footage, const FrameSteps& steps);
-  void give_up(const Error& error);
+  void give_up(Error error);
 
   BoundedQueue<Result<LumaFrame>> ahead_;
   std::optional<Error> failure_;  // written by the thread until the queue is closed, then read by the caller

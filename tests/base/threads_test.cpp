@@ -5,8 +5,13 @@
 #include <memory>
 #include <new>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <system_error>
+#include <thread>
+#include <type_traits>
+#include <utility>
 
 #include "base/threads.h"
 
@@ -69,11 +74,41 @@ TEST_CASE("what a thread's body throws is handed over as an error") {
     const auto body = [&] {
       if (throws) throw std::runtime_error("is odd");
     };
-    Result<std::thread> thread = started_thread(body, [&](const Error& error) { told = error.text(); });
+    Result<std::thread> thread = started_thread(body, [&](Error error) { told = error.text(); });
     REQUIRE(thread);
     thread->join();
     CHECK(told == (throws ? "is odd" : ""));
   }
+}
+
+// A body for which there is no memory as soon as it is moved into its thread.
+struct BodyWithoutMemory {
+  BodyWithoutMemory() = default;
+  BodyWithoutMemory(const BodyWithoutMemory&) = default;
+  BodyWithoutMemory(BodyWithoutMemory&&) { throw std::bad_alloc(); }  // NOLINT(performance-noexcept-move-constructor)
+  void operator()() const {}
+};
+
+TEST_CASE("a thread for which there is no memory is an error: nothing is thrown") {
+  const BodyWithoutMemory body;
+  const Result<std::thread> plain = started_thread(body);
+  REQUIRE_FALSE(plain);
+  CHECK(plain.error().kind == ErrorKind::unavailable);
+  CHECK(plain.error().text() == "no more threads can be started: out of memory");
+}
+
+TEST_CASE("a thread hands its error over to keep: a copy of it might find no memory") {
+  const std::string long_text(1000, 'x');
+  std::optional<Error> kept;
+  const auto keep = [&](auto&& error) {
+    static_assert(std::is_rvalue_reference_v<decltype(error)>);
+    kept = std::move(error);
+  };
+  Result<std::thread> thread = started_thread([&] { throw std::runtime_error(long_text); }, keep);
+  REQUIRE(thread);
+  thread->join();
+  REQUIRE(kept);
+  CHECK(kept->what == long_text);
 }
 
 TEST_CASE("work in the background is done although nobody joins its thread") {

@@ -15,7 +15,6 @@ extern "C" {
 #include <libavutil/crc.h>
 }
 
-#include "base/ensure.h"
 #include "base/image_codecs.h"
 #include "base/input_file.h"
 
@@ -160,7 +159,7 @@ PacketMark mark_of(const AVPacket& packet) {
 class KeyCheck {
  public:
   explicit KeyCheck(const AVCodecParameters& parameters) : context_(avcodec_alloc_context3(nullptr)) {
-    ENSURE(context_ != nullptr && avcodec_parameters_to_context(context_.get(), &parameters) >= 0);
+    if (context_ == nullptr || avcodec_parameters_to_context(context_.get(), &parameters) < 0) throw std::bad_alloc();
     parser_.reset(av_parser_init(static_cast<int>(parameters.codec_id)));
     if (parser_ != nullptr) parser_->flags |= PARSER_FLAG_COMPLETE_FRAMES;
   }

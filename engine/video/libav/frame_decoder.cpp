@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <new>
 #include <utility>
 
-#include "base/ensure.h"
 #include "base/image_codecs.h"
 #include "video/libav/stream_info.h"
 
@@ -232,7 +232,7 @@ Result<std::optional<int>> PacketReader::next(AVPacket& packet) {
   }
   av_packet_unref(&packet);
   const auto place = recent_.end() - (read_ - wanted_);
-  ENSURE(av_packet_ref(&packet, place->get()) >= 0);
+  if (av_packet_ref(&packet, place->get()) < 0) throw std::bad_alloc();
   return wanted_++;
 }
 
