@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/image_codecs.h"
+#include "base/threads.h"
 #include "video/libav/stream_info.h"
 
 namespace sigs::libav {
@@ -189,7 +190,10 @@ Result<void> PacketReader::go_to(int ordinal) {
   return reopen();
 }
 
+// Where memory is short that is the reason: not all demuxers say so.
 Error PacketReader::changed() const {
+  constexpr std::size_t kEnough_bytes = std::size_t{64} << 20;
+  if (!has_free_memory(kEnough_bytes)) throw std::bad_alloc();
   return {path_.string(), "changed while it was being read"};
 }
 
