@@ -69,7 +69,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  sigs::hold_memory_back();
+  sigs::end_plainly_without_memory();
   const sigs::Result<int> status = sigs::guarded([&]() -> sigs::Result<int> { return run(argc, argv); });
   if (status) return *status;
   sigs::cli::print_error(status.error());

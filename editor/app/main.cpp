@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     return program->exit(error) == 0 ? 0 : static_cast<int>(sigs::ErrorKind::usage);
   }
   sigs::tune_allocator();
-  sigs::hold_memory_back();
+  sigs::end_plainly_without_memory();
   const sigs::Result<int> status =
       sigs::guarded([&]() -> sigs::Result<int> { return run(options.project, options.probe); });
   if (status) return *status;

@@ -4,7 +4,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>  // defines __GLIBC__ where it is glibc
 #include <exception>
@@ -29,31 +28,6 @@ namespace {
 [[maybe_unused]] const bool loops_are_not_shared = (cv::setNumThreads(1), true);
 #endif
 
-// A block of the heap that is held back. Many small ones: a large one would go back to the system, and from there into
-// the stack of the next thread.
-struct HeldBlock {
-  HeldBlock* next;
-};
-constexpr std::size_t kHeldBlock_bytes = std::size_t{64} << 10;
-constexpr int kHeldBlocks = 128;  // of each list
-std::atomic<HeldBlock*> held_for_work = nullptr;
-std::atomic<HeldBlock*> held_for_leaving = nullptr;
-
-void free_blocks(HeldBlock* block) {
-  while (block != nullptr) std::free(std::exchange(block, block->next));
-}
-
-// The handler of allocations that find no memory: returns where another try is worth it.
-void give_memory_back() {
-  HeldBlock* const blocks = held_for_work.exchange(nullptr);
-  free_blocks(blocks);
-  if (blocks != nullptr) return;
-  free_blocks(held_for_leaving.exchange(nullptr));
-  throw std::bad_alloc();
-}
-
-// An exception that may not leave ends the program. Where it says that there is no memory, the program says so too, and
-// ends as by an error; what it was writing stays in its staging folders, which the next run removes.
 std::terminate_handler end_otherwise = nullptr;
 [[noreturn]] void end_program() {
   constexpr std::string_view kLine = "error: out of memory; smaller inputs and fewer jobs at a time need less\n";
@@ -63,24 +37,6 @@ std::terminate_handler end_otherwise = nullptr;
   }
   static_cast<void>(!write(STDERR_FILENO, kLine.data(), kLine.size()));
   _exit(static_cast<int>(ErrorKind::unavailable));
-}
-
-// Whether the list is held. It has all of its blocks or none.
-bool hold_anew(std::atomic<HeldBlock*>& held) {
-  if (held != nullptr) return true;
-  HeldBlock* first = nullptr;
-  for (int i = 0; i < kHeldBlocks; ++i) {
-    auto* const block = static_cast<HeldBlock*>(std::malloc(kHeldBlock_bytes));
-    if (block == nullptr) {
-      free_blocks(first);
-      return false;
-    }
-    block->next = first;
-    first = block;
-  }
-  HeldBlock* none = nullptr;
-  if (!held.compare_exchange_strong(none, first)) free_blocks(first);
-  return true;
 }
 
 // What TBB throws, by which OpenCV shares its loops among threads: a plain runtime_error without a code.
@@ -157,14 +113,8 @@ void tune_allocator() {
 #endif
 }
 
-void hold_memory_back() {
+void end_plainly_without_memory() {
   end_otherwise = std::set_terminate(end_program);
-  if (hold_anew(held_for_leaving) && hold_anew(held_for_work)) std::set_new_handler(give_memory_back);
-}
-
-void check_held_memory() {
-  if (held_for_work != nullptr || std::get_new_handler() != give_memory_back) return;
-  if (!hold_anew(held_for_leaving) || !hold_anew(held_for_work)) throw std::bad_alloc();
 }
 
 bool has_free_memory(std::size_t bytes) {

@@ -67,15 +67,10 @@ void parallel_for(int count, int threads, const Work& work);
 // (docs/reliability.md). For programs, before they start threads; nothing happens with another allocator than glibc's.
 void tune_allocator();
 
-// Holds back 16 MiB of the heap. Half of it is given to the first allocation that finds no memory: small ones, of which
-// some are made where no exception may leave (a JSON value's destructor), succeed until the work comes to
-// check_held_memory(). The other half is free while the exception of one that failed all the same leaves. For programs,
-// before they start threads.
-void hold_memory_back();
-
-// Throws std::bad_alloc where some of that memory was given away and cannot be held back anew. guarded(),
-// started_thread() and parallel_for() call it before each piece of work.
-void check_held_memory();
+// Some code allocates where no exception may leave (a JSON value's destructor). Where it finds no memory the program
+// ends at once; after this call it does so with the error line of other shortages and exit status 69 in place of an
+// abort. What it was writing stays in its staging folders, which the next run removes. For programs.
+void end_plainly_without_memory();
 
 // Whether so many bytes of addresses can still be mapped. Some libraries end the program where they do not get the
 // memory that they begin with; this is asked before they are loaded.
@@ -89,7 +84,6 @@ void check_held_memory();
 template <class Body>
 Result<std::thread> started_thread(Body body) {
   try {
-    check_held_memory();
     return std::thread(std::move(body));
   } catch (...) {
     return fail(thread_not_started());
@@ -110,7 +104,6 @@ Result<std::thread> started_thread(Body body, OnError on_error) {
 template <class Job>
 std::invoke_result_t<Job&> guarded(Job&& job, const std::string& where) {
   try {
-    check_held_memory();
     return job();
   } catch (...) {
     return fail(thrown_error(where));
@@ -124,10 +117,7 @@ void parallel_for(int count, int threads, const Work& work) {
   std::exception_ptr thrown;
   const auto run = [&] {
     try {
-      for (int i = next++; i < count; i = next++) {
-        check_held_memory();
-        work(i);
-      }
+      for (int i = next++; i < count; i = next++) work(i);
     } catch (...) {
       next = count;
       const std::lock_guard lock(mutex);
